@@ -1,0 +1,50 @@
+# Everything a person does often. `make help` lists it.
+
+PYTHON ?= python3
+VENV ?= .venv
+OUT ?= reports/latest
+BIN := $(VENV)/bin
+
+.DEFAULT_GOAL := help
+.PHONY: help verify deep test lint format clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
+	$(BIN)/hypcheck verify --out $(OUT)
+
+deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
+	$(BIN)/hypcheck verify --out reports/reference --count 33000 --judged 2000 --roots 20000 --meshes 20000
+
+test: lint ## lint, format, strict types, import layers and every test
+	$(BIN)/python -m pytest -n auto --dist worksteal
+
+lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(VENV)/ready-dev ## rewrite the code in the house format
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean: ## remove the environment, caches and the latest reports
+	rm -rf $(VENV) build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache reports/latest
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The environment is made once and used again; a change of pyproject.toml installs anew.
+$(BIN)/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { \
+		echo "hypcheck needs Python 3.10 or later; $(PYTHON) is $$($(PYTHON) --version 2>&1). Name another: make PYTHON=python3.12" >&2; exit 2; }
+	@$(PYTHON) -m venv $(VENV) || { \
+		echo "$(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv" >&2; rm -rf $(VENV); exit 2; }
+
+$(VENV)/ready: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report]'
+	@touch $@
+
+$(VENV)/ready-dev: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,dev]'
+	@touch $(VENV)/ready $@

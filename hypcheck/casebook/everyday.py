@@ -1,0 +1,172 @@
+"""Random pairs of every size: uniform, far, giant, tiny, mirrored, and rows exact in the short float formats."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hypcheck.casebook.draw import Draw, Floats, Maker, ldexp, to_bits, turns
+from hypcheck.casebook.family import Family
+from hypcheck.casebook.placing import Sizes, around, beside, offsets, sizes, stack
+from hypcheck.rows import Rows
+
+
+def all_regimes(draw: Draw, n: int) -> tuple[Floats, Floats]:
+    """a and c, the four regimes in turn: a in [2⁻⁴, 1) or [1, 2⁶), c²/a in [2⁻⁶, 1) or [1, 2⁸)."""
+    a = np.where(turns(n, True, True, False, False), draw.log_uniform(n, 0, 6), draw.log_uniform(n, -4, 0))
+    bend = np.where(turns(n, True, False), draw.log_uniform(n, 0, 8), draw.log_uniform(n, -6, 0))
+    return a, np.sqrt(a * bend)
+
+
+def uniform(draw: Draw, n: int) -> Rows:
+    """All regimes, centres all around the surface."""
+    return around(draw, sizes(draw, *all_regimes(draw, n)))
+
+
+def far_centers(draw: Draw, n: int) -> Rows:
+    """Centres 2⁴ to 2²⁷ radii up the surface, where it is all but a cone."""
+    a, c = all_regimes(draw, n)
+    size = sizes(draw, a, c, units=(-10, -8))
+    return beside(draw, size, draw.log_uniform(n, 4, 27) * np.minimum(1, c / a), offsets(draw, n))
+
+
+def giant_spheroids(draw: Draw, n: int) -> Rows:
+    """a and c in [2⁻¹⁶, 2⁻²): from the spheroid's size the hyperboloid is a double cone."""
+    return around(draw, sizes(draw, draw.log_uniform(n, -16, -2), draw.log_uniform(n, -16, -2)))
+
+
+def tiny_spheroids(draw: Draw, n: int) -> Rows:
+    """a and c in [2¹⁰, 2²⁰): insects about towers; the contact zone is a thousandth of the scene and less."""
+    return around(draw, sizes(draw, draw.log_uniform(n, 10, 20), draw.log_uniform(n, 10, 20), units=(-16, -6)))
+
+
+def exact_in(bits: int, least: float) -> Maker:
+    """Rows of `bits` significant bits, no coordinate but 0 smaller than `least`: the format's own numbers."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        a, c = all_regimes(draw, n)
+        size = sizes(draw, a, c, units=(-4, 2))
+        coarse = Sizes(*(to_bits(length, bits) for length in (size.alpha, size.gamma, size.b, size.d)))
+        rows = to_bits(around(draw, coarse), bits)
+        return np.where(np.abs(rows) < least, 0.0, rows)
+
+    return make
+
+
+def small_integers(draw: Draw, n: int) -> Rows:
+    """Whole numbers as a person types them: tangencies and other exact coincidences abound."""
+    columns = [draw.integers(n, 1, 12), draw.integers(n, 1, 12), draw.integers(n, 1, 4), draw.integers(n, 1, 4)]
+    alpha, gamma, b, d = (column.astype(np.float64) for column in columns)
+    x, y, z = (draw.integers(n, 0, high) * draw.signs(n) for high in (14, 14, 10))
+    y = np.where(draw.words(n) >> np.uint64(63) == 0, 0.0, y)
+    return stack(Sizes(alpha, gamma, b, d), x, y, z)
+
+
+def symmetric_images(draw: Draw, n: int) -> Rows:
+    """Sixteen images of a pair in consecutive rows: x, y swapped, signs turned (−0.0 included), other units."""
+    pairs = -(-n // 16)
+    a, c = all_regimes(draw, pairs)
+    side = np.where(draw.signs(pairs) > 0, 1.0, -1.0) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -40, -2))
+    size = sizes(draw, a, c)
+    rows = np.repeat(beside(draw, size, draw.unit(pairs) * 2 * np.maximum(c, 1), side), 16, axis=0)[:n]
+    image = np.arange(n) % 16
+    for column, bit in ((4, 1), (5, 2), (6, 4)):
+        rows[:, column] = np.where(image & bit != 0, -rows[:, column], rows[:, column])
+    swapped = image & 8 != 0
+    rows[:, 4:6] = np.where(swapped[:, None], rows[:, 5:3:-1], rows[:, 4:6])
+    radial, axial = ((0, 2, 4, 5), 3), ((1, 3, 6), -2)
+    for columns, step in (radial, axial):
+        for column in columns:
+            rows[:, column] = ldexp(rows[:, column], np.where(swapped, step, 0))
+    return rows
+
+
+FAMILIES = (
+    Family(
+        name="uniform",
+        version=1,
+        title="sizes of every ratio, centres all around the surface",
+        source="own; the four regimes of α/b against 1 and (γ/d)² against α/b in turn",
+        purpose="nothing special: whoever fails here has a plain error, or assumes a regime without saying so",
+        game="objects of ordinary sizes pass through each other",
+        drone="obstacles of ordinary sizes are missed or imagined",
+        regimes="all four",
+        make=uniform,
+    ),
+    Family(
+        name="far-centers",
+        version=1,
+        title="centres far up the surface",
+        source="own; 2⁴ to 2²⁷ radii from the origin, within 2.5 radii of the surface",
+        purpose="P and Q are huge and nearly cancel in c1 and c2; a far origin is how large worlds are built",
+        game="collisions get rough far from the world's origin",
+        drone="in coordinates of a distant base the wall moves by metres",
+        regimes="all four",
+        make=far_centers,
+    ),
+    Family(
+        name="giant-spheroids",
+        version=1,
+        title="spheroids much larger than the waist",
+        source="own; a and c in [2⁻¹⁶, 2⁻²)",
+        purpose="A and B vanish beside 1, P and Q, and with them what tells the sheet from a cone",
+        game="a large creature passes through a thin post",
+        drone="a guy wire's marker is lost beside the drone's own size",
+        regimes="a < 1, c² on both sides of a",
+        make=giant_spheroids,
+    ),
+    Family(
+        name="tiny-spheroids",
+        version=1,
+        title="spheroids much smaller than the hyperboloid",
+        source="own; a and c in [2¹⁰, 2²⁰)",
+        purpose="Δ has degree 12 in the lengths: float32 overflows, and what is left of it cancels",
+        game="bullets and insects pass walls, or stop in mid-air",
+        drone="a small drone in a large tower: the sizes that float32 autopilots meet",
+        regimes="a > 1, c² on both sides of a",
+        make=tiny_spheroids,
+    ),
+    Family(
+        name="float32-exact",
+        version=1,
+        title="rows that float32 holds exactly",
+        source="own; every number has at most 24 significant bits",
+        purpose="reading the row costs a float32 program nothing here, so every error is its own",
+        game="a shader or an engine's float32 core gives another answer than its editor",
+        drone="a float32 autopilot gives another answer than the planner on the ground",
+        regimes="all four",
+        make=exact_in(24, 2.0**-126),
+    ),
+    Family(
+        name="float16-exact",
+        version=1,
+        title="rows that float16 holds exactly",
+        source="own; every number has at most 11 significant bits and lies among float16's normal numbers, or is 0",
+        purpose="reading the row costs a float16 program nothing here; short numbers also make clean examples",
+        game="half-precision culling drops what is in sight",
+        drone="an accelerator's half-precision filter drops an obstacle",
+        regimes="all four",
+        make=exact_in(11, 2.0**-14),
+    ),
+    Family(
+        name="small-integers",
+        version=1,
+        title="small whole numbers",
+        source="own; sizes to 12 and 4, coordinates to 14",
+        purpose="tangencies, double roots and vanishing coefficients occur by themselves, as in hand-written tests",
+        game="on a grid of tiles an exact touch is common, and blocks or frees a whole corridor",
+        drone="waypoints on a metre grid touch the keep-out volume exactly",
+        regimes="all four",
+        make=small_integers,
+    ),
+    Family(
+        name="symmetric-images",
+        version=1,
+        title="sixteen images of one pair, near contact",
+        source="own; x and y swapped, signs turned, −0.0 for 0, radial and axial lengths in other units",
+        purpose="all sixteen are one question and must get one answer; rounding may differ from image to image",
+        game="a wall is solid from the east and open from the west",
+        drone="the same approach is safe on one heading and refused on another",
+        regimes="all four",
+        make=symmetric_images,
+    ),
+)

@@ -1,0 +1,87 @@
+"""The table of all families, and the names by which a family or one of its cases is asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+
+from hypcheck.casebook import borders, everyday, extremes, ladder, ring, scenes, stiff, tangency
+from hypcheck.casebook.family import BLOCK, Family
+from hypcheck.errors import InputError
+from hypcheck.pairs import Pair
+
+FAMILIES: dict[str, Family] = {
+    family.name: family
+    for module in (scenes, everyday, tangency, ladder, ring, borders, stiff, extremes)
+    for family in module.FAMILIES
+}
+EXTREME = "extreme"
+"""The pattern that asks for every extreme family."""
+
+_CASE_ID = re.compile(r"([a-z0-9-]+)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class CaseId:
+    """A generated case: row `index` of the family's rows for the seed."""
+
+    family: Family
+    seed: int
+    index: int
+
+
+def select(patterns: Sequence[str] = ()) -> tuple[Family, ...]:
+    """The families of these names and globs in the order of the table; without patterns all but the extreme ones.
+
+    A glob reaches an extreme family only where it begins with "extreme"; "extreme" alone is all of them. Raises
+    InputError for a pattern that names nothing, with the names nearest to it.
+    """
+    chosen: set[str] = set()
+    for pattern in patterns or ("*",):
+        named = {name for name, family in FAMILIES.items() if _asks_for(pattern, family)}
+        if not named:
+            raise InputError(f"there is no family {pattern!r}; {_hint(pattern)}")
+        chosen |= named
+    return tuple(family for name, family in FAMILIES.items() if name in chosen)
+
+
+def case_id(family: Family, seed: int, index: int) -> str:
+    """The name of a generated case, the same for ever: family/generator-version/seed/index."""
+    return f"{family.name}/{family.version}/{seed}/{index}"
+
+
+def parse_case_id(text: str) -> CaseId:
+    """What a case id names. Raises InputError where it names nothing, or rows of another generator version."""
+    match = _CASE_ID.fullmatch(text)
+    if match is None:
+        raise InputError(f"{text!r} is no case id; it must be family/version/seed/index, as in tower-body/1/0/17")
+    name, version, seed, index = match.group(1), *map(int, match.groups()[1:])
+    family = FAMILIES.get(name)
+    if family is None:
+        raise InputError(f"case {text!r}: there is no family {name!r}; {_hint(name)}")
+    if version != family.version:
+        raise InputError(f"case {text!r}: this version makes {name} by generator {family.version}, not {version}")
+    return CaseId(family, seed, index)
+
+
+def row_of(text: str) -> Pair:
+    """The pair that a case id names. Raises InputError as parse_case_id does."""
+    case = parse_case_id(text)
+    number, place = divmod(case.index, BLOCK)
+    return Pair.from_row(case.family.block(case.seed, number)[place].tolist())
+
+
+def _asks_for(pattern: str, family: Family) -> bool:
+    if pattern == EXTREME:
+        return family.extreme
+    if family.extreme and pattern != family.name and not pattern.startswith(EXTREME):
+        return False
+    return fnmatchcase(family.name, pattern)
+
+
+def _hint(name: str) -> str:
+    near = get_close_matches(name, [*FAMILIES, EXTREME], n=3, cutoff=0.5)
+    return f"near to it: {', '.join(near)}" if near else f"there are: {', '.join(FAMILIES)}"

@@ -1,0 +1,138 @@
+"""`hypcheck classify`: options into one pair or one table, and the answer about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import click
+
+from hypcheck.errors import InputError
+from hypcheck.pairs import CENTER, SIZES, Pair
+from hypcheck.tables.numbers import number_of_text
+from hypcheck.tables.route import FORMATS, Route, route
+
+
+@dataclass(frozen=True, slots=True)
+class OnePair:
+    """The question about a single pair."""
+
+    pair: Pair
+    as_json: bool
+
+
+@dataclass(frozen=True, slots=True)
+class OneTable:
+    """The question about every row of a table."""
+
+    route: Route
+    mark: bool
+
+
+_HELP = """Say where a spheroid stands to a hyperboloid: exterior, contact (tangency included) or interior.
+
+Exact for every valid pair: decimals are rounded to the nearest float64 and taken as exact from there on. Lengths are in
+one unit of your choice. Clearance is in spheroid radii: 1 + clearance is the factor by which the spheroid, scaled about
+its centre, would just touch the hyperboloid.
+
+\b
+One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0
+A table:   hypcheck classify --input pairs.csv --output answers.csv
+
+A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order; all others are passed through, and position
+(+1, 0, -1), label, tangent and clearance are added. A .npy file is float64 (n, 7), and int8 (n,) as output. A file
+appears when it is complete, or not at all; standard output is written as the rows come.
+"""
+
+
+@click.command(help=_HELP, short_help="Say where a spheroid stands to a hyperboloid, and prove it.")
+@click.option("--alpha", metavar="NUMBER", help="Radius of the hyperboloid's waist.")
+@click.option("--gamma", metavar="NUMBER", help="Its semi-axis along z.")
+@click.option("--b", metavar="NUMBER", help="Radius of the spheroid's equator.")
+@click.option("--d", metavar="NUMBER", help="Its semi-axis along z.")
+@click.option("--center", nargs=3, metavar="X Y Z", help="Centre of the spheroid; the hyperboloid's is the origin.")
+@click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
+@click.option(
+    "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
+)
+@click.option("--output", "target", metavar="FILE", help="Where its answers go: .csv, .jsonl, .npy, or - .")
+@click.option("--format", "said", type=click.Choice(FORMATS), help="The format of - and of names that do not tell.")
+@click.option(
+    "--on-invalid",
+    type=click.Choice(("fail", "flag")),
+    help="A row that is no valid pair: fail (the default), or flag it as refused (127) and go on.",
+)
+def classify(
+    alpha: str | None,
+    gamma: str | None,
+    b: str | None,
+    d: str | None,
+    center: tuple[str, str, str] | None,
+    as_json: bool,
+    source: str | None,
+    target: str | None,
+    said: str | None,
+    on_invalid: str | None,
+) -> None:
+    """Ask about one pair or one table, whichever the options are for."""
+    sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
+    alone = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
+    table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
+    if source is None:
+        _refuse(table, "is for tables; name one with --input")
+        answer_pair(OnePair(pair_of(sizes, center), as_json))
+    else:
+        _refuse(alone | {"--center": center is not None}, "is for one pair, and --input for a table; use one of them")
+        answer_table(OneTable(_route(source, target, said), on_invalid == "flag"))
+
+
+def answer_pair(question: OnePair) -> None:
+    """Print the answer about one pair."""
+    from hypcheck.classification.answer import answer
+
+    found = answer(question.pair)
+    if question.as_json:
+        from hypcheck.classification.as_json import answer_as_json
+
+        click.echo(answer_as_json(found))
+    else:
+        from hypcheck.classification.text import answer_as_text
+
+        click.echo(answer_as_text(found))
+
+
+def answer_table(question: OneTable) -> None:
+    """Write the answers about a table."""
+    from hypcheck.classification.table import classify_table
+
+    classify_table(question.route, mark=question.mark)
+
+
+def pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -> Pair:
+    """The pair of the given texts. Raises InputError naming what is missing or no valid number."""
+    missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
+    if len(missing) == len(sizes) + 1:
+        raise InputError("nothing to classify; give --alpha --gamma --b --d --center X Y Z, or --input and --output")
+    if missing:
+        verb = "is" if len(missing) == 1 else "are"
+        raise InputError(f"{', '.join(missing)} {verb} missing; a pair needs --alpha --gamma --b --d --center X Y Z")
+    numbers = [_number("--", name, text or "") for name, text in sizes.items()]
+    return Pair.from_row(numbers + [_number("--center: ", *named) for named in zip(CENTER, center or (), strict=True)])
+
+
+def _number(begin: str, name: str, text: str) -> float:
+    try:
+        return number_of_text(name, text)
+    except ValueError as trouble:
+        raise InputError(f"{begin}{trouble}") from None
+
+
+def _route(source: str, target: str | None, said: str | None) -> Route:
+    if target is None:
+        raise InputError("--output is missing; name a file for the answers, or - for standard output")
+    return route(source, target, said)
+
+
+def _refuse(options: dict[str, bool], reason: str) -> None:
+    given = [option for option, is_given in options.items() if is_given]
+    if given:
+        raise InputError(f"{given[0]} {reason}")

@@ -1,0 +1,58 @@
+"""The commands by name. A command's module is imported when the command is asked for, and its work when it runs."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from importlib import import_module
+
+import click
+
+from hypcheck.cli.exits import Exit
+from hypcheck.version import VERSION
+
+COMMANDS = {
+    "classify": "hypcheck.cli.classify:classify",
+    "verify": "hypcheck.cli.verify:verify",
+}
+"""Name → module:attribute of the click command."""
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are those of COMMANDS."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """The names, in the order in which they are of use to a newcomer."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        """The command of that name, or None."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, _, attribute = COMMANDS[cmd_name].partition(":")
+        command = getattr(import_module(module), attribute)
+        if not isinstance(command, click.Command):
+            raise TypeError(f"{COMMANDS[cmd_name]} is no click command")
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does, with a better word about a command that is not there."""
+        name = args[0]
+        if name in COMMANDS or name.startswith("-"):
+            return super().resolve_command(ctx, args)
+        near = get_close_matches(name, COMMANDS, n=1)
+        advice = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
+        raise click.UsageError(f"there is no command {name!r}; {advice}", ctx)
+
+
+@click.group(
+    cls=LazyGroup,
+    epilog="Exit codes: " + "; ".join(f"{code:d} {code.meaning}" for code in Exit) + ".",
+    no_args_is_help=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+@click.version_option(VERSION, message="%(prog)s %(version)s")
+@click.option("--debug", is_flag=True, expose_value=False, help="Show the traceback of an error (before the command).")
+def hypcheck() -> None:
+    """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, and a judge of others."""

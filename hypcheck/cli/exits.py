@@ -1,0 +1,147 @@
+"""How the program ends: the exit codes, which of several counts, and one table from errors to code and message.
+
+A closed pipe ends quietly with 141, as a program that the system stops for it would: a reader that left early must not
+turn a failure into a pass, nor a run into an error of ours.
+"""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from enum import IntEnum
+
+import click
+
+from hypcheck.errors import HypcheckError
+
+
+class Exit(IntEnum):
+    """A process's status; others' scripts depend on the numbers."""
+
+    HELD = 0
+    WRONG = 1
+    USAGE = 2
+    SLOWER = 3
+    INCONCLUSIVE = 4
+    NOT_STARTED = 5
+    ORACLES_DISAGREE = 6
+    INTERNAL = 70
+    INTERRUPTED = 130
+    CLOSED_PIPE = 141
+    TERMINATED = 143
+
+    @property
+    def meaning(self) -> str:
+        """What the status says, in a few words."""
+        return _MEANINGS[self]
+
+
+_MEANINGS = {
+    Exit.HELD: "all held",
+    Exit.WRONG: "a wrong, lost or changing answer, or known failures drifted",
+    Exit.USAGE: "wrong usage or bad input",
+    Exit.SLOWER: "slower than the baseline allows",
+    Exit.INCONCLUSIVE: "too noisy to tell",
+    Exit.NOT_STARTED: "an implementation could not be started or broke the protocol",
+    Exit.ORACLES_DISAGREE: "our oracles disagree",
+    Exit.INTERNAL: "an internal error of hypcheck",
+    Exit.INTERRUPTED: "interrupted",
+    Exit.CLOSED_PIPE: "the reader of our output left",
+    Exit.TERMINATED: "terminated",
+}
+
+PRECEDENCE = (
+    Exit.INTERRUPTED,
+    Exit.TERMINATED,
+    Exit.CLOSED_PIPE,
+    Exit.INTERNAL,
+    Exit.USAGE,
+    Exit.ORACLES_DISAGREE,
+    Exit.NOT_STARTED,
+    Exit.WRONG,
+    Exit.SLOWER,
+    Exit.INCONCLUSIVE,
+    Exit.HELD,
+)
+"""Of several reasons to end with, the first of these is told."""
+
+
+def first_that_applies(reasons: Iterable[int]) -> Exit:
+    """The one exit code of a run that may have several: HELD where there is no reason for another."""
+    return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
+
+
+class Terminated(BaseException):
+    """The system asked the process to end (SIGTERM)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """A status and the lines for standard error, none where it ends quietly."""
+
+    code: int
+    lines: tuple[str, ...] = ()
+
+
+def ending_of(error: BaseException) -> Ending:
+    """How the program ends that `error` reached: by the first row of the table that fits."""
+    for kind, ending in _ENDINGS:
+        if isinstance(error, kind):
+            return ending(error)
+    return _internal(error)
+
+
+def _expected(error: BaseException) -> Ending:
+    code = error.exit_code if isinstance(error, HypcheckError) else Exit.INTERNAL
+    return Ending(code, (f"hypcheck: error: {_one_line(str(error))}",))
+
+
+def _usage(error: BaseException) -> Ending:
+    message = error.format_message() if isinstance(error, click.ClickException) else str(error)
+    message = _one_line(message).rstrip(".")
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    command = context.command_path if context else "hypcheck"
+    return Ending(
+        Exit.USAGE,
+        (
+            f"hypcheck: error: {message[:1].lower()}{message[1:]}",
+            f"hypcheck: '{command} --help' tells what is possible",
+        ),
+    )
+
+
+def _system(error: BaseException) -> Ending:
+    if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
+        return Ending(
+            Exit.USAGE, (f"hypcheck: error: cannot write: {_one_line(error.strerror or str(error)).lower()}",)
+        )
+    return _internal(error)
+
+
+_FULL_OR_BROKEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
+
+
+def _internal(error: BaseException) -> Ending:
+    what = _one_line(f"{type(error).__name__}: {error}".rstrip(": "))
+    ask = "this is a fault of hypcheck; please report it, with what `hypcheck --debug` and the same arguments print"
+    return Ending(Exit.INTERNAL, (f"hypcheck: internal error: {what}", f"hypcheck: {ask}"))
+
+
+def _one_line(text: str) -> str:
+    """`text` on one line, without characters that a terminal would obey or an encoding refuse."""
+    characters = (
+        character if character.isprintable() else ascii(character)[1:-1] for character in " ".join(text.split())
+    )
+    return "".join(characters)
+
+
+_ENDINGS: tuple[tuple[type[BaseException], Callable[[BaseException], Ending]], ...] = (
+    (HypcheckError, _expected),
+    (click.ClickException, _usage),
+    (KeyboardInterrupt, lambda _: Ending(Exit.INTERRUPTED, ("hypcheck: interrupted",))),
+    (click.Abort, lambda _: Ending(Exit.INTERRUPTED, ("hypcheck: interrupted",))),
+    (Terminated, lambda _: Ending(Exit.TERMINATED, ("hypcheck: terminated",))),
+    (BrokenPipeError, lambda _: Ending(Exit.CLOSED_PIPE)),
+    (OSError, _system),
+)

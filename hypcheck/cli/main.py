@@ -1,0 +1,85 @@
+"""Where the process begins and ends: whatever happens, the user gets a status and a sentence, never a traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from io import TextIOWrapper
+from typing import NoReturn
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line (the process's own, unless `arguments` are given) and return the exit code."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        with _terminable():
+            code = _run(words)
+            if sys.stdout is not None:
+                sys.stdout.flush()
+            return code
+    except BaseException as error:  # noqa: BLE001 - this is the end of the line for every error
+        return _end(error, debug="--debug" in words)
+
+
+def _run(words: list[str]) -> int:
+    import click
+
+    from hypcheck.cli.commands import hypcheck
+
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # a terminal that cannot show α still gets an answer
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        # Not click's own main(): it decides for itself how errors, interrupts and closed pipes end.
+        with hypcheck.make_context("hypcheck", list(words)) as context:
+            hypcheck.invoke(context)
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    return 0
+
+
+def _end(error: BaseException, *, debug: bool) -> int:
+    from hypcheck.cli.exits import Exit, ending_of
+
+    ending = ending_of(error)
+    with suppress(OSError):
+        if debug and ending.code != Exit.CLOSED_PIPE:
+            import traceback
+
+            traceback.print_exception(error)
+        for line in ending.lines:
+            print(line, file=sys.stderr)  # noqa: T201 - the one place that speaks of errors
+    _silence_stdout()
+    return int(ending.code)
+
+
+def _silence_stdout() -> None:
+    """Keep what could not be written from being tried, and complained about, once more when the interpreter ends."""
+    with suppress(OSError, ValueError, AttributeError):
+        sys.stdout.flush()
+        return
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """While it lasts, SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed."""
+    try:
+        before = signal.signal(signal.SIGTERM, _terminate)
+    except ValueError:  # not in the main thread, where no handler can be set
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _terminate(_signal: int, _frame: object) -> NoReturn:
+    from hypcheck.cli.exits import Terminated
+
+    raise Terminated

@@ -1,0 +1,66 @@
+"""Machine arithmetic: every operation of a program rounded to one numpy format, over scalars or whole arrays.
+
+Each ufunc call is one IEEE operation, rounded to nearest, and all operands have the one format, constants included,
+so that no promotion rule of any numpy version has a say. binary16 is computed by numpy in binary32 and rounded again,
+which is the correctly rounded result for + − × ÷ √, since 24 ≥ 2·11 + 2. Infinities and NaN go through in silence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.evaluation import Arithmetic
+
+FORMATS = ("float16", "float32", "float64", "longdouble")
+
+_UFUNCS: dict[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "gt": np.greater,
+    "lt": np.less,
+    "ge": np.greater_equal,
+    "le": np.less_equal,
+    "eq": np.equal,
+    "ne": np.not_equal,
+    "and": np.logical_and,
+    "or": np.logical_or,
+    "not": np.logical_not,
+    "select": np.where,
+}
+
+
+@cache
+def float_arithmetic(format_name: str) -> Arithmetic:
+    """The arithmetic of one of FORMATS; longdouble is whatever numpy has by that name here (x87 on x86-64).
+
+    Inputs are floats, integers or arrays of them, rounded to the format on entry; arrays of that format are taken as
+    they are, without a copy. Shapes broadcast, so sizes can be scalars beside arrays of centres.
+    """
+    if format_name not in FORMATS:
+        raise ValueError(f"{format_name!r} is none of the formats {', '.join(FORMATS)}")
+    return Arithmetic(
+        name=format_name,
+        convert=partial(np.asarray, dtype=np.dtype(format_name)),
+        operations=_UFUNCS,
+        integers=_integers,
+        guard=partial(np.errstate, all="ignore"),
+    )
+
+
+def unit_roundoff(format_name: str) -> float:
+    """The largest relative error u of one rounding to nearest in the format: half the gap after 1."""
+    return float(np.finfo(np.dtype(format_name)).eps) / 2
+
+
+def _integers(values: Any) -> NDArray[np.int8]:
+    return np.asarray(values).astype(np.int8)

@@ -1,0 +1,127 @@
+"""What has to be true of each formula's numbers: which step must equal which derived expression."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import sympy
+
+from hypcheck.derivation import pencil
+from hypcheck.derivation.differences import COSINE, SINE
+from hypcheck.derivation.identities import C0, C1, C2, GENERIC_CUBIC, PHI, hessian_coefficients, local_maximum
+from hypcheck.derivation.pencil import IN_SEVEN, LAMBDA, A, B, P, Q
+from hypcheck.derivation.plain_text import symbol
+from hypcheck.derivation.rotor_listings import ROTORS
+from hypcheck.derivation.rotors import ARM, ROTOR_B, ROTOR_D, next_rotor, rotor_cubic
+
+INPUTS = {
+    **dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), pencil.SEVEN, strict=True)),
+    "b_s": ROTOR_B,
+    "d_s": ROTOR_D,
+    "l": ARM,
+    "cosine": COSINE,
+    "sine": SINE,
+    "lambda_": LAMBDA,
+}
+"""The letter each input of a program stands for."""
+
+
+@dataclass(frozen=True)
+class Obligation:
+    """The step must equal `expected`, as an expression in the inputs and in the steps named in `letters`.
+
+    A step named there counts as a letter of its own; its own obligation says what it is.
+    """
+
+    step: str
+    expected: sympy.Expr
+    letters: tuple[str, ...] = ()
+
+
+def obligations(formula_name: str) -> tuple[Obligation, ...]:
+    """All that the numbers of the formula by that name must be. Raises KeyError for a name that has none."""
+    return tuple(_OBLIGATIONS[formula_name]())
+
+
+def letter(name: str) -> sympy.Symbol:
+    """The symbol of an input or of a step that counts as a letter."""
+    return INPUTS.get(name) or symbol(name)
+
+
+_COEFFICIENTS = ("c0", "c1", "c2")
+
+
+def _coefficients() -> Iterable[Obligation]:
+    derived = pencil.cubic_in_seven()
+    yield from (Obligation(name, getattr(derived, name)) for name in _COEFFICIENTS)
+
+
+def _scaled_sizes() -> Iterable[Obligation]:
+    return (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("Q", Q)))
+
+
+def _discriminant() -> Iterable[Obligation]:
+    yield Obligation("delta", pencil.discriminant_of_cubic(), _COEFFICIENTS)
+
+
+def _hessian() -> Iterable[Obligation]:
+    for name, expected in zip(("h1", "h2", "h3"), hessian_coefficients(), strict=True):
+        yield Obligation(name, expected, _COEFFICIENTS)
+    yield Obligation("delta_3", 3 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
+
+
+def _slopes() -> Iterable[Obligation]:
+    slope = sympy.diff(GENERIC_CUBIC, LAMBDA)
+    letters = ("c1", "c2", "A", "B")
+    yield Obligation("slope_at_B", slope.subs(LAMBDA, B), letters)
+    yield Obligation("slope_at_minus_A", slope.subs(LAMBDA, -A), letters)
+
+
+def _shared() -> Iterable[Obligation]:
+    yield Obligation("E", (P - A - 1).subs(IN_SEVEN))
+
+
+def _local_maximum() -> Iterable[Obligation]:
+    h1 = hessian_coefficients()[0]
+    yield Obligation("h1", h1, ("c1", "c2"))
+    yield Obligation("from_c1", local_maximum(), ("c1", "c2"))
+    yield Obligation("from_c2", local_maximum(), ("c1", "c2"))
+    yield Obligation("g_m", GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
+
+
+def _dual() -> Iterable[Obligation]:
+    yield from (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
+    yield Obligation("phi", PHI, ("A", "B", "P", "Q", "lambda_"))
+
+
+def _four_rotors() -> Iterable[Obligation]:
+    derived = rotor_cubic()
+    yield Obligation("c0_s", derived.c0)
+    c1, c2 = derived.c1, derived.c2
+    for rotor in ROTORS:
+        yield Obligation(f"c1_g{rotor}", c1)
+        yield Obligation(f"c2_g{rotor}", c2)
+        letters = ("c0_s", f"c1_g{rotor}", f"c2_g{rotor}")
+        renamed = dict(zip((C0, C1, C2), (symbol(name) for name in letters), strict=True))
+        yield Obligation(f"delta_g{rotor}", pencil.discriminant_of_cubic().subs(renamed), letters)
+        c1, c2 = next_rotor(c1), next_rotor(c2)
+
+
+def _all(*parts: Callable[[], Iterable[Obligation]]) -> Callable[[], Iterable[Obligation]]:
+    return lambda: [obligation for part in parts for obligation in part()]
+
+
+_OBLIGATIONS = {
+    "table-2": _all(_coefficients, _discriminant),
+    "procedure-1": _all(_coefficients, _discriminant),
+    "procedure-2a": _all(_four_rotors),
+    "procedure-2b": _all(_coefficients, _discriminant, _four_rotors),
+    "procedure-2a-spheroid": _all(_coefficients, _discriminant),
+    "procedure-2b-spheroid": _all(_coefficients, _discriminant),
+    "coefficients": _all(_scaled_sizes, _coefficients, _discriminant, _slopes),
+    "hessian": _all(_scaled_sizes, _coefficients, _hessian, _slopes),
+    "shared": _all(_scaled_sizes, _shared, _coefficients, _hessian, _slopes),
+    "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
+    "dual": _all(_dual),
+}

@@ -1,0 +1,164 @@
+"""A formula as a straight-line program: a list of steps, each one rounded operation, in the order of evaluation.
+
+Evaluation, operation counts, rounding bounds, proofs and printed kernels all read this one object, so what is proved
+is what runs. A program has no loops and no branches: every step is evaluated, and a decision is a `select`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+NUMBER = "number"
+BOOLEAN = "boolean"
+
+Argument = str | int
+"""What a step works on: the name of an input or of an earlier step, or an integer constant."""
+
+LARGEST_CONSTANT = 2048
+"""Integers up to 2¹¹ are exact in binary16 and in every wider format (not in bfloat16 beyond 2⁸): none is rounded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """One operation: the kind of each argument, the kind of the result, and its sign in a listing."""
+
+    takes: tuple[str, ...]
+    gives: str
+    sign: str
+
+
+OPERATIONS = {
+    "add": Operation((NUMBER, NUMBER), NUMBER, "+"),
+    "sub": Operation((NUMBER, NUMBER), NUMBER, "-"),
+    "mul": Operation((NUMBER, NUMBER), NUMBER, "*"),
+    "div": Operation((NUMBER, NUMBER), NUMBER, "/"),
+    "neg": Operation((NUMBER,), NUMBER, "-"),
+    "abs": Operation((NUMBER,), NUMBER, "abs"),
+    "sqrt": Operation((NUMBER,), NUMBER, "sqrt"),
+    "gt": Operation((NUMBER, NUMBER), BOOLEAN, ">"),
+    "lt": Operation((NUMBER, NUMBER), BOOLEAN, "<"),
+    "ge": Operation((NUMBER, NUMBER), BOOLEAN, ">="),
+    "le": Operation((NUMBER, NUMBER), BOOLEAN, "<="),
+    "eq": Operation((NUMBER, NUMBER), BOOLEAN, "=="),
+    "ne": Operation((NUMBER, NUMBER), BOOLEAN, "!="),
+    "and": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "and"),
+    "or": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "or"),
+    "not": Operation((BOOLEAN,), BOOLEAN, "not"),
+    # select(condition, x, y) is x where the condition holds and y elsewhere; x and y are of one kind, and so is it.
+    "select": Operation((BOOLEAN, NUMBER, NUMBER), NUMBER, "?"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """`name` becomes the result of `operation` on `arguments`, rounded once."""
+
+    name: str
+    operation: str
+    arguments: tuple[Argument, ...]
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The names among the arguments."""
+        return tuple(argument for argument in self.arguments if isinstance(argument, str))
+
+
+@dataclass(frozen=True)
+class Program:
+    """Steps that turn named inputs into named values. All inputs are numbers.
+
+    Raises ValueError on construction where a name is not an identifier, is defined twice or is used before it is
+    defined, and where an operation is unknown or is given the wrong number or kind of arguments.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    steps: tuple[Step, ...]
+
+    def __post_init__(self) -> None:
+        kinds: dict[str, str] = {}
+        for name in self.inputs:
+            self._require_new(name, kinds)
+            kinds[name] = NUMBER
+        for step in self.steps:
+            self._require_new(step.name, kinds)
+            try:
+                kinds[step.name] = kind_of(step, kinds)
+            except ValueError as error:
+                raise ValueError(f"program {self.name}: step {step.name}: {error}") from None
+
+    def _require_new(self, name: str, kinds: dict[str, str]) -> None:
+        if not (name.isascii() and name.isidentifier()):
+            raise ValueError(f"program {self.name}: {name!r} is not a name")
+        if name in kinds:
+            raise ValueError(f"program {self.name}: {name} is defined twice")
+
+    def step(self, name: str) -> Step:
+        """The step of that name; raises KeyError where there is none."""
+        for step in self.steps:
+            if step.name == name:
+                return step
+        raise KeyError(name)
+
+
+def kind_of(step: Step, kinds: dict[str, str]) -> str:
+    """NUMBER or BOOLEAN: the kind of the step's result, given the kinds of the names before it.
+
+    Raises ValueError where the step is not well formed.
+    """
+    operation = OPERATIONS.get(step.operation)
+    if operation is None:
+        raise ValueError(f"there is no operation {step.operation!r}")
+    if len(step.arguments) != len(operation.takes):
+        raise ValueError(f"{step.operation} takes {len(operation.takes)} arguments, not {len(step.arguments)}")
+    given = tuple(_kind_of_argument(argument, kinds) for argument in step.arguments)
+    if step.operation == "select" and given == (BOOLEAN, BOOLEAN, BOOLEAN):
+        return BOOLEAN
+    if given != operation.takes:
+        raise ValueError(f"{step.operation} takes ({', '.join(operation.takes)}), not ({', '.join(given)})")
+    return operation.gives
+
+
+def _kind_of_argument(argument: Argument, kinds: dict[str, str]) -> str:
+    if isinstance(argument, str):
+        if argument not in kinds:
+            raise ValueError(f"{argument} is not defined before it is used")
+        return kinds[argument]
+    if isinstance(argument, bool) or not isinstance(argument, int) or abs(argument) > LARGEST_CONSTANT:
+        raise ValueError(f"{argument!r} is neither a name nor an integer up to {LARGEST_CONSTANT}")
+    return NUMBER
+
+
+def needed(program: Program, wanted: tuple[str, ...]) -> tuple[Step, ...]:
+    """The steps that the wanted names depend on, in order; raises KeyError where a wanted name does not exist."""
+    known = {*program.inputs, *(step.name for step in program.steps)}
+    for name in wanted:
+        if name not in known:
+            raise KeyError(f"program {program.name} has no {name}")
+    alive = set(wanted)
+    steps = []
+    for step in reversed(program.steps):
+        if step.name in alive:
+            alive.update(step.reads)
+            steps.append(step)
+    return tuple(reversed(steps))
+
+
+def cut(program: Program, known: Iterable[str], wanted: Iterable[str]) -> Program:
+    """The part of the program that leads from the `known` names to the `wanted` ones.
+
+    The known names, inputs or steps, become the first inputs, in the order given; original inputs that are still
+    needed follow. Raises KeyError where a name does not exist.
+    """
+    given = tuple(dict.fromkeys(known))
+    for name in given:
+        if name not in program.inputs:
+            program.step(name)
+    others = tuple(name for name in program.inputs if name not in given)
+    remaining = Program(
+        program.name, (*given, *others), tuple(step for step in program.steps if step.name not in given)
+    )
+    steps = needed(remaining, tuple(dict.fromkeys(wanted)))
+    read = {name for step in steps for name in step.reads}
+    return Program(program.name, (*given, *(name for name in others if name in read)), steps)

@@ -1,0 +1,103 @@
+"""The public functions: validated input, exact positions, and nothing written anywhere unless all of it is right."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.kernel import numpy_path
+from hypcheck.pairs import CENTER, REFUSED, SIZES, trouble_with
+from hypcheck.rows import Positions, as_rows, invalid, require_valid
+
+
+def classify(
+    rows: ArrayLike, *, out: Positions | None = None, on_invalid: Literal["raise", "flag"] = "raise"
+) -> Positions:
+    """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
+
+    `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
+    converts to it. `out`, int8 (n,), is filled and returned in place of a new array; it may overlap `rows`.
+
+    A row is valid when its sizes are finite and > 0 and its centre finite. The first that is not raises InputError
+    (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are marked 127.
+    """
+    if on_invalid not in ("raise", "flag"):
+        raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
+    queries = as_rows(rows)
+    _require_fitting(out, len(queries))
+    if on_invalid == "raise":
+        require_valid(queries)
+        return _into(out, numpy_path.positions(queries))
+    refused = invalid(queries)
+    result = np.full(len(queries), REFUSED, dtype=np.int8)
+    result[~refused] = numpy_path.positions(queries[~refused])
+    return _into(out, result)
+
+
+def classify_scene(
+    sizes: tuple[float, float, float, float], x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None = None
+) -> Positions:
+    """The exact position of one spheroid at many centres; int8 (n,), numbers as in classify.
+
+    `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre.
+    The first centre that is not finite raises InputError (its index counted from 0) and `out` is left alone.
+    """
+    four = _sizes(sizes)
+    try:
+        u, v, w = (np.atleast_1d(column) for column in np.broadcast_arrays(*map(_numbers, CENTER, (x, y, z))))
+    except ValueError as error:
+        raise InputError(f"x, y, z do not go together: {error}") from None
+    if u.ndim != 1:
+        raise InputError(f"x, y, z have shape {u.shape}; each must be (n,) or a single number")
+    _require_finite(u, v, w)
+    _require_fitting(out, len(u))
+    return _into(out, numpy_path.positions_of_scene(four, u, v, w))
+
+
+def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{name}: of type {array.dtype}; it must be real numbers that fit into float64")
+    return array.astype(np.float64, copy=False)
+
+
+def _sizes(sizes: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+    numbers = _numbers("the sizes", sizes)
+    if numbers.shape != (len(SIZES),):
+        raise InputError(f"the sizes: of shape {numbers.shape}; they must be four numbers: {', '.join(SIZES)}")
+    alpha, gamma, b, d = numbers.tolist()
+    for name, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(name, value)
+        if trouble is not None:
+            raise InputError(trouble)
+    return alpha, gamma, b, d
+
+
+def _require_finite(*columns: NDArray[np.float64]) -> None:
+    finite = np.isfinite(columns[0])
+    for column in columns[1:]:
+        finite &= np.isfinite(column)
+    if finite.all():
+        return
+    index = int(np.argmin(finite))
+    for name, column in zip(CENTER, columns, strict=True):
+        trouble = trouble_with(name, float(column[index]))
+        if trouble is not None:
+            raise InputError(f"row {index}: {trouble}")
+
+
+def _require_fitting(out: Positions | None, count: int) -> None:
+    if out is None:
+        return
+    if not isinstance(out, np.ndarray) or out.dtype != np.int8 or out.shape != (count,) or not out.flags.writeable:
+        raise InputError(f"out must be a writable int8 array of shape ({count},)")
+
+
+def _into(out: Positions | None, result: Positions) -> Positions:
+    if out is None:
+        return result
+    out[:] = result
+    return out

@@ -1,0 +1,79 @@
+"""The methods this project brings along: each formula in each precision, the fast path, roots, FCL on a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+
+import numpy as np
+
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS, Formula, answers
+from hypcheck.errors import InputError
+from hypcheck.kernel import numpy_path
+from hypcheck.methods.domain import EVERYWHERE, Domain
+from hypcheck.methods.dual import dual_positions
+from hypcheck.methods.fcl_naive import ellipsoid_mesh, point_mesh, sphere_mesh
+from hypcheck.methods.method import Answers, Method
+from hypcheck.pairs import COLUMNS
+from hypcheck.rows import Rows
+from hypcheck.truth.mesh import availability as fcl_trouble
+
+PRECISIONS = ("float32", "float64")
+
+FCL_ROWS = 12
+"""Rows of a family that are asked of plain FCL: a mesh is built for each, which takes milliseconds."""
+
+NAIVE_FCL = (
+    ("fcl-ellipsoid-mesh", "FCL's ellipsoid against a plain mesh of 2,000 triangles", ellipsoid_mesh),
+    ("fcl-sphere-mesh", "FCL's unit sphere against a scaled plain mesh of 2,000 triangles", sphere_mesh),
+    ("fcl-point-mesh", "FCL's distance from the centre to a scaled plain mesh of 2,000 triangles", point_mesh),
+)
+
+
+def _formula_answers(rows: Rows, formula: Formula, precision: str) -> Answers:
+    columns = dict(zip(COLUMNS, rows.T, strict=True))
+    return np.asarray(answers(formula, float_arithmetic(precision), columns), dtype=np.int8)
+
+
+def _of_formula(formula: Formula, precision: str) -> Method:
+    by_rows = partial(_formula_answers, formula=formula, precision=precision)
+    return Method(
+        name=f"{formula.name}-{precision}",
+        title=f"{formula.title}, {precision}",
+        question=formula.question,
+        precision=precision,
+        answer=partial(dual_positions, precision=precision) if formula.name == "dual" else by_rows,
+        domain=Domain(regimes=formula.regimes),
+    )
+
+
+def _of_fcl(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
+    return Method(name, title, "position", "float64", answer, Domain(), most=FCL_ROWS)
+
+
+@cache
+def builtin_methods() -> dict[str, Method]:
+    """Every built-in method by its name, as `builtin:NAME` has it."""
+    fast = Method(
+        name="fast",
+        title="the fast path: certified floats, integers where they cannot tell",
+        question="position",
+        precision="float64",
+        answer=numpy_path.positions,
+        domain=EVERYWHERE,
+        exact=True,
+    )
+    formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
+    methods = [fast, *(_of_formula(formula, precision) for precision in PRECISIONS for formula in formulas)]
+    if fcl_trouble() is None:
+        methods += [_of_fcl(*naive) for naive in NAIVE_FCL]
+    return {method.name: method for method in methods}
+
+
+def builtin(name: str) -> Method:
+    """The built-in method of that name; raises InputError naming those that exist."""
+    method = builtin_methods().get(name)
+    if method is None:
+        raise InputError(f"there is no built-in method {name!r}; there are {', '.join(builtin_methods())}")
+    return method

@@ -1,0 +1,116 @@
+"""One query: a circular hyperboloid of one sheet, a spheroid, and the three positions they can have.
+
+The hyperboloid is x²/α² + y²/α² − z²/γ² = 1 (equation (1) of the paper), centred at the origin; the spheroid has
+semi-axes b, b, d and centre (x, y, z) (equation (4)). All seven numbers are float64 and are taken as exact values.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import astuple, dataclass
+from enum import IntEnum
+
+from hypcheck.errors import InputError
+
+SIZES = ("alpha", "gamma", "b", "d")
+CENTER = ("x", "y", "z")
+COLUMNS = SIZES + CENTER
+RADIAL = ("alpha", "b", "x", "y")
+AXIAL = ("gamma", "d", "z")
+
+
+class Position(IntEnum):
+    """Where the spheroid stands to the hyperboloid; the sign speaks. Tangency is contact."""
+
+    EXTERIOR = 1
+    CONTACT = 0
+    INTERIOR = -1
+
+    @property
+    def label(self) -> str:
+        """The position's name in lower case, as files and reports print it."""
+        return self.name.lower()
+
+
+REFUSED = 127
+"""The mark of a row that is no valid query, where marking was asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A valid query: sizes finite and > 0, centre finite, no negative zero. Lengths are in the caller's one unit.
+
+    Raises InputError (naming the column and the value) on construction from anything else.
+    """
+
+    alpha: float
+    gamma: float
+    b: float
+    d: float
+    x: float
+    y: float
+    z: float
+
+    def __post_init__(self) -> None:
+        for name, value in zip(COLUMNS, astuple(self), strict=True):
+            trouble = trouble_with(name, value)
+            if trouble is not None:
+                raise InputError(trouble)
+            object.__setattr__(self, name, float(value) + 0.0)  # + 0.0 turns −0.0 into 0.0
+
+    @classmethod
+    def from_row(cls, row: Iterable[float]) -> Pair:
+        """The pair of a row alpha, gamma, b, d, x, y, z."""
+        return cls(*row)
+
+    @property
+    def row(self) -> tuple[float, float, float, float, float, float, float]:
+        """The seven numbers in the order of COLUMNS."""
+        return (self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
+
+    @property
+    def lengths(self) -> Lengths:
+        """The same pair in integers: see Lengths."""
+        radial = to_integers((self.alpha, self.b, self.x, self.y))
+        axial = to_integers((self.gamma, self.d, self.z))
+        return Lengths(*radial, *axial)
+
+
+@dataclass(frozen=True, slots=True)
+class Lengths:
+    """A pair in exact integers: α, b, x, y in one common unit, γ, d, z in another.
+
+    The position depends on the ratios within each group alone (Theorem 1 of the paper scales space by 1/b, 1/b, 1/d),
+    so each group has its own unit, and every float64 or rational pair can be written so without rounding.
+    """
+
+    alpha: int
+    b: int
+    x: int
+    y: int
+    gamma: int
+    d: int
+    z: int
+
+
+def trouble_with(name: str, value: object) -> str | None:
+    """Why `value` cannot stand in column `name`, as the end of a sentence, or None when it can."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return f"{name} is {value!r}; it must be a number"
+    try:
+        number = float(value)
+    except OverflowError:
+        return f"{name} is an integer too large for float64"
+    if not math.isfinite(number):
+        return f"{name} is {number!r}; it must be finite"
+    if name in SIZES and number <= 0:
+        return f"{name} is {number!r}; a semi-axis must be greater than 0"
+    return None
+
+
+def to_integers(values: Sequence[float]) -> tuple[int, ...]:
+    """The values multiplied by one power of two that makes each an integer: exact, since floats are dyadic."""
+    ratios = [value.as_integer_ratio() for value in values]
+    unit = max(denominator for _, denominator in ratios)
+    return tuple(numerator * (unit // denominator) for numerator, denominator in ratios)

@@ -1,0 +1,186 @@
+"""What the lines of a record come to: totals for each oracle and each implementation. Every report starts here."""
+
+from __future__ import annotations
+
+import statistics
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
+
+from hypcheck.judge import Status
+from hypcheck.record import Line, Record
+
+EXACT_ORACLE = "exact"
+"""The oracle the others are compared with; what can go wrong with it is a certificate that its check refuses."""
+
+REFUSED = "certificate refused"
+"""The stage of such an answer; the record counts it among the undecided and among the disagreeing, here it is one."""
+
+REFERENCE = "plain numpy formula"
+"""The contender whose time every other is divided by."""
+
+
+@dataclass(frozen=True, slots=True)
+class OracleTotal:
+    """What came of asking one oracle about all families.
+
+    asked = agreed + undecided + disagreements. `stages` counts its answers by the part of it that gave them, `seconds`
+    is the time it took over all processes. `unavailable` says why it could not be asked, where it could not.
+    """
+
+    name: str
+    asked: int
+    agreed: int
+    undecided: int
+    disagreements: int
+    stages: dict[str, int]
+    seconds: float
+    unavailable: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Implementation:
+    """One implementation under test and the record's group lines about it, a line for each family."""
+
+    name: str
+    spec: str
+    title: str
+    question: str
+    precision: str
+    exact: bool
+    groups: tuple[Line, ...]
+
+    @property
+    def asked(self) -> int:
+        """The cases it was asked; skipped ones are not among them."""
+        return sum(group["asked"] for group in self.groups)
+
+    @property
+    def statuses(self) -> dict[str, int]:
+        """How its cases ended, skipped ones included, in the order of judge.Status."""
+        return in_order(sum((Counter(group["counts"]) for group in self.groups), Counter()))
+
+    @property
+    def mistakes(self) -> dict[str, int]:
+        """What its wrong and tolerated answers mean to whoever relies on them."""
+        total: Counter[str] = sum((Counter(group["mistakes"]) for group in self.groups), Counter())
+        return dict(sorted(total.items()))
+
+    @property
+    def worst(self) -> Line | None:
+        """The recorded case with the greatest backward error; the first of equals."""
+        return worst_case([case for group in self.groups for case in group["worst"]])
+
+
+@dataclass(frozen=True, slots=True)
+class TimingTotal:
+    """Nanoseconds a row: the median of the rounds, the least and the greatest.
+
+    `ratio` is the median over the rounds of its time by the reference's in the same round; None without a reference.
+    """
+
+    name: str
+    title: str
+    workload: str
+    rows: int
+    median_ns: float
+    least_ns: float
+    greatest_ns: float
+    ratio: float | None
+
+
+def in_order(counts: Counter[str]) -> dict[str, int]:
+    """Counts by status in the order of judge.Status, those of later versions last."""
+    order = [status.value for status in Status]
+    names = sorted(counts, key=lambda name: (order.index(name) if name in order else len(order), name))
+    return {name: counts[name] for name in names if counts[name]}
+
+
+def oracle_totals(record: Record) -> list[OracleTotal]:
+    """A total for each oracle: those that were asked, then those that could not be."""
+    by_name: dict[str, list[Line]] = {}
+    for line in record.of("oracle"):
+        by_name.setdefault(line["oracle"], []).append(line)
+    names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line["asked"] for line in by_name[name])))
+    asked = [_oracle_total(name, by_name[name]) for name in names]
+    missing = [
+        OracleTotal(line["oracle"], 0, 0, 0, 0, {}, 0.0, str(line["reason"])) for line in record.of("unavailable")
+    ]
+    return asked + missing
+
+
+def _oracle_total(name: str, lines: list[Line]) -> OracleTotal:
+    stages: Counter[str] = sum((Counter(line["stages"]) for line in lines), Counter())
+    asked, disagreements = (sum(line[field] for line in lines) for field in ("asked", "disagreeing"))
+    undecided = sum(line["undecided"] for line in lines) - stages[REFUSED]
+    agreed = asked - undecided - disagreements
+    seconds = sum(line["seconds"] for line in lines)
+    return OracleTotal(name, asked, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
+
+
+def unlisted(finding: Line) -> bool:
+    """Whether a formula errs where it claims to be right and the known findings do not say why."""
+    return bool(finding["inside"]) and finding["reason"] is None
+
+
+def explanation(finding: Line) -> str:
+    """Why a formula errs, as far as it is known."""
+    if finding["reason"] is not None:
+        return str(finding["reason"])
+    cause = f"cause: {finding['cause']}"
+    return f"not a known finding; {cause}" if unlisted(finding) else f"it claims nothing here; {cause}"
+
+
+def implementations(record: Record) -> list[Implementation]:
+    """Every implementation in the order of the record, exact ones first."""
+    by_name: dict[str, list[Line]] = {}
+    for line in record.of("group"):
+        by_name.setdefault(line["method"], []).append(line)
+    found = [_implementation(name, lines) for name, lines in by_name.items()]
+    return sorted(found, key=lambda each: not each.exact)
+
+
+def _implementation(name: str, lines: list[Line]) -> Implementation:
+    first = lines[0]
+    return Implementation(
+        name=name,
+        spec=first.get("spec", f"builtin:{name}"),  # a line without a spec is about what the project brings along
+        title=first["title"],
+        question=first["question"],
+        precision=first["precision"],
+        exact=first["exact"],
+        groups=tuple(lines),
+    )
+
+
+def worst_case(cases: list[Line]) -> Line | None:
+    """The case with the greatest backward error; the first of equals, None of none."""
+    return max(cases, key=lambda case: float(case["backward_error_u"]), default=None)
+
+
+def worst_error_u(case: Line | None) -> float:
+    """The backward error of worst_case in units u; 0 where no answer was wrong."""
+    return 0.0 if case is None else float(case["backward_error_u"])
+
+
+def timing_totals(record: Record) -> list[TimingTotal]:
+    """Every contender in the order of the record."""
+    lines = record.of("timing")
+    references = {line["workload"]: line["samples_ns"] for line in lines if line["name"] == REFERENCE}
+    return [_timing_total(line, references.get(line["workload"])) for line in lines]
+
+
+def _timing_total(line: Line, reference: list[float] | None) -> TimingTotal:
+    samples: list[float] = line["samples_ns"]
+    pairs: Any = zip(samples, reference or (), strict=False)
+    ratios = [sample / other for sample, other in pairs if other > 0]
+    return TimingTotal(
+        name=line["name"],
+        title=line["title"],
+        workload=line["workload"],
+        rows=line["rows"],
+        median_ns=line["median_ns"],
+        least_ns=min(samples),
+        greatest_ns=max(samples),
+        ratio=statistics.median(ratios) if ratios else None,
+    )

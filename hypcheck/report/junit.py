@@ -1,0 +1,54 @@
+"""junit.xml: the run's test suites in the dialect that CI systems read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree as Xml
+
+from hypcheck.record import Record
+from hypcheck.report.suites import Case, Suite, suites
+from hypcheck.report.text import visible
+
+TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
+"""The elements that say why a case did not pass, and the attributes that count them."""
+
+
+def render(record: Record) -> bytes:
+    """The test suites as XML 1.0 in UTF-8."""
+    found = [suite for suite in suites(record) if suite.cases]
+    root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})
+    # Without its offset: the schema that most parsers go by allows none.
+    started = visible(record.header["started"])[:19]
+    for suite in found:
+        element = Xml.SubElement(root, "testsuite", {"name": visible(suite.name), **_attributes([suite])})
+        element.set("timestamp", started)
+        for case in suite.cases:
+            element.append(_element(suite, case))
+    Xml.indent(root)
+    return bytes(Xml.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
+def _attributes(found: Sequence[Suite]) -> dict[str, str]:
+    return {
+        "tests": str(sum(len(suite.cases) for suite in found)),
+        **{attribute: str(sum(suite.count(tag) for suite in found)) for tag, attribute in TAGS.items()},
+        "time": _seconds(sum(suite.milliseconds for suite in found)),
+    }
+
+
+def _element(suite: Suite, case: Case) -> Xml.Element:
+    element = Xml.Element("testcase", {"classname": visible(f"hypcheck.{suite.name}"), "name": visible(case.name)})
+    element.set("time", _seconds(case.milliseconds))
+    if case.trouble is not None:
+        message = visible(case.trouble.message)
+        trouble = Xml.SubElement(element, case.trouble.tag, {"message": message})
+        if case.trouble.tag != "skipped":
+            trouble.set("type", visible(case.trouble.kind))
+            trouble.text = "\n".join([message, *map(visible, case.trouble.details)])
+    if case.output:
+        Xml.SubElement(element, "system-out").text = "\n".join(map(visible, case.output))
+    return element
+
+
+def _seconds(milliseconds: int) -> str:
+    return f"{milliseconds // 1000}.{milliseconds % 1000:03d}"

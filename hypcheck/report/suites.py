@@ -1,0 +1,170 @@
+"""A run as test suites: a suite for each subject, a case for each thing that could have gone wrong in it.
+
+What fails the run is a failure; a run that stopped before its end is an error. What the paper's own formulas get wrong
+is expected, so it is a passed case whose output says what was found (docs/record.md, "junit.xml").
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from hypcheck.record import Line, Record
+from hypcheck.report.digest import Implementation, explanation, implementations, in_order, oracle_totals, worst_case
+from hypcheck.report.text import classify_command, counted, figure, from_hex
+from hypcheck.report.verdict import UNFINISHED, Failure, failures, verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """Why a case did not pass: `tag` is "failure", "error" or "skipped"; `kind` and `message` are one line each."""
+
+    tag: str
+    kind: str
+    message: str
+    details: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A test case; `output` are lines of its system-out. Times are whole milliseconds, so that sums add up."""
+
+    name: str
+    trouble: Trouble | None = None
+    output: tuple[str, ...] = ()
+    milliseconds: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Suite:
+    """A named group of cases."""
+
+    name: str
+    cases: tuple[Case, ...]
+
+    def count(self, tag: str) -> int:
+        """How many of its cases ended in that trouble."""
+        return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
+
+    @property
+    def milliseconds(self) -> int:
+        """The time of all cases."""
+        return sum(case.milliseconds for case in self.cases)
+
+
+def suites(record: Record) -> Iterator[Suite]:
+    """The suites of a record, some of them empty."""
+    failed = failures(record)
+    yield Suite("run", (_ended(record, failed),))
+    yield Suite("proofs", tuple(_named_apart(_proof(line) for line in record.of("proof"))))
+    yield Suite("equations", tuple(_named_apart(_equation(line) for line in record.of("equation"))))
+    for total in oracle_totals(record):
+        lines = [line for line in record.of("oracle") if line["oracle"] == total.name]
+        if total.unavailable is not None:
+            trouble = Trouble("skipped", "unavailable", f"not available: {total.unavailable}")
+            yield Suite(f"oracles.{total.name}", (Case("available", trouble),))
+        else:
+            yield Suite(f"oracles.{total.name}", tuple(_oracle(line, failed) for line in lines))
+    yield Suite("findings", tuple(_findings(record, failed)))
+    for implementation in implementations(record):
+        cases = (case for group in implementation.groups for case in _group(implementation, group, failed))
+        yield Suite(f"implementations.{implementation.name}", tuple(cases))
+
+
+def _ended(record: Record, failed: list[Failure]) -> Case:
+    """The end of the run: an error where it was not reached, or where the exit code is not that of the record's lines.
+
+    That some other case failed is not repeated here.
+    """
+    ended = verdict(record)
+    unfinished = record.footer is None or record.footer["exit_code"] in UNFINISHED
+    unexplained = not ended.passed and not failed
+    contradictory = bool(failed) and record.footer is not None and record.footer["exit_code"] == 0
+    if unfinished or unexplained or contradictory:
+        return Case("ended", Trouble("error", "unfinished" if unfinished else "unexplained", ended.sentence))
+    return Case("ended", output=(ended.sentence,))
+
+
+def _proof(line: Line) -> Case:
+    name = f"{line['formula']}: {line['quantity']}"
+    if line["holds"]:
+        return Case(name, output=(line["statement"],))
+    return Case(name, Trouble("failure", "unproved", f"not proved: {line['statement']}"))
+
+
+def _equation(line: Line) -> Case:
+    output = [f"{line['verdict']}: {line['finding']}", f"printed: {line['statement']}"]
+    if not line["holds"]:
+        output.append(f"derived: {line['correction']}")
+    return Case(f"({line['number']})", output=tuple(output))
+
+
+def _named_apart(cases: Iterable[Case]) -> Iterator[Case]:
+    """The cases under names of their own: parsers merge those that are called alike."""
+    seen: Counter[str] = Counter()
+    for case in cases:
+        seen[case.name] += 1
+        number = seen[case.name]
+        yield case if number == 1 else replace(case, name=f"{case.name} ({number})")
+
+
+def _oracle(line: Line, failed: list[Failure]) -> Case:
+    stages = ", ".join(f"{stage} {number:,}" for stage, number in line["stages"].items())
+    output = (f"{counted(line['asked'], 'case')}, {line['undecided']:,} undecided: {stages}",)
+    milliseconds = round(1000 * line["seconds"])
+    place = ("oracle", line["oracle"], line["family"])
+    mine = [each for each in failed if (each.subject, each.name, each.group) == place]
+    if mine:
+        message = f"{counted(line['disagreeing'], 'disagreement')} in {counted(line['asked'], 'case')}"
+        trouble = Trouble("failure", "disagreement", f"{message}; first: {mine[0].message}", tuple(_details(mine)))
+        return Case(line["family"], trouble, output, milliseconds)
+    if line["undecided"] == line["asked"]:
+        return Case(line["family"], Trouble("skipped", "undecided", "no case could be decided"), output, milliseconds)
+    return Case(line["family"], None, output, milliseconds)
+
+
+def _details(failed: Iterable[Failure]) -> Iterator[str]:
+    """Each failure with its case and how to look at it."""
+    for each in failed:
+        yield f"case {each.case}: {each.message}" if each.case else each.message
+        if each.replay:
+            yield f"replay: {each.replay}"
+
+
+def _findings(record: Record, failed: list[Failure]) -> Iterator[Case]:
+    """A case for each mathematical finding, and one for each way in which they are not the known ones."""
+    for line in record.of("finding"):
+        where = "inside" if line["inside"] else "outside"
+        yield Case(
+            f"{line['formula']} on {line['family']}, {where} its stated regimes, cause: {line['cause']}",
+            output=(
+                f"wrong in exact arithmetic: {line['wrong']:,} of {line['asked']:,}",
+                explanation(line),
+                f"first case: {line['first_case']}",
+                f"replay: {classify_command(from_hex(line['first_row']))}",
+            ),
+        )
+    for each in failed:
+        if each.subject == "findings":
+            yield Case(each.message, Trouble("failure", each.kind, each.message))
+
+
+def _group(implementation: Implementation, group: Line, failed: list[Failure]) -> Iterator[Case]:
+    """A case for each status that occurred in a family."""
+    for status, number in in_order(Counter(group["counts"])).items():
+        name, total = f"{group['family']}: {status}", sum(group["counts"].values())
+        output = [f"{number:,} of {counted(total, 'case')}"]
+        worst = worst_case([case for case in group["worst"] if case["status"] == status])
+        if worst is not None:
+            output.append(f"worst backward error: {figure(float(worst['backward_error_u']))} u, case {worst['case']}")
+            output.append(f"replay: {classify_command(from_hex(worst['row']))}")
+        place = ("implementation", implementation.name, group["family"], status)
+        mine = [each for each in failed if (each.subject, each.name, each.group, each.kind) == place]
+        if mine:
+            trouble = Trouble("failure", status, mine[0].message, tuple(_details(mine)))
+            yield Case(name, trouble, tuple(output))
+        elif status == "skipped":
+            yield Case(name, Trouble("skipped", status, f"{output[0]} are outside the method's domain or its format"))
+        else:
+            yield Case(name, None, tuple(output))

@@ -1,0 +1,138 @@
+"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.0.0.json beside this file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+from hypcheck.record import Line, Record, plain
+from hypcheck.report.digest import (
+    Implementation,
+    OracleTotal,
+    TimingTotal,
+    implementations,
+    oracle_totals,
+    timing_totals,
+    unlisted,
+    worst_case,
+    worst_error_u,
+)
+from hypcheck.report.verdict import Failure, failures, verdict
+
+SCHEMA = "1.0.0"
+
+Fields = dict[str, Any]
+
+
+def render(record: Record) -> bytes:
+    """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
+    text = json.dumps(plain(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
+    return (text + "\n").encode("utf-8", "replace")
+
+
+def summary(record: Record) -> Fields:
+    """The summary; its keys and their order are the same for every run."""
+    ended = verdict(record)
+    footer = record.footer or {}
+    return {
+        "hypcheck": record.header["hypcheck"],
+        "schema": SCHEMA,
+        "exit_code": footer.get("exit_code"),
+        "passed": ended.passed,
+        "truncated": record.footer is None,
+        "verdict": ended.sentence,
+        "started": record.header["started"],
+        "seconds": footer.get("seconds"),
+        "oracles": {total.name: _oracle(total) for total in oracle_totals(record)},
+        "equations": _equations(record.of("equation")),
+        "proofs": _proofs(record.of("proof")),
+        "findings": _findings(record),
+        "implementations": [_implementation(each) for each in implementations(record)],
+        "timings": [_timing(total) for total in timing_totals(record)],
+        "failures": [_failure(each) for each in failures(record)],
+    }
+
+
+def _oracle(total: OracleTotal) -> Fields:
+    fields = {
+        "asked": total.asked,
+        "agreed": total.agreed,
+        "undecided": total.undecided,
+        "disagreements": total.disagreements,
+        "seconds": round(total.seconds, 3),
+        "stages": total.stages,
+    }
+    return fields if total.unavailable is None else {**fields, "unavailable": total.unavailable}
+
+
+def _equations(lines: Iterable[Line]) -> Fields:
+    verdicts: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
+    for line in lines:
+        verdicts.setdefault(line["verdict"], []).append(line["number"])
+    return verdicts
+
+
+def _proofs(lines: list[Line]) -> Fields:
+    holding = sum(line["holds"] for line in lines)
+    return {"asked": len(lines), "hold": holding, "fail": len(lines) - holding}
+
+
+def _findings(record: Record) -> Fields:
+    """Errors of formulas in exact arithmetic, counted by formula, family, side of the regimes and cause; and drift."""
+    lines = record.of("finding")
+    return {
+        "inside_stated_regimes": sum(line["inside"] for line in lines),
+        "outside_stated_regimes": sum(not line["inside"] for line in lines),
+        "unlisted": sum(map(unlisted, lines)),
+        "drift": [line["sentence"] for line in record.of("drift")],
+    }
+
+
+def _implementation(each: Implementation) -> Fields:
+    return {
+        "name": each.name,
+        "spec": each.spec,
+        "precision": each.precision,
+        "question": each.question,
+        "exact": each.exact,
+        **_counts(each.asked, each.statuses, each.mistakes, each.worst),
+        "families": {group["family"]: _family(group) for group in each.groups},
+        "statuses": each.statuses,
+    }
+
+
+def _family(group: Line) -> Fields:
+    return _counts(group["asked"], group["counts"], group["mistakes"], worst_case(group["worst"]))
+
+
+def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: Line | None) -> Fields:
+    return {
+        "asked": asked,
+        **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
+        "mistakes": {name: mistakes.get(name, 0) for name in ("false-clear", "false-contact", "wrong-side")},
+        "worst_backward_error_u": worst_error_u(worst),
+        "worst_case": None if worst is None else worst["case"],
+    }
+
+
+def _timing(total: TimingTotal) -> Fields:
+    return {
+        "name": total.name,
+        "workload": total.workload,
+        "rows": total.rows,
+        "median_ns": total.median_ns,
+        "ratio": total.ratio,
+    }
+
+
+def _failure(failure: Failure) -> Fields:
+    return {
+        "subject": failure.subject,
+        "name": failure.name,
+        "group": failure.group,
+        "kind": failure.kind,
+        "message": failure.message,
+        "case": failure.case,
+        "count": failure.count,
+    }

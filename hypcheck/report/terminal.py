@@ -1,0 +1,110 @@
+"""The end of a run on the terminal: how it ended, what failed, what was found and where the reports are."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+
+import click
+
+from hypcheck.record import Record
+from hypcheck.report.digest import implementations, oracle_totals, timing_totals, worst_error_u
+from hypcheck.report.text import counted, figure, listed, shortened, visible
+from hypcheck.report.verdict import failures, verdict
+from hypcheck.report.write import Written
+
+MOST_LINES = 25
+
+MOST_FAILURES = 8
+"""Failures shown one by one; report.md has more of them and junit.xml all."""
+
+WIDTH = 160
+"""Characters a line; longer ones are cut, the verdict apart."""
+
+
+def summary_lines(record: Record, written: Sequence[Written], *, colour: bool = False) -> list[str]:
+    """At most MOST_LINES lines of plain text; with `colour`, the first in green or red."""
+    ended = verdict(record)
+    head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
+    found = [*_failures(record), *_oracles(record), *_paper(record), *_methods(record), *_timings(record)]
+    reports = list(_reports(written))
+    lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
+    return [head if colour else click.unstyle(head), *map(_line, lines)]
+
+
+def _line(text: str) -> str:
+    indent = text[: len(text) - len(text.lstrip(" "))]
+    return indent + shortened(visible(text), WIDTH)
+
+
+def _failures(record: Record) -> Iterator[str]:
+    found = failures(record)
+    for each in found[:MOST_FAILURES]:
+        yield f"  ✗ {each.case}: {each.message}" if each.case else f"  ✗ {each.message}"
+    if len(found) > MOST_FAILURES:
+        yield f"  ✗ … and {counted(len(found) - MOST_FAILURES, 'more failure')}"
+
+
+def _oracles(record: Record) -> Iterator[str]:
+    """One line for the oracles that were asked, one for those that could not be."""
+    totals = oracle_totals(record)
+    asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
+    if asked:
+        yield f"oracles in agreement: {', '.join(asked)}"
+    missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
+    if missing:
+        yield f"oracles not available: {'; '.join(missing)}"
+
+
+def _paper(record: Record) -> Iterator[str]:
+    """The paper's equations, the proofs and the mathematical findings."""
+    equations = record.of("equation")
+    if equations:
+        numbers: dict[str, list[str]] = {}
+        for line in equations:
+            numbers.setdefault(line["verdict"], []).append(f"({line['number']})")
+        holding = len(numbers.pop("holds", []))
+        wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
+        yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
+    proofs = record.of("proof")
+    if proofs:
+        yield f"proofs: {sum(line['holds'] for line in proofs)} of {len(proofs)} hold"
+    findings = record.of("finding")
+    if findings:
+        inside = [line["family"] for line in findings if line["inside"]]
+        named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
+        outside = len(findings) - len(inside)
+        yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
+
+
+def _methods(record: Record) -> Iterator[str]:
+    """For each precision how many formulas err beyond the tolerance, and the one that does most."""
+    found = [each for each in implementations(record) if each.asked]
+    for precision in dict.fromkeys(each.precision for each in found if not each.exact):
+        methods = [each for each in found if each.precision == precision and not each.exact]
+        wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
+        worst = max(methods, key=lambda each: worst_error_u(each.worst))
+        error, case = worst_error_u(worst.worst), worst.worst["case"] if worst.worst else "none"
+        yield (
+            f"{precision}: {wrong} of {counted(len(methods), 'formula')} beyond the tolerance;"
+            f" farthest off: {worst.name}, {figure(error)} u at {case}"
+        )
+
+
+def _timings(record: Record) -> Iterator[str]:
+    totals = [f"{total.name} {figure(total.median_ns)}" for total in timing_totals(record)]
+    if totals:
+        yield f"ns a row: {', '.join(totals)}"
+
+
+def _reports(written: Sequence[Written]) -> Iterator[str]:
+    """Where the reports are, and which are missing and why."""
+    folders: dict[str, list[str]] = {}
+    for each in written:
+        if each.skipped is None:
+            folders.setdefault(str(each.path.parent), []).append(each.path.name)
+    for folder, names in folders.items():
+        yield f"reports in {folder}{os.sep}: {', '.join(names)}"
+    for each in written:
+        if each.skipped is not None:
+            yield f"no {each.path.name}: {each.skipped}"

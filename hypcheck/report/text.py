@@ -1,0 +1,64 @@
+"""Foreign text and numbers as a person reads them, with nothing in them that a terminal or a parser would obey."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from hypcheck.pairs import COLUMNS
+
+
+def visible(text: object) -> str:
+    r"""The text on one line, every character that cannot be seen written as its escape: \n, \x1b, \u202e, \ud800.
+
+    That takes in control and direction marks, lone surrogates and what Unicode assigns to no character; spaces at the
+    ends and in runs are lost.
+    """
+    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in str(text))
+    return " ".join(shown.split())
+
+
+def shortened(text: str, width: int) -> str:
+    """The text, cut to `width` characters with an ellipsis where it is longer."""
+    return text if len(text) <= width else text[: width - 1].rstrip() + "…"
+
+
+def counted(number: int, noun: str) -> str:
+    """A number with its noun: "1 case", "5,600 cases"."""
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
+def listed(items: Sequence[str], last: str = "and") -> str:
+    """The items as a sentence has them: "a, b and c"."""
+    return f" {last} ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
+
+
+def figure(value: float) -> str:
+    """A measured value to three digits: 0, 0.8, 12.3, 4,820, 3.1e7, ∞."""
+    if math.isinf(value):
+        return "∞"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 999.5:
+        return f"{value:.3g}"
+    if 999.5 <= abs(value) < 1e6:
+        return f"{float(f'{value:.3g}'):,.0f}"
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def from_hex(row: Sequence[str]) -> tuple[float, ...]:
+    """The seven numbers of a row as a record keeps it."""
+    return tuple(float.fromhex(value) for value in row)
+
+
+def short_row(row: Sequence[float]) -> str:
+    """A row to six digits, enough to see what is meant: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)"."""
+    sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
+    return f"{sizes}, centre ({', '.join(f'{value:.6g}' for value in row[4:])})"
+
+
+def classify_command(row: Sequence[float]) -> str:
+    """The command that decides a row exactly and proves it; the decimals read back as the same float64."""
+    sizes = " ".join(f"--{name} {value!r}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
+    return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:]))}"

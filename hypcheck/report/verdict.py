@@ -1,0 +1,172 @@
+"""How the run ended, in one sentence, and what failed it: no more than the record's own lines say.
+
+A misprint in the paper or a wrong answer of one of its procedures is a finding and fails nothing. What fails a run is a
+proof that does not hold, oracles that disagree, a method that promises to be exact and errs or any method that breaks
+down, and findings other than the known ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain
+
+from hypcheck.pairs import Position
+from hypcheck.record import Line, Record
+from hypcheck.report.digest import OracleTotal, implementations, in_order, oracle_totals
+from hypcheck.report.text import classify_command, counted, from_hex, listed
+
+MEANINGS = {
+    1: "wrong answers, or findings other than the known ones",
+    2: "nothing was judged",
+    6: "the oracles or a proof contradict each other",
+    70: "an internal error of hypcheck",
+    130: "interrupted",
+    143: "terminated",
+}
+"""What an exit code means, for the case that no other line of the record explains it."""
+
+UNFINISHED = (70, 130, 143)
+"""The exit codes of runs that stopped before their end."""
+
+HARMLESS = ("right", "skipped")
+"""How a case may end under a method that promises to be exact."""
+
+FATAL = ("error", "crash", "timeout", "protocol", "nondeterministic", "not-run")
+"""How no case may end under any method: it gave no answer that could be judged."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """One thing that fails a run.
+
+    `subject` is "proof", "oracle", "implementation" or "findings"; `name` says which, `group` the family or the
+    quantity, and `kind` is one word for what happened. `case` and `row` are the first case to look at, if there is one;
+    `count` is how many of its kind it stands for.
+    """
+
+    subject: str
+    name: str
+    group: str
+    kind: str
+    message: str
+    case: str | None = None
+    row: tuple[float, ...] | None = None
+    count: int = 1
+
+    @property
+    def replay(self) -> str | None:
+        """The command that decides the case exactly and proves it."""
+        return None if self.row is None else classify_command(self.row)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether the run passed, in a bool and in a sentence; a run without its end has not."""
+
+    passed: bool
+    sentence: str
+
+
+def failures(record: Record) -> list[Failure]:
+    """Everything in the record that fails the run, worst first."""
+    return list(chain(_oracles(record), _proofs(record), _implementations(record), _drift(record)))
+
+
+def _oracles(record: Record) -> Iterator[Failure]:
+    for line in record.of("oracle"):
+        yield from (_disagreement(line, case) for case in line["disagreements"])
+        rest = line["disagreeing"] - len(line["disagreements"])
+        if rest > 0:
+            message = f"{line['oracle']} on {line['family']}: {counted(rest, 'further case')}, not kept in the record"
+            yield Failure("oracle", line["oracle"], line["family"], "disagreement", message, count=rest)
+
+
+def _disagreement(line: Line, case: Line) -> Failure:
+    message = f"{case['oracle']}: {case['opinion']}; exact decision: {case['exact']}"
+    row = from_hex(case["row"])
+    return Failure("oracle", line["oracle"], line["family"], "disagreement", message, case["case"], row)
+
+
+def _proofs(record: Record) -> Iterator[Failure]:
+    for line in record.of("proof"):
+        if not line["holds"]:
+            message = f"{line['formula']}: not proved: {line['statement']}"
+            yield Failure("proof", line["formula"], line["quantity"], "unproved", message)
+
+
+def _implementations(record: Record) -> Iterator[Failure]:
+    for line in record.of("group"):
+        for status, number in in_order(line["counts"]).items():
+            fails = status not in HARMLESS if line["exact"] else status in FATAL
+            if fails:
+                yield _broken(line, status, number)
+
+
+def _broken(line: Line, status: str, number: int) -> Failure:
+    name, family = line["method"], line["family"]
+    promise = " promises to be exact, but" if line["exact"] else ":"
+    message = f"{name}{promise} {number:,} of {counted(line['asked'], 'case')} ended {status}"
+    first = next((case for case in line["worst"] if case["status"] == status), None)
+    if first is None:
+        return Failure("implementation", name, family, status, message)
+    message += f"; {first['case']} is {Position(first['truth']).label}, and the answer was {first['answer']}"
+    return Failure("implementation", name, family, status, message, first["case"], from_hex(first["row"]))
+
+
+def _drift(record: Record) -> Iterator[Failure]:
+    for line in record.of("drift"):
+        yield Failure("findings", "known findings", "drift", "drift", str(line["sentence"]))
+
+
+def verdict(record: Record) -> Verdict:
+    """How the run ended."""
+    found = failures(record)
+    if record.footer is None:
+        so_far = f" What was finished has already failed: {_named(found)}." if found else ""
+        return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is no pass.{so_far}")
+    code = record.footer["exit_code"]
+    if code == 0 and found:
+        return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_named(found)}.")
+    if code == 0:
+        return _held(record)
+    reason = "; ".join(part for part in (MEANINGS.get(code, "") if code in UNFINISHED else "", _named(found)) if part)
+    reason = reason or MEANINGS.get(code, "no line of the record says why")
+    return Verdict(False, f"FAILED with exit code {code}: {reason}.")
+
+
+def _named(found: list[Failure]) -> str:
+    """The failures by subject: "2 disagreements of oracles and 1 failed proof"."""
+    nouns = {
+        "oracle": "disagreement of oracles|disagreements of oracles",
+        "proof": "failed proof|failed proofs",
+        "implementation": "implementation failure|implementation failures",
+        "findings": "drift from the known findings|drifts from the known findings",
+    }
+    counts = [(sum(each.count for each in found if each.subject == subject), noun) for subject, noun in nouns.items()]
+    return listed([f"{number:,} {noun.split('|')[number != 1]}" for number, noun in counts if number])
+
+
+def _held(record: Record) -> Verdict:
+    totals = [total for total in oracle_totals(record) if total.asked]
+    tested = [each for each in implementations(record) if each.asked]
+    if not totals and not tested:
+        return Verdict(False, "NOTHING was asked and nothing was judged: this is no pass.")
+    proofs = len(record.of("proof"))
+    clauses = [
+        *([_oracle_clause(totals)] if totals else []),
+        *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
+        *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
+    ]
+    return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
+
+
+def _oracle_clause(totals: list[OracleTotal]) -> str:
+    """What the oracles show together; of one alone no agreement is claimed."""
+    undecided = sum(total.undecided for total in totals)
+    doubt = f", {undecided:,} undecided" if undecided else ""
+    if len(totals) == 1:
+        return f"{counted(totals[0].asked, 'case')} asked of {totals[0].name} and of no other oracle{doubt}"
+    return (
+        f"no disagreement in the cases asked of {listed([f'{each.name} ({each.asked:,})' for each in totals])}{doubt}"
+    )

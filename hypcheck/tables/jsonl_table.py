@@ -1,0 +1,156 @@
+"""JSON lines (RFC 8259, one object a line): seven keys found by name, every line kept as it was written.
+
+A line's own text goes to the output untouched but for its closing brace, before which four keys are added. Blank lines
+are left out; line ends become LF.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from itertools import chain
+from math import isfinite
+from operator import itemgetter
+from typing import Any, NoReturn
+
+import numpy as np
+
+from hypcheck.errors import InputError, NothingJudgedError
+from hypcheck.pairs import COLUMNS, REFUSED
+from hypcheck.rows import Rows, invalid
+from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Table, Write
+from hypcheck.tables.columns import ADDED, check_names, first_double
+from hypcheck.tables.examine import Places, examine
+from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
+from hypcheck.tables.numbers import Literal, number_of_json, shown_json
+from hypcheck.tables.streams import Reader, Writer
+
+
+def read_jsonl(reader: Reader, *, mark: bool) -> Table:
+    """The table in `reader`. Raises InputError while the chunks are read.
+
+    With `mark` a row whose value is no number, or not allowed, is marked as refused; a line that is no JSON object, or
+    lacks a key, is an error all the same.
+    """
+    return Table(_chunks(reader, mark=mark))
+
+
+@contextmanager
+def write_jsonl(writer: Writer, _table: Table) -> Iterator[Write]:
+    """Objects with four keys more: a row's own object where the table has text, else one of its seven numbers."""
+
+    def write(chunk: Chunk, answers: Answers) -> None:
+        texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
+        added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
+        clearances = list(map(repr, answers.clearance.tolist()))
+        for index in np.flatnonzero(np.isinf(answers.clearance)).tolist():
+            clearances[index] = '"inf"'  # JSON has no number for it
+        rows = zip(texts, added, clearances, strict=True)
+        lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
+        for index in np.flatnonzero(chunk.refused).tolist():
+            lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
+        writer.write("".join(lines).encode())
+
+    yield write
+
+
+_KEYS = {
+    (
+        position,
+        tangent,
+    ): f', "position": {position}, "label": "{label}", "tangent": {json.dumps(tangent)}, "clearance": '
+    for position, label in LABELS.items()
+    for tangent in (False, True)
+}
+_REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangent": null, "clearance": null'
+
+
+def _object(row: list[float]) -> str:
+    """The object of seven numbers, null standing for what JSON has no number for (in a refused row)."""
+    return json.dumps({name: value if isfinite(value) else None for name, value in zip(COLUMNS, row, strict=True)})
+
+
+def _unlike(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object from its pairs. Raises ValueError where a key stands twice: readers disagree about which one counts."""
+    members = dict(pairs)
+    if len(members) < len(pairs):
+        raise ValueError(f"key {first_double([name for name, _ in pairs])}")
+    return members
+
+
+def _no_constant(text: str) -> NoReturn:
+    raise ValueError(f"{text} is not JSON; every number must be finite")
+
+
+def _integer(text: str) -> int | Literal:
+    """An int, unless it is so long that Python would not convert it: then it is beyond float64 anyway."""
+    return int(text) if len(text) <= 400 else Literal(text)
+
+
+_FAST = json.JSONDecoder(object_pairs_hook=_unlike, parse_constant=_no_constant)
+_THOROUGH = json.JSONDecoder(
+    object_pairs_hook=_unlike, parse_constant=_no_constant, parse_float=Literal, parse_int=_integer
+)
+_PICK = itemgetter(*COLUMNS)
+_CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
+
+
+def _chunks(reader: Reader, *, mark: bool) -> Iterator[Chunk]:
+    lines = enumerate(text_lines(reader), start=1)
+    count = 0
+    while True:
+        texts: list[str] = []
+        places = Places(reader.name, count, [])
+        for number, line in lines:
+            text = line.strip(" \t\r\n") if number > 1 else line.removeprefix(BYTE_ORDER_MARK).strip(" \t\r\n")
+            if text:
+                texts.append(text)
+                places.lines.append(number)
+                if len(texts) == CHUNK:
+                    break
+        if not texts:
+            break
+        yield _chunk(texts, places, mark=mark)
+        count += len(texts)
+    if count == 0:
+        raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
+
+
+def _chunk(texts: list[str], places: Places, *, mark: bool) -> Chunk:
+    rows = _quickly(texts)
+    if rows is not None:
+        return Chunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
+    values = [_values(text, places.of(index)) for index, text in enumerate(texts)]
+    return Chunk(*examine(values, number_of_json, places, mark=mark), texts)
+
+
+def _quickly(texts: Sequence[str]) -> Rows | None:
+    """The rows where every one is good, else None."""
+    try:
+        objects = list(map(_FAST.decode, texts))
+        flat = list(chain.from_iterable(map(_PICK, objects)))
+        if not (set(map(type, flat)) <= {float, int} and all(map(_CLEAR_OF_ADDED, objects))):
+            return None
+        numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
+    except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
+        return None
+    rows = numbers.reshape(len(texts), len(COLUMNS))
+    return None if invalid(rows).any() else rows
+
+
+def _values(text: str, where: str) -> tuple[object, ...]:
+    """The seven values of a line, numbers as Literal or int. Raises InputError where it is no object with them."""
+    try:
+        row = _THOROUGH.decode(text)
+    except json.JSONDecodeError as error:
+        cut = " (the line may have been cut off)" if error.pos >= len(text) else ""
+        raise InputError(f"{where}: not JSON at character {error.pos + 1}: {error.msg.lower()}{cut}") from None
+    except RecursionError:
+        raise InputError(f"{where}: nested too deeply; it must be one flat object") from None
+    except ValueError as error:
+        raise InputError(f"{where}: {error}") from None
+    if not isinstance(row, dict):
+        raise InputError(f"{where}: {shown_json(row)} is not an object; it must be one, with {', '.join(COLUMNS)}")
+    check_names(list(row), where, noun="key")
+    return tuple(row[name] for name in COLUMNS)

@@ -1,0 +1,142 @@
+"""numpy's .npy files: float64 (n, 7) in, int8 (n,) out, read in blocks and never unpickled.
+
+Blocks rather than a memory map: if another process shortens a mapped file the next access kills ours with SIGBUS, and a
+pipe cannot be mapped.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import IO, cast
+
+import numpy as np
+from numpy.lib import format as npy
+
+from hypcheck.errors import InputError, NothingJudgedError
+from hypcheck.pairs import COLUMNS
+from hypcheck.rows import Rows, first_trouble, invalid
+from hypcheck.tables.chunk import CHUNK, Answers, Chunk, Table, Write
+from hypcheck.tables.streams import Reader, Writer
+
+WIDTH = len(COLUMNS)
+_COPIED_AT_ONCE = 1 << 20
+
+
+def read_npy(reader: Reader, *, mark: bool) -> Table:
+    """The table in `reader`. Raises InputError: now about the header and the length, later about a row.
+
+    With `mark` a row that is no valid query is marked as refused.
+    """
+    return Table(_chunks(reader, _layout(reader), mark=mark))
+
+
+@contextmanager
+def write_npy(writer: Writer, _table: Table) -> Iterator[Write]:
+    """Positions alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
+    # The header comes first and tells the count, which is known last, and an output may be a pipe.
+    with tempfile.TemporaryFile() as file:
+        kept, count = Writer(file, "a temporary file"), 0
+
+        def write(_chunk: Chunk, answers: Answers) -> None:
+            nonlocal count
+            kept.write(answers.positions.tobytes())
+            count += len(answers.positions)
+
+        yield write
+        kept.flush()
+        header = {"descr": "|i1", "fortran_order": False, "shape": (count,)}
+        npy.write_array_header_1_0(cast("IO[bytes]", writer), header)
+        file.seek(0)
+        while block := file.read(_COPIED_AT_ONCE):
+            writer.write(block)
+
+
+@dataclass(frozen=True, slots=True)
+class _Layout:
+    """What a header says: how many rows, in which byte order, by rows or by columns, and where they begin."""
+
+    count: int
+    type: np.dtype[np.float64]
+    by_columns: bool
+    begin: int
+
+
+def _layout(reader: Reader) -> _Layout:
+    """The layout of a .npy file that holds what is asked for, and all of it. Raises InputError."""
+    shape, by_columns, stored = _header(reader)
+    if stored.kind != "f" or stored.itemsize != 8:
+        raise InputError(f"{reader.name} holds {stored}; it must hold float64")
+    if len(shape) != 2 or shape[1] != WIDTH or shape[0] < 0:
+        raise InputError(f"{reader.name} has shape {shape}; it must be (n, 7): {', '.join(COLUMNS)}")
+    if shape[0] == 0:
+        raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
+    size = reader.size()
+    if size is None:
+        if by_columns:
+            raise InputError(f"{reader.name} is stored by columns, which a stream cannot be read in; use a file")
+        return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, 0)
+    begin = reader.place()
+    _require_length(reader.name, size - begin, shape[0])
+    return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, begin)
+
+
+def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]]:
+    file = cast("IO[bytes]", reader)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # numpy's about headers as Python 2 wrote them, which read as well
+            version = npy.read_magic(file)
+            if version == (1, 0):
+                shape, by_columns, stored = npy.read_array_header_1_0(file)
+                return shape, by_columns, stored
+            if version == (2, 0):
+                shape, by_columns, stored = npy.read_array_header_2_0(file)
+                return shape, by_columns, stored
+    except InputError:
+        raise
+    except Exception as error:  # noqa: BLE001 - numpy evaluates the header's text, which may hold anything
+        reason = str(error).partition("\n")[0]
+        raise InputError(f"{reader.name} is no .npy file, or one cut off in its header: {reason}") from None
+    raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
+
+
+def _require_length(name: str, size: int, count: int) -> None:
+    """Raise InputError unless `size` bytes are `count` rows."""
+    needed = count * WIDTH * 8
+    if size < needed:
+        have = size // (WIDTH * 8)
+        raise InputError(f"{name} is cut off: its header says {count} rows, and the data ends after {have} of them")
+    if size > needed:
+        raise InputError(f"{name} goes on for {size - needed} bytes after its {count} rows; it must hold one array")
+
+
+def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Chunk]:
+    for start in range(0, layout.count, CHUNK):
+        rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
+        refused = invalid(rows)
+        if not mark and refused.any():
+            raise InputError(f"{reader.name}, {first_trouble(rows, start + 1)}")
+        yield Chunk(rows, refused, None)
+    if reader.size() is None and reader.read(1):
+        raise InputError(f"{reader.name} goes on after its {layout.count} rows; it must hold one array")
+
+
+def _rows(reader: Reader, layout: _Layout, start: int, count: int) -> Rows:
+    """Rows `start` to `start + count`. Raises InputError where they end too early."""
+    if layout.by_columns:
+        places = [layout.begin + 8 * (column * layout.count + start) for column in range(WIDTH)]
+        data = b"".join(reader.read_at(place, 8 * count) for place in places)
+    else:
+        data = reader.read(8 * WIDTH * count)
+    if len(data) != 8 * WIDTH * count:
+        have = start + len(data) // (8 * WIDTH)
+        raise InputError(
+            f"{reader.name} is cut off: its header says {layout.count} rows, and the data ends after {have} of them"
+        )
+    values = np.frombuffer(data, dtype=layout.type)
+    rows = values.reshape(WIDTH, count).T if layout.by_columns else values.reshape(count, WIDTH)
+    return np.ascontiguousarray(rows, dtype=np.float64)

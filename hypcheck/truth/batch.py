@@ -1,0 +1,112 @@
+"""Exact positions of many rows: a witness in floats where one is found, the integers of exact.py otherwise.
+
+The filter looks for what a certificate consists of (certificate.py): a λ with g(λ) > 0, or two points of the spheroid
+on opposite sides of the hyperboloid. How the witness was found does not matter; only its check decides, and each check
+compares two sums of positive terms.
+
+Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (1+δ)^k, |δ| ≤ u, with k ≤ 3; P = (x²+y²)/b²
+k ≤ 4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no
+side below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u leaves room to spare. Where a
+difference of such numbers is needed (B − λ, r − 1), it is formed from an operand first moved by the margin to the safe
+side, and one more rounding of the result is in k. SAFE keeps every square, quotient and sum away from overflow and
+underflow: with lengths in 2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference of
+such numbers is 0 or at least 2^-504, so that every quotient stays within 2^±960.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.pairs import Pair
+from hypcheck.rows import Positions, Rows, require_valid
+from hypcheck.truth import exact
+
+CHUNK = 8192
+"""Rows at a time: the filter's temporaries then stay in the cache."""
+
+MARGIN = 1 + 64 * 2.0**-53
+LEAST, GREATEST = 2.0**-100, 2.0**100
+LEAST_MULTIPLIER, GREATEST_MULTIPLIER = 2.0**-450, 2.0**450
+UNDECIDED = 2
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def positions(rows: Rows) -> Positions:
+    """The exact position of every row, int8 (n,). Raises InputError about the first invalid row."""
+    require_valid(rows)
+    result = np.empty(len(rows), dtype=np.int8)
+    for start in range(0, len(rows), CHUNK):
+        chunk = rows[start : start + CHUNK]
+        result[start : start + CHUNK] = _chunk(chunk)
+    return result
+
+
+def filtered(rows: Rows) -> Positions:
+    """What the filter alone can prove: a position, or UNDECIDED. int8 (n,)."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    with np.errstate(all="ignore"):  # a NaN or an infinity compares false, which is undecided
+        A, B = (alpha / b) ** 2, (gamma / d) ** 2
+        P, Q = (x * x + y * y) / (b * b), (z / d) ** 2
+        clear_of_surface = _clear(A, B, P, Q)
+        result = np.where(_in_contact(A, B, P, Q), 0, UNDECIDED)
+        result = np.where(clear_of_surface != 0, clear_of_surface, result)
+        return np.where(_safe(rows), result, UNDECIDED).astype(np.int8)
+
+
+def _chunk(rows: Rows) -> Positions:
+    result = filtered(rows)
+    for index in np.flatnonzero(result == UNDECIDED):
+        result[index] = exact.position(Pair.from_row(rows[index].tolist()).lengths)
+    return result
+
+
+def _safe(rows: Rows) -> Mask:
+    lengths = np.abs(rows)
+    inside: Mask = (lengths <= GREATEST) & ((lengths >= LEAST) | (lengths == 0))
+    return np.asarray(inside.all(axis=1))
+
+
+def _clear(A: Floats, B: Floats, P: Floats, Q: Floats) -> NDArray[np.int64]:
+    """+1 or −1 where a λ proves it, else 0. λ is the local maximum of g, however badly it was computed."""
+    c2 = A - B + 1 - P - Q
+    c1 = B * (P - A - 1) + A * (1 - Q)
+    root = np.sqrt(c2 * c2 - 3 * c1)
+    at = np.where(c2 < 0, c1 / (root - c2), -(c2 + root) / 3)
+    size = np.abs(at)
+    usable = (size > LEAST_MULTIPLIER) & (size < GREATEST_MULTIPLIER)
+    # λ > 0:  P/(A+λ) > Q/(B−λ) + 1 + 1/λ;   λ = −μ < 0:  Q/(B+μ) + 1 > P/(A−μ) + 1/μ.  A pole stays on its side.
+    to_b = B / MARGIN - size
+    to_a = A / MARGIN - size
+    exterior = (at > 0) & (to_b > 0) & (P / (A + size) > MARGIN * (Q / to_b + 1 + 1 / size))
+    interior = (at < 0) & (to_a > 0) & (Q / (B + size) + 1 > MARGIN * (P / to_a + 1 / size))
+    return np.asarray(usable * (exterior.astype(np.int64) - interior))
+
+
+def _in_contact(A: Floats, B: Floats, P: Floats, Q: Floats) -> Mask:
+    """Whether points of the closed ball on both sides of the hyperboloid were found, in the half plane r, |z| ≥ 0."""
+    r, z = np.sqrt(P), np.sqrt(Q)
+    # Along the normal at the centre's height, a little less than one radius: STEP covers the direction's rounding.
+    across, along = r / A, z / B
+    length = np.hypot(across, along)  # 0 at the origin alone: no square of it underflows
+    across, along = STEP * across / length, STEP * along / length
+    # Each point's coordinate is within 8u (r + 1), 8u (z + 1) of the one meant; the bounds below swallow that.
+    slack_r, slack_z = (MARGIN - 1) * (r + 1), (MARGIN - 1) * (z + 1)
+
+    def outside(radius: Floats, height: Floats) -> Mask:
+        radius, height = np.maximum(radius - slack_r, 0), height + slack_z
+        return np.asarray(radius * radius / A > MARGIN * (height * height / B + 1))
+
+    def inside(radius: Floats, height: Floats) -> Mask:
+        radius, height = radius + slack_r, np.maximum(height - slack_z, 0)
+        return np.asarray(height * height / B + 1 > MARGIN * (radius * radius / A))
+
+    lower, nearer = np.maximum(z - 1, 0), np.maximum(r - 1, 0)
+    some_outside = outside(r + 1, z) | outside(r, lower) | outside(r + across, np.abs(z - along))
+    some_inside = inside(nearer, z) | inside(r, z + 1) | inside(np.abs(r - across), z + along)
+    return some_outside & some_inside
+
+
+STEP = 1 - 2.0**-30

@@ -1,0 +1,198 @@
+"""One run of verify: derive, prove, cross-check, judge, time, draw; everything goes into the record as it comes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field, replace
+from multiprocessing import get_context
+from typing import Any
+
+from hypcheck import judge
+from hypcheck.bench.timing import measure
+from hypcheck.derivation.printed import check_equations
+from hypcheck.derivation.proofs import prove_formulas
+from hypcheck.judge import Status
+from hypcheck.methods.builtin import builtin_methods
+from hypcheck.methods.method import Method
+from hypcheck.record import Recorder
+from hypcheck.verify import contenders, crosscheck, findings, known, maps
+from hypcheck.verify.crosscheck import Tally
+from hypcheck.verify.opinions import ORACLES
+from hypcheck.verify.plan import Batch, Plan, batches, chosen_families
+
+ROUNDS = 9
+"""Timing rounds: enough for a median that one disturbed round does not move."""
+
+Advance = Callable[[int], object]
+
+
+@dataclass
+class Outcome:
+    """What decides how the run ends."""
+
+    failed_proofs: list[str] = field(default_factory=list)
+    disagreements: int = 0
+    exact_methods_wrong: list[str] = field(default_factory=list)
+    drift: list[str] = field(default_factory=list)
+
+    @property
+    def exit_code(self) -> int:
+        """6 where the oracles or a proof contradict each other, 1 where an exact method erred or findings drifted."""
+        if self.failed_proofs or self.disagreements:
+            return 6
+        return 1 if self.exact_methods_wrong or self.drift else 0
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A part of the run: its title for the progress bar, how many steps it has, and what does them."""
+
+    title: str
+    steps: int
+    run: Callable[[Advance], None]
+
+
+def stages(plan: Plan, recorder: Recorder, outcome: Outcome) -> tuple[Stage, ...]:
+    """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
+    families = chosen_families(plan)
+    all_batches = batches(plan, families)
+    methods = tuple(builtin_methods().values())
+    todo = crosscheck.tasks(_with_available(plan, recorder), all_batches)
+    formulas = findings.exact_formulas()
+    return (
+        Stage("derivation", 2, lambda advance: _derive(recorder, outcome, advance)),
+        Stage("oracles", len(todo), lambda advance: _cross_check(plan, all_batches, todo, recorder, outcome, advance)),
+        Stage(
+            "mathematics of the formulas",
+            len(all_batches) * len(formulas),
+            lambda advance: _exact_findings(plan, all_batches, recorder, outcome, advance),
+        ),
+        Stage(
+            "methods in floats",
+            len(all_batches) * (len(methods) + 1),
+            lambda advance: _judge(plan, all_batches, methods, recorder, outcome, advance),
+        ),
+        Stage("map", 2, lambda advance: _draw(recorder, advance)),
+        Stage("timing", ROUNDS, lambda advance: _time(plan, recorder, advance)),
+    )
+
+
+def _with_available(plan: Plan, recorder: Recorder) -> Plan:
+    """The plan without the oracles that cannot run here; the record says why."""
+    reasons = {name: ORACLES[name].available() for name in plan.oracles}
+    for name, reason in reasons.items():
+        if reason is not None:
+            recorder.add("unavailable", oracle=name, reason=reason)
+    present = tuple(name for name, reason in reasons.items() if reason is None)
+    return replace(plan, oracles=present)
+
+
+def _derive(recorder: Recorder, outcome: Outcome, advance: Advance) -> None:
+    for equation in check_equations():
+        recorder.add("equation", **asdict(equation))
+    advance(1)
+    for proof in prove_formulas():
+        recorder.add("proof", **asdict(proof))
+        if not proof.holds:
+            outcome.failed_proofs.append(f"{proof.formula}: {proof.statement}")
+    advance(1)
+
+
+def _cross_check(
+    plan: Plan,
+    all_batches: Sequence[Batch],
+    todo: Sequence[crosscheck.Task],
+    recorder: Recorder,
+    outcome: Outcome,
+    advance: Advance,
+) -> None:
+    tallies: list[Tally] = []
+    with _executor(plan.workers) as executor:
+        for task, opinions, seconds in crosscheck.perform(todo, executor):
+            tallies.append(crosscheck.compare(task, opinions, all_batches[task.batch], seconds))
+            advance(1)
+    for tally in crosscheck.merged(tallies):
+        outcome.disagreements += len(tally.disagreements)
+        cases = [{**asdict(case), "row": [value.hex() for value in case.row]} for case in tally.disagreements[:20]]
+        fields = {
+            name: getattr(tally, name) for name in ("oracle", "family", "asked", "undecided", "stages", "seconds")
+        }
+        recorder.add("oracle", **fields, disagreeing=len(tally.disagreements), disagreements=cases)
+
+
+@contextmanager
+def _executor(workers: int) -> Iterator[ProcessPoolExecutor | None]:
+    """Processes for the oracles; none where one worker is asked for. Fresh ones: forking copies locks and threads."""
+    if workers <= 1:
+        yield None
+        return
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as executor:
+        try:
+            yield executor
+        except BaseException:
+            executor.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _exact_findings(
+    plan: Plan, all_batches: Sequence[Batch], recorder: Recorder, outcome: Outcome, advance: Advance
+) -> None:
+    found, listed = [], known.known_findings()
+    for batch in all_batches:
+        for formula in findings.exact_formulas():
+            for finding in findings.mathematical(formula, batch, plan):
+                found.append(finding)
+                row = [value.hex() for value in finding.first_row]
+                fields = {**asdict(finding), "first_row": row}
+                recorder.add("finding", **fields, reason=known.reason_for(finding, listed))
+            advance(1)
+    for sentence in known.drift(found, listed, complete=plan.complete):
+        recorder.add("drift", sentence=sentence)
+        outcome.drift.append(sentence)
+
+
+def _judge(
+    plan: Plan,
+    all_batches: Sequence[Batch],
+    methods: Sequence[Method],
+    recorder: Recorder,
+    outcome: Outcome,
+    advance: Advance,
+) -> None:
+    for batch in (each.head(plan.judged) for each in all_batches):
+        octaves = judge.flip_octaves(batch.rows)
+        advance(1)
+        for method in methods:
+            line = findings.group(method, batch, octaves, plan)
+            recorder.add("group", exact=method.exact, title=method.title, **line)
+            if method.exact and set(line["counts"]) - {Status.RIGHT.value, Status.SKIPPED.value}:
+                outcome.exact_methods_wrong.append(f"{method.name} on {batch.family.name}")
+            advance(1)
+
+
+def _draw(recorder: Recorder, advance: Advance) -> None:
+    for panel in maps.tower_panels():
+        recorder.add("map", **maps.draw(panel, builtin_methods()["table-2-float32"]))
+        advance(1)
+
+
+def _time(plan: Plan, recorder: Recorder, advance: Advance) -> None:
+    rows = contenders.workload(plan.seed)
+    for _, timings in measure(contenders.contenders(), rows, ROUNDS):
+        advance(1)
+        for timing in timings:
+            recorder.add("timing", workload=contenders.WORKLOAD, median_ns=timing.median_ns, **asdict(timing))
+
+
+def options(plan: Plan) -> Mapping[str, Any]:
+    """The plan as the record's header shows it."""
+    return {**asdict(plan), "tolerance": float(plan.tolerance)}
+
+
+def default_workers() -> int:
+    """The processors this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1

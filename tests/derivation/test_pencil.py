@@ -1,0 +1,105 @@
+"""The derivation in symbols against determinants and roots computed in plain rationals."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import permutations
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hypcheck.derivation import pencil
+from hypcheck.derivation.identities import identities, vanishes
+from hypcheck.derivation.plain_text import plain, read, symbol
+
+IDENTITIES = identities()
+positive = st.fractions(Fraction(1, 8), 8, max_denominator=8)
+coordinate = st.fractions(-8, 8, max_denominator=8)
+
+
+def determinant(matrix):
+    """The determinant by its definition, a signed sum over permutations."""
+    size = len(matrix)
+    total = Fraction(0)
+    for order in permutations(range(size)):
+        inversions = sum(order[i] > order[j] for i in range(size) for j in range(i + 1, size))
+        product = Fraction((-1) ** inversions)
+        for row, column in enumerate(order):
+            product *= matrix[row][column]
+        total += product
+    return total
+
+
+@settings(max_examples=20)
+@given(positive, positive, positive, positive, coordinate, coordinate, coordinate, coordinate)
+def test_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):
+    a, c, xc, yc, zc = alpha / b, gamma / d, x / b, y / b, z / d
+    matrix = [
+        [at / a**2 + 1, 0, 0, -xc],
+        [0, at / a**2 + 1, 0, -yc],
+        [0, 0, 1 - at / c**2, -zc],
+        [-xc, -yc, -zc, xc**2 + yc**2 + zc**2 - 1 - at],
+    ]
+    here = dict(zip(pencil.SEVEN, map(sympy.Rational, (alpha, gamma, b, d, x, y, z)), strict=True))
+    value = pencil.cubic_in_seven().f.subs({**here, pencil.LAMBDA: sympy.Rational(at)})
+    assert sympy.Rational(determinant(matrix)) == value
+
+
+def test_the_cubic_as_derived_by_hand():
+    # (A+λ)(B−λ)(P+Q−1−λ) − AP(B−λ) − BQ(A+λ), multiplied out on paper.
+    cubic = pencil.cubic()
+    assert plain(cubic.c0) == "−A·B"
+    assert vanishes(cubic.c1 - read("−A·B + A − B + B·P − A·Q"))
+    assert vanishes(cubic.c2 - read("A − B + 1 − P − Q"))
+    assert plain(cubic.denominator) == "A²·B"
+    assert vanishes(cubic.factor - read("A + λ"))
+
+
+@pytest.mark.parametrize("roots", [(1, 2, 4), (-3, -1, 2), (5, 5, -1), (2, 2, 2)])
+def test_the_discriminant_is_that_of_the_roots(roots):
+    first, second, third = roots
+    values = {
+        symbol("c2"): -(first + second + third),
+        symbol("c1"): first * second + second * third + third * first,
+        symbol("c0"): -first * second * third,
+    }
+    expected = ((first - second) * (second - third) * (third - first)) ** 2
+    assert pencil.discriminant_of_cubic().subs(values) == expected
+
+
+def test_the_three_derivations_are_one():
+    scaled, seven = pencil.scaled_cubic(), pencil.cubic_in_seven()
+    for name in ("c0", "c1", "c2", "f", "denominator", "discriminant"):
+        in_sizes = getattr(pencil.cubic(), name).subs(pencil.IN_SEVEN)
+        assert vanishes(in_sizes - getattr(seven, name)), name
+        assert vanishes(getattr(scaled, name).subs(pencil.SCALED) - getattr(seven, name)), name
+
+
+@pytest.mark.parametrize(("statement", "gap"), IDENTITIES, ids=[statement for statement, _ in IDENTITIES])
+def test_each_identity_holds_and_would_be_seen_to_fail(statement, gap):
+    assert vanishes(gap)
+    assert not vanishes(gap + read("A·B/1000"))
+
+
+def test_a_surface_that_breaks_the_derivation_is_noticed(monkeypatch):
+    hyperboloid, scaled = pencil.scaled_matrices(), pencil.scaled_cubic()
+    monkeypatch.setattr(pencil, "scaled_cubic", lambda: replace(scaled, c2=scaled.c2 + pencil.YC))
+    with pytest.raises(ArithmeticError, match="more than A, B, P and Q"):
+        pencil.cubic.__wrapped__()
+    elliptic = hyperboloid[0] + sympy.diag(1, 0, 0, 0)  # no surface of revolution: −a² is no root of its pencil
+    monkeypatch.undo()
+    monkeypatch.setattr(pencil, "scaled_matrices", lambda: (elliptic, hyperboloid[1]))
+    with pytest.raises(ArithmeticError, match="times a cubic"):
+        pencil.scaled_cubic.__wrapped__()
+
+
+def test_text_reads_as_what_it_says_and_back():
+    alpha, lambda_, c1 = symbol("alpha"), symbol("lambda"), symbol("c1")
+    assert read("−(α/b)²·λ³ + c1(g_i)/2 − √2") == -((alpha / symbol("b")) ** 2) * lambda_**3 + c1 / 2 - sympy.sqrt(2)
+    assert read("diag(1/α², −1)") == sympy.diag(1 / alpha**2, -1)
+    assert plain(lambda_**10 - 2 * alpha) == "−2·α + λ¹⁰"
+    for text in ("x_c² + 1", "(a + λ)·g/(a⁴·c²)", "√2·l/2"):
+        assert read(plain(read(text))) == read(text)

@@ -1,0 +1,76 @@
+"""The fast path is exact: against proofs, along the borders, and where floats fail."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.rounding import relative_error_counts
+from hypcheck.kernel import integers, numpy_path
+from hypcheck.pairs import Pair
+from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.prove import prove
+from tests.strategies import pairs
+from tests.witnesses import WITNESSES
+
+
+@pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
+def test_witnesses(row, position, clearance, why):
+    rows = np.array([row], dtype=float)
+    assert numpy_path.positions(rows).tolist() == [position], why
+    assert integers.position(Pair.from_row(row).lengths) is position, why
+
+
+@given(st.lists(pairs, min_size=1, max_size=20))
+def test_every_answer_has_a_checked_proof(some):
+    rows = np.array([pair.row for pair in some])
+    for pair, position in zip(some, numpy_path.positions(rows).tolist(), strict=True):
+        certificate = prove(pair)
+        assert certificate.position == position
+        assert check_certificate(pair, certificate)
+
+
+@given(pairs, st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=1, max_size=20))
+def test_a_scene_is_its_rows(pair, centers):
+    x, y, z = np.array(centers).T
+    rows = np.column_stack([*(np.full(len(x), size) for size in pair.row[:4]), x, y, z])
+    found = numpy_path.positions_of_scene(pair.row[:4], x, y, z)
+    assert found.tolist() == numpy_path.positions(rows).tolist()
+
+
+@pytest.mark.parametrize("spread", [1, 5, 12, 30])
+def test_random_rows_of_all_regimes(spread):
+    rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (4000, 7))
+    expected = [integers.position(Pair.from_row(row).lengths) for row in rows.tolist()]
+    assert numpy_path.positions(rows).tolist() == expected
+
+
+@pytest.mark.parametrize("exponent", range(-52, -20, 4))
+@pytest.mark.parametrize("sign", [-1, 0, 1])
+def test_at_a_tangency_floats_do_not_decide(exponent, sign):
+    """r − a = 1 + sign 2^exponent at the waist; the walls are steep, so the nearest point is there."""
+    a = np.arange(1.0, 200.0)
+    x = a + 1 + sign * 2.0**exponent
+    kept = x - a - 1 == sign * 2.0**exponent
+    rows = np.zeros((kept.sum(), 7))
+    rows[:, 0], rows[:, 1], rows[:, 2:4], rows[:, 4] = a[kept], 1000.0, 1.0, x[kept]
+    assert set(numpy_path.positions(rows).tolist()) <= {1 if sign > 0 else 0}
+
+
+def test_rows_of_a_chunk_and_beyond_are_all_answered():
+    count = 2 * numpy_path.CHUNK + 3
+    rows = np.tile([2.0, 5.0, 1.0, 1.0, 9.0, 0.0, 0.0], (count, 1))
+    rows[-1, 4] = 0.5
+    found = numpy_path.positions(rows)
+    assert found[:-1].tolist() == [1] * (count - 1)
+    assert found[-1] == -1
+
+
+@pytest.mark.parametrize(("name", "allowed"), [("c0", 8), ("c1", 12), ("c2", 8)])
+def test_the_bound_s_constants_cover_the_counted_roundings(name, allowed):
+    """The formula object counts no more roundings than the bound allows, with one unit for the second order."""
+    program = FORMULAS["table-2"].program
+    assert relative_error_counts(program, [name]).counts[name] < allowed

@@ -1,0 +1,48 @@
+"""The built-in methods: all are reachable by name, the exact one is exact, the dual form is backward stable."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck import judge
+from hypcheck.casebook.families import select
+from hypcheck.errors import InputError
+from hypcheck.judge import Criterion
+from hypcheck.methods.builtin import builtin, builtin_methods
+from hypcheck.methods.domain import representable
+from hypcheck.truth import batch
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return np.concatenate([family.rows(11, 60) for family in select()])
+
+
+@pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
+def test_a_method_answers_its_question_with_allowed_answers(name, rows):
+    method = builtin(name)
+    answers = method.answer(rows)
+    assert answers.dtype == np.int8
+    assert answers.shape == (len(rows),)
+    assert set(answers.tolist()) <= set(judge.allowed(method.question))
+
+
+def test_the_exact_method_is_exact(rows):
+    (exact,) = [method for method in builtin_methods().values() if method.exact]
+    assert (exact.answer(rows) == batch.positions(rows)).all()
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
+    method = builtin(f"dual-{precision}")
+    asked = rows[method.domain.holds(rows) & representable(rows, precision)]
+    cases = judge.wrong_cases(asked, batch.positions(asked), method.answer(asked), Criterion(precision=precision))
+    assert cases  # at a tangency one side or the other is bound to be missed
+    unit = judge.UNIT_ROUNDOFF[precision]
+    assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1
+
+
+def test_an_unknown_name_is_refused_with_the_known_ones():
+    with pytest.raises(InputError, match=r"no built-in method 'table2'; there are .*table-2-float32"):
+        builtin("table2")

@@ -1,0 +1,120 @@
+"""hypcheck.classify and hypcheck.classify_scene: exact, and nothing written unless all is well."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.truth import exact
+from tests.strategies import pairs
+
+ROWS = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0]]
+
+
+@settings(max_examples=60)
+@given(st.lists(pairs, max_size=10))
+def test_positions_are_exact(some):
+    rows = np.array([pair.row for pair in some]).reshape(len(some), 7)
+    found = hypcheck.classify(rows)
+    assert (found.dtype, found.shape) == (np.int8, (len(some),))
+    assert found.tolist() == [int(exact.position(pair.lengths)) for pair in some]
+    if some:
+        sizes, (x, y, z) = some[0].row[:4], rows[:, 4:].T
+        moved = rows.copy()
+        moved[:, :4] = sizes
+        assert hypcheck.classify_scene(sizes, x, y, z).tolist() == hypcheck.classify(moved).tolist()
+
+
+def test_lists_and_other_types_of_numbers_will_do():
+    assert hypcheck.classify(ROWS).tolist() == [1, 0, -1]
+    assert hypcheck.classify(np.asfortranarray(np.array(ROWS, dtype=np.float32))[::-1]).tolist() == [-1, 0, 1]
+    assert hypcheck.classify_scene((1, 2, 1, 1), [2.5, 2, -2.5], 0, 0.0).tolist() == [1, 0, 1]
+    assert hypcheck.classify_scene(np.float32([1, 2, 1, 1]), 2.5, 0, 0).tolist() == [1]
+
+
+def test_out_is_filled_and_returned():
+    out = np.full(3, 99, dtype=np.int8)
+    assert hypcheck.classify(ROWS, out=out) is out
+    assert out.tolist() == [1, 0, -1]
+    strided = np.full(6, 99, dtype=np.int8)
+    hypcheck.classify_scene((1, 2, 1, 1), [2.5, 2, 0], 0, 0, out=strided[::2])
+    assert strided.tolist() == [1, 99, 0, 99, 0, 99]
+
+
+def test_out_may_lie_in_the_rows():
+    rows = np.array(ROWS)
+    assert hypcheck.classify(rows, out=rows.view(np.int8)[0, :3]).tolist() == [1, 0, -1]
+
+
+BAD = {
+    "gamma is nan": (1, np.nan),
+    "z is inf": (6, np.inf),
+    "alpha is 0.0": (0, 0.0),
+    "d is -1.0": (3, -1.0),
+}
+
+
+@pytest.mark.parametrize(("said", "change"), BAD.items())
+def test_the_first_bad_row_is_named_and_nothing_is_written(said, change):
+    rows, out = np.array(ROWS), np.full(3, 99, dtype=np.int8)
+    rows[1:, change[0]] = change[1]
+    with pytest.raises(InputError, match=f"^row 1: {said};"):
+        hypcheck.classify(rows, out=out)
+    assert out.tolist() == [99] * 3
+    assert hypcheck.classify(rows, out=out, on_invalid="flag").tolist() == [1, 127, 127]
+
+
+@pytest.mark.parametrize("value", [np.nan, -np.inf])
+def test_the_first_bad_center_is_named_and_nothing_is_written(value):
+    out = np.full(3, 99, dtype=np.int8)
+    with pytest.raises(InputError, match=f"^row 1: y is {value}; it must be finite"):
+        hypcheck.classify_scene((1, 2, 1, 1), [1, 2, value], [1, value, 0], 0, out=out)
+    assert out.tolist() == [99] * 3
+
+
+@pytest.mark.parametrize(
+    "out", [np.empty(2, np.int8), np.empty(3, np.int16), np.empty((3, 1), np.int8), [0, 0, 0], "readonly"]
+)
+def test_an_out_that_does_not_fit_is_refused(out):
+    if isinstance(out, str):
+        out = np.empty(3, np.int8)
+        out.flags.writeable = False
+    for call in (
+        lambda: hypcheck.classify(ROWS, out=out),
+        lambda: hypcheck.classify(ROWS, out=out, on_invalid="flag"),
+        lambda: hypcheck.classify_scene((1, 2, 1, 1), [1, 2, 3], 0, 0, out=out),
+    ):
+        with pytest.raises(InputError, match=r"out must be a writable int8 array of shape \(3,\)"):
+            call()
+
+
+@pytest.mark.parametrize(
+    ("sizes", "center", "sentence"),
+    [
+        ((1, 2, 1), (1, 2, 3), "the sizes: of shape"),
+        ((1, 2, 1, -1), (1, 2, 3), "d is -1.0; a semi-axis must be greater than 0"),
+        ((1, 2, 1, np.nan), (1, 2, 3), "d is nan; it must be finite"),
+        ((1, 2, 1, "1"), (1, 2, 3), "the sizes: of type <U"),
+        ((1, 2, 1, 1), ([1, 2], [1, 2, 3], 3), "x, y, z do not go together"),
+        ((1, 2, 1, 1), ([[1, 2]], 1, 3), r"x, y, z have shape \(1, 2\)"),
+        ((1, 2, 1, 1), (1, 2j, 3), "y: of type complex128"),
+        ((1, 2, 1, 1), (1, 2, 10**400), "z: of type object"),
+        ((1, 2, 1, 1), (True, 2, 3), "x: of type bool"),
+    ],
+)
+def test_a_scene_that_is_none_is_refused(sizes, center, sentence):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(InputError, match=sentence):
+            hypcheck.classify_scene(sizes, *center)
+
+
+def test_an_unknown_mode_is_refused():
+    with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
+        hypcheck.classify(ROWS, on_invalid="ignore")

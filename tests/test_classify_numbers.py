@@ -1,0 +1,79 @@
+"""What is a number in a table, and that the fast reading and the thorough one are the same."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_json, number_of_text, shown
+
+
+@pytest.mark.parametrize("text", ["1", "-2.5", "+.5", "5.", "1e3", "1E-3", " 1.0 ", "\t7", "007", "-1e-400", "1" * 400])
+def test_decimals_are_numbers(text):
+    assert is_number(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        " ",
+        "abc",
+        "1_0",
+        "0x10",
+        "１",
+        "٣",
+        "1,5",
+        "1 2",
+        "--1",
+        "1e",
+        "e5",
+        ".",
+        "1.2.3",
+        "1d5",
+        "½",
+        "1\n",
+        "\xa01",
+    ],
+)
+def test_nothing_else_is(text):
+    assert not is_number(text)
+    with pytest.raises(ValueError, match=r"^x is .*; it must be a"):
+        number_of_text("x", text)
+
+
+@given(st.text(CHARACTERS.decode(), max_size=12))
+def test_of_these_characters_float_accepts_the_same_texts(text):
+    """What the fast reading rests on: it looks at the characters only and leaves the grammar to float()."""
+    try:
+        float(text)
+    except ValueError:
+        assert not is_number(text)
+    else:
+        assert is_number(text)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_every_float_is_read_back_as_itself(value):
+    assert number_of_text("x", repr(value)) == value
+    assert number_of_json("x", json.loads(repr(value))) == value
+
+
+def test_more_digits_than_float64_holds_are_rounded_to_the_nearest():
+    assert number_of_text("x", "9007199254740993") == 2.0**53  # a tie, to even
+    assert number_of_text("x", "9007199254740993.0000000000000000000000001") == 2.0**53 + 2
+    assert number_of_json("x", 9007199254740995) == 2.0**53 + 4
+
+
+@pytest.mark.parametrize("value", [True, False, None, "1", [1], {"x": 1}])
+def test_json_values_that_are_no_numbers_are_refused_as_json_writes_them(value):
+    with pytest.raises(ValueError, match="it must be a number") as caught:
+        number_of_json("x", value)
+    assert str(caught.value).startswith(f"x is {json.dumps(value)};")
+
+
+def test_a_long_value_is_cut_in_a_message():
+    assert len(shown("a" * 10_000)) < 60

@@ -1,0 +1,188 @@
+"""However a run ends: the contracted status, one clear sentence, no traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from itertools import permutations
+
+import click
+import pytest
+
+from hypcheck.cli import commands, exits
+from hypcheck.cli.exits import Exit, ending_of, first_that_applies
+from hypcheck.cli.main import main
+from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, UnavailableError
+
+HYPCHECK = [sys.executable, "-m", "hypcheck"]
+PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
+TABLE = ["classify", "--input", "-", "--format", "csv"]
+
+
+def test_the_numbers_are_those_that_scripts_depend_on():
+    assert {code.name: int(code) for code in Exit} == {
+        "HELD": 0,
+        "WRONG": 1,
+        "USAGE": 2,
+        "SLOWER": 3,
+        "INCONCLUSIVE": 4,
+        "NOT_STARTED": 5,
+        "ORACLES_DISAGREE": 6,
+        "INTERNAL": 70,
+        "INTERRUPTED": 130,
+        "CLOSED_PIPE": 141,
+        "TERMINATED": 143,
+    }
+    assert all(code.meaning for code in Exit)
+
+
+def test_of_several_reasons_the_first_that_applies_is_told():
+    order = [130, 70, 2, 6, 5, 1, 3, 4, 0]
+    for first, second in permutations(order, 2):
+        assert first_that_applies([first, second]) == min(first, second, key=order.index)
+    assert first_that_applies([]) is Exit.HELD
+    assert first_that_applies(order) is Exit.INTERRUPTED
+    assert set(exits.PRECEDENCE) == set(Exit)
+
+
+@pytest.mark.parametrize("kind", [InputError, NothingJudgedError, UnavailableError, HypcheckError])
+def test_an_expected_error_is_its_own_sentence_and_code(kind):
+    ending = ending_of(kind("a.csv: what\nis wrong"))
+    assert ending.code == kind.exit_code
+    assert ending.lines == ("hypcheck: error: a.csv: what is wrong",)
+
+
+def test_no_message_commands_a_terminal():
+    assert ending_of(InputError("a\x1b[31m\udc80 α")).lines == ("hypcheck: error: a\\x1b[31m\\udc80 α",)
+
+
+def test_a_full_disk_is_no_fault_of_ours():
+    assert ending_of(OSError(28, "No space left on device")).code == Exit.USAGE
+    assert ending_of(OSError("something else")).code == Exit.INTERNAL
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["classify", "--fromat", "csv"], "--format"),
+        (["clasify"], "did you mean classify?"),
+        (["nothing-like-it"], "the commands are classify, verify"),
+        ([], "missing command"),
+        (["classify", "--center", "1", "2"], "--center"),
+        (["classify", "--format", "xml"], "'xml'"),
+        (["classify", "extra"], "extra"),
+    ],
+)
+def test_wrong_usage_is_one_sentence_and_where_to_look(arguments, sentence, capsys):
+    assert main(arguments) == Exit.USAGE
+    output, errors = capsys.readouterr()
+    message, hint = errors.splitlines()
+    assert output == ""
+    assert message.startswith("hypcheck: error: ")
+    assert sentence in message
+    assert "--help" in hint
+
+
+def broken(error: BaseException) -> click.Command:
+    """A command that fails so."""
+
+    @click.command()
+    def command() -> None:
+        raise error
+
+    return command
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "told"),
+    [
+        (ZeroDivisionError("division\nby zero"), 70, "internal error: ZeroDivisionError: division by zero\n"),
+        (AssertionError(), 70, "internal error: AssertionError\n"),
+        (SystemExit(3), 70, "internal error: SystemExit: 3\n"),
+        (KeyboardInterrupt(), 130, "interrupted\n"),
+        (click.Abort(), 130, "interrupted\n"),
+        (BrokenPipeError(), 141, ""),
+    ],
+)
+def test_any_other_error_ends_without_a_traceback(error, code, told, monkeypatch, capsys):
+    monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: broken(error))
+    assert main(["classify"]) == code
+    errors = capsys.readouterr().err
+    assert errors.startswith(f"hypcheck: {told}" if told else "")
+    assert bool(errors) is bool(told)
+    assert "Traceback" not in errors
+    assert ("please report it" in errors) is (code == 70)
+
+
+def test_debug_shows_the_traceback(monkeypatch, capsys):
+    monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: broken(ZeroDivisionError("by zero")))
+    assert main(["--debug", "classify"]) == Exit.INTERNAL
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_the_handler_of_termination_is_put_back():
+    before = signal.getsignal(signal.SIGTERM)
+    main(["--version"])
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+def test_a_command_may_end_with_a_code_of_its_own(monkeypatch, capsys):
+    @click.command()
+    @click.pass_context
+    def command(context: click.Context) -> None:
+        context.exit(4)
+
+    monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: command)
+    assert main(["classify"]) == Exit.INCONCLUSIVE
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"], ["--help"]])
+def test_a_closed_pipe_ends_quietly(arguments):
+    read, write = os.pipe()
+    os.close(read)
+    rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
+    done = subprocess.run([*HYPCHECK, *arguments], input=rows, stdout=write, stderr=subprocess.PIPE, check=False)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (Exit.CLOSED_PIPE, b"")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+@pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"]])
+def test_a_full_output_is_told_in_one_line(arguments):
+    rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([*HYPCHECK, *arguments], input=rows, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert done.returncode == Exit.USAGE
+    assert done.stderr.count(b"\n") == 1
+    assert b"no space left" in done.stderr
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupted_run_leaves_nothing_half_written(number, code, tmp_path):
+    target = tmp_path / "answers.csv"
+    target.write_text("what was there")
+    process = subprocess.Popen([*HYPCHECK, *TABLE, "--output", target], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert process.stdin is not None
+    row = b"1,2,1,1,2.5,0,0\n"
+    process.stdin.write(b"alpha,gamma,b,d,x,y,z\n" + row * 200_000)  # some are read, answered and written beside
+    process.stdin.flush()
+    deadline = time.monotonic() + 30
+    while len(os.listdir(tmp_path)) < 2 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert len(os.listdir(tmp_path)) == 2, "the file beside the target has not appeared"
+    process.send_signal(number)
+    _, errors = process.communicate()
+    assert process.returncode == code
+    assert errors.count(b"\n") == 1
+    assert os.listdir(tmp_path) == ["answers.csv"]
+    assert target.read_text() == "what was there"
+
+
+def test_a_terminal_without_greek_gets_its_answer():
+    environment = os.environ | {"PYTHONIOENCODING": "latin-1"}
+    done = subprocess.run([*HYPCHECK, *PAIR], env=environment, capture_output=True, check=True)
+    assert b"\\u03bb" in done.stdout

@@ -1,0 +1,70 @@
+"""What a command loads: nothing that its run does not use."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "importlib.metadata")
+PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
+
+
+def loaded(code: str) -> set[str]:
+    """Which of HEAVY a fresh interpreter holds after running `code`."""
+    report = f"import json, sys; {code}; print(json.dumps([n for n in {HEAVY!r} if n in sys.modules]), file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", report], capture_output=True, check=True)
+    return set(json.loads(done.stderr.splitlines()[-1]))
+
+
+def after(arguments: list[str]) -> set[str]:
+    return loaded(f"from hypcheck.cli.main import main; assert main({arguments!r}) == 0")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["classify", "--help"], ["verify", "--help"]])
+def test_help_and_version_load_nothing_heavy(arguments):
+    assert after(arguments) == set()
+
+
+def test_one_pair_needs_no_arrays():
+    assert after(PAIR) <= {"mpmath"}
+
+
+def test_importing_the_package_loads_nothing_heavy():
+    assert loaded("import hypcheck; hypcheck.__version__") == set()
+
+
+def test_using_the_package_loads_numpy_alone():
+    assert loaded("import hypcheck; hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]])") <= {"numpy", "importlib.metadata"}
+
+
+def test_a_public_name_is_found_and_no_other():
+    import hypcheck
+
+    assert {"classify", "classify_scene", "__version__"} <= set(dir(hypcheck))
+    assert callable(hypcheck.classify)
+    assert callable(hypcheck.classify_scene)
+    with pytest.raises(AttributeError, match="clasify"):
+        hypcheck.clasify  # noqa: B018 - the look-up is the test
+
+
+def test_the_module_and_the_script_are_the_same_program():
+    done = subprocess.run([sys.executable, "-m", "hypcheck", "--version"], capture_output=True, check=True, text=True)
+    import hypcheck
+
+    assert done.stdout == f"hypcheck {hypcheck.__version__}\n"
+
+
+def test_every_command_in_the_table_can_be_loaded_and_says_what_it_does():
+    import click
+
+    from hypcheck.cli.commands import COMMANDS, hypcheck
+
+    context = click.Context(hypcheck)
+    for name in COMMANDS:
+        command = hypcheck.get_command(context, name)
+        assert command is not None
+        assert command.name == name
+        assert command.get_short_help_str(200).endswith(".")

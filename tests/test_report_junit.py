@@ -1,0 +1,187 @@
+"""junit.xml is XML whatever names are in it, its numbers add up, and a failure is what fails the run."""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+
+from hypcheck.report.junit import render
+from hypcheck.report.text import visible
+from tests import report_samples as samples
+from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+
+
+def junit(*extra, exit_code=0, body=None):
+    return parsed(samples.record([*(samples.lines() if body is None else body), *extra], exit_code))
+
+
+def parsed(record):
+    return ElementTree.fromstring(render(record))  # noqa: S314 - it was written a moment ago
+
+
+def case(root, suite, name):
+    (found,) = [
+        each
+        for each in root.iterfind("testsuite/testcase")
+        if (each.get("classname"), each.get("name")) == (f"hypcheck.{suite}", name)
+    ]
+    return found
+
+
+def ended(root, tag):
+    return [(each.get("classname"), each.get("name")) for each in root.iterfind(f"testsuite/testcase[{tag}]")]
+
+
+def milliseconds(element):
+    return round(1000 * float(element.get("time")))
+
+
+@pytest.mark.parametrize(
+    "root",
+    [
+        junit(),
+        junit(DISAGREEMENT, UNPROVED, EXACT_WRONG, CRASHED, DRIFT, exit_code=6),
+        junit(exit_code=None),
+        junit(body=[], exit_code=70),
+    ],
+)
+def test_the_numbers_add_up(root):
+    for parent in (root, *root):
+        cases = list(parent.iter("testcase"))
+        assert int(parent.get("tests")) == len(cases) > 0
+        for tag, attribute in (("failure", "failures"), ("error", "errors"), ("skipped", "skipped")):
+            assert int(parent.get(attribute)) == len(list(parent.iter(tag)))
+        assert milliseconds(parent) == sum(map(milliseconds, cases))
+    assert {child.tag for child in root} == {"testsuite"}
+    assert len({suite.get("name") for suite in root}) == len(root)
+
+
+def test_times_are_seconds_to_the_millisecond():
+    root = junit()
+    assert case(root, "oracles.nearest", "ring").get("time") == "0.250"
+    assert root.get("time") == "1.000"
+    short = junit(body=[samples.oracle("exact", "ring", {"proved": 1}, seconds=0.0074)])
+    assert short.get("time") == "0.007"
+
+
+def test_names_are_not_repeated():
+    found = [(each.get("classname"), each.get("name")) for each in junit().iter("testcase")]
+    assert len(set(found)) == len(found)
+    assert ("hypcheck.proofs", "table-2: c2 (2)") in found
+
+
+def test_a_timestamp_has_no_offset():
+    assert all(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d", suite.get("timestamp")) for suite in junit())
+
+
+def test_what_the_papers_formulas_get_wrong_is_no_failure():
+    root = junit()
+    assert root.get("failures") == root.get("errors") == "0"
+    assert "misprint: the coefficient of λ² lacks" in case(root, "equations", "(12)").findtext("system-out")
+    wrong = case(root, "implementations.table-2-float32", "ring: wrong")
+    assert wrong.findtext("system-out").splitlines()[:2] == [
+        "6 of 20 cases",
+        "worst backward error: ∞ u, case ring/1/1/7",
+    ]
+    finding = case(root, "findings", "table-2 on ring, inside its stated regimes, cause: ring")
+    assert "the ring: Δ = 0 without contact" in finding.findtext("system-out")
+
+
+def test_what_was_not_asked_is_skipped():
+    assert ended(junit(), "skipped") == [
+        ("hypcheck.oracles.mesh", "available"),
+        ("hypcheck.implementations.table-2-float32", "ring: skipped"),
+        ("hypcheck.implementations.table-2-float64", "tower-body: skipped"),
+    ]
+    undecided = samples.oracle("mesh", "tangent", {"undecided": 4}, undecided=4)
+    assert ("hypcheck.oracles.mesh", "tangent") in ended(junit(undecided), "skipped")
+
+
+@pytest.mark.parametrize(
+    ("line", "suite", "name", "kind"),
+    [
+        (DISAGREEMENT, "oracles.nearest", "tangent", "disagreement"),
+        (UNPROVED, "proofs", "hessian: delta_3", "unproved"),
+        (EXACT_WRONG, "implementations.fast", "tangent: wrong", "wrong"),
+        (CRASHED, "implementations.theirs", "tangent: crash", "crash"),
+        (DRIFT, "findings", DRIFT["sentence"], "drift"),
+    ],
+)
+def test_what_fails_the_run_is_a_failure_and_the_only_one(line, suite, name, kind):
+    root = junit(line, exit_code=1)
+    assert ended(root, "failure") == [(f"hypcheck.{suite}", name)]
+    assert ended(root, "error") == []
+    assert case(root, suite, name).find("failure").get("type") == kind
+
+
+@pytest.mark.parametrize(("line", "suite"), [(DISAGREEMENT, "oracles.nearest"), (EXACT_WRONG, "implementations.fast")])
+def test_a_failure_says_how_to_look_at_it(line, suite):
+    (failure,) = junit(line, exit_code=1).iter("failure")
+    assert line["family"] == "tangent"
+    assert "case tangent/1/1/" in failure.text
+    assert "replay: hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0" in failure.text
+
+
+def test_every_disagreement_is_listed():
+    cases = [samples.disagreement("roots", f"tangent/1/1/{place}") for place in range(20)]
+    line = samples.oracle("roots", "tangent", {"signs suffice": 50}, cases=cases, disagreeing=33)
+    (failure,) = junit(line, exit_code=6).iter("failure")
+    assert failure.get("message").startswith("33 disagreements in 50 cases; first: ")
+    assert all(f"case {each['case']}: " in failure.text for each in cases)
+    assert "13 further cases, not kept in the record" in failure.text
+
+
+@pytest.mark.parametrize(
+    ("extra", "code", "kind"),
+    [
+        ((), None, "unfinished"),
+        ((), 130, "unfinished"),
+        ((UNPROVED,), 70, "unfinished"),
+        ((), 6, "unexplained"),
+        ((DRIFT,), 0, "unexplained"),
+    ],
+)
+def test_a_run_that_did_not_end_well_is_an_error(extra, code, kind):
+    (error,) = junit(*extra, exit_code=code).iter("error")
+    assert error.get("type") == kind
+    assert not junit(body=[]).findall("testsuite/testcase/failure")
+
+
+def test_a_run_that_asked_nothing_is_an_error():
+    (error,) = junit(body=[]).iter("error")
+    assert error.get("message").startswith("NOTHING")
+
+
+PLACES = (
+    "table-2-float32",
+    "ring",
+    "ring/1/1/7",
+    "the ring: Δ = 0 without contact",
+    "c2",
+    "python-fcl cannot be imported",
+    "double-double",
+    "the coefficient of λ² lacks − z_c²",
+    "contact, tangent: False, None",
+    "tangent",
+)
+
+
+@pytest.mark.parametrize("old", PLACES)
+@settings(max_examples=25)
+@given(foreign=samples.FOREIGN)
+def test_no_control_character_reaches_the_file(old, foreign):
+    failing = [DISAGREEMENT, UNPROVED, EXACT_WRONG, DRIFT]
+    changed = samples.rewritten([*samples.lines(), *failing], old, foreign)
+    content = render(samples.record(changed, 6)).decode("utf-8")
+    root = ElementTree.fromstring(content)  # noqa: S314
+    texts = [content, *(part for element in root.iter() for part in (element.text or "", *element.attrib.values()))]
+    assert all(character == "\n" or character.isprintable() for text in texts for character in text)
+
+
+@given(samples.FOREIGN)
+def test_a_name_comes_through(foreign):
+    root = parsed(samples.record(samples.rewritten(samples.lines(), "table-2-float32", foreign)))
+    assert visible(f"implementations.{foreign}") in [suite.get("name") for suite in root]

@@ -1,0 +1,147 @@
+"""map.svg shows every grid point in the colour of its position, and the wrong ones in theirs; always the same bytes."""
+
+from __future__ import annotations
+
+import builtins
+import os
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from matplotlib.colors import to_rgb
+
+from hypcheck.errors import UnavailableError
+from hypcheck.report import picture
+from tests import report_samples as samples
+
+
+def maps(body=None):
+    return samples.record(body).of("map")
+
+
+def of_figure(body=None):
+    with picture._style():
+        return picture.draw(maps(body))
+
+
+def test_it_is_svg_without_a_date():
+    content = picture.render(samples.record())
+    assert ElementTree.fromstring(content).tag == "{http://www.w3.org/2000/svg}svg"  # noqa: S314 - just written
+    assert b"<dc:date>" not in content
+    assert b"Matplotlib v" not in content
+
+
+def test_each_grid_point_has_its_colour():
+    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in picture.REGIONS.items()}
+    panels = [axes for axes in of_figure().axes if axes.images]
+    assert len(panels) == len(maps())
+    for axes, line in zip(panels, maps(), strict=True):
+        image = axes.images[0].get_array()
+        assert axes.images[0].origin == "lower"  # the first line is the lowest z
+        for up, text in enumerate(line["lines"]):
+            for across, letter in enumerate(text):
+                wanted = to_rgb(picture.WRONG) if letter.isupper() else colours[letter]
+                assert np.allclose(image[up, across], wanted)
+
+
+def test_a_grid_point_stands_where_its_coordinates_are():
+    tower, ring = (axes for axes in of_figure().axes if axes.images)
+    left, right, low, high = tower.images[0].get_extent()
+    assert np.allclose(
+        [left, right, low, high], [-4.25, 38.25, -26.7, 26.7]
+    )  # cells of 8.5 m by 17.8 m about 5 × 3 points
+    assert np.allclose(tower.collections[0].get_offsets(), [[25.5, 0.0]])
+    assert np.allclose(
+        sorted(map(tuple, ring.collections[0].get_offsets())), [(29.7, 0), (29.75, 0), (29.75, 0.05), (29.8, 0)]
+    )
+
+
+def test_axes_have_names_and_units_and_the_legend_has_everything():
+    figure = of_figure()
+    for axes in figure.axes:
+        assert "(m)" in axes.get_xlabel()
+        assert "(m)" in axes.get_ylabel()
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "exterior",
+        "contact",
+        "interior",
+        "hyperboloid",
+        "wrong answer of table-2-float32",
+    ]
+    figure.canvas.draw()
+    box = legend.get_window_extent()
+    assert not any(box.overlaps(axes.get_tightbbox()) for axes in figure.axes)
+
+
+def test_colours_differ_in_lightness():
+    """Whoever sees no colours, or prints without them, still tells them apart."""
+    lightness = sorted(
+        float(np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)))
+        for colour in (picture.WRONG, *(colour for _, colour in picture.REGIONS.values()))
+    )
+    assert min(np.diff(lightness)) > 0.11
+    assert lightness[1] - lightness[0] > 0.25  # what is wrong stands out
+
+
+def test_the_same_record_is_the_same_picture_in_every_process():
+    code = (
+        "import sys; from hypcheck.report import picture; from tests import report_samples as samples;"
+        "sys.stdout.buffer.write(picture.render(samples.record()))"
+    )
+    contents = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, check=True, capture_output=True
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert contents == {picture.render(samples.record())}
+
+
+def test_nobodys_settings_are_used_or_changed():
+    import matplotlib
+
+    with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red"}):
+        before = dict(matplotlib.rcParams)
+        assert picture.render(samples.record()) == PICTURE
+        assert dict(matplotlib.rcParams) == before
+
+
+PICTURE = picture.render(samples.record())
+
+
+def test_without_a_map_there_is_no_picture():
+    with pytest.raises(UnavailableError, match="has no map"):
+        picture.render(samples.record([]))
+
+
+def test_without_matplotlib_there_is_a_reason(monkeypatch):
+    imported = builtins.__import__
+
+    def without(name, *arguments, **options):
+        if name.partition(".")[0] == "matplotlib":
+            raise ImportError(f"No module named {name!r}")
+        return imported(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(UnavailableError) as caught:
+        picture.render(samples.record())
+    assert "matplotlib" in str(caught.value)
+    assert "hypcheck[report]" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_it_is_loaded_only_where_it_is_used():
+    code = "import sys, hypcheck.report.write; sys.exit('matplotlib' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@settings(max_examples=4)
+@given(foreign=samples.FOREIGN)
+def test_any_name_can_be_drawn(foreign):
+    body = samples.rewritten(maps(), "table-2-float32", f"${foreign}$ \\frac")
+    content = picture.render(samples.record(body))
+    ElementTree.fromstring(content)  # noqa: S314

@@ -1,0 +1,134 @@
+"""The published schemas say what is written: of the sample, of what a run really records, and of nothing else."""
+
+from __future__ import annotations
+
+import io
+import json
+from dataclasses import asdict, fields, replace
+from importlib import resources
+
+import pytest
+
+from hypcheck.bench.timing import Contender, measure
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.derivation.printed import EquationCheck
+from hypcheck.derivation.proofs import Proof
+from hypcheck.record import SCHEMA as RECORD_SCHEMA
+from hypcheck.record import Recorder, read
+from hypcheck.report import summary
+from hypcheck.verify import run
+from hypcheck.verify.plan import Plan
+from tests import report_samples as samples
+from tests.json_schema import violations
+
+
+def schema(name):
+    return json.loads(resources.files("hypcheck.report").joinpath("schemas", name).read_text(encoding="utf-8"))
+
+
+RECORD = schema(f"record-{RECORD_SCHEMA}.json")
+SUMMARY = schema(f"summary-{summary.SCHEMA}.json")
+
+
+def of_summary(record):
+    return json.loads(summary.render(record))
+
+
+def test_every_line_of_the_sample_fits():
+    text, _ = samples.text_and_record()
+    kinds = set()
+    for line in map(json.loads, text.splitlines()):
+        assert violations(line, RECORD, closed=True) == []
+        kinds.add(line["type"])
+    assert kinds == set(RECORD["$defs"]) - {"count", "counts", "error", "interval", "row", "bins", "drift"}
+
+
+@pytest.fixture(scope="module")
+def really_recorded():
+    """A small run of the oracles, the formulas, the methods and the map, without the slow derivation and timing."""
+    plan = Plan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
+    stream = io.StringIO()
+    recorder, outcome = Recorder(stream, run.options(plan)), run.Outcome()
+    for stage in run.stages(plan, recorder, outcome):
+        if stage.title not in ("derivation", "timing"):
+            stage.run(lambda steps: None)
+    recorder.close(outcome.exit_code)
+    return stream.getvalue()
+
+
+def test_what_a_run_records_fits(really_recorded):
+    lines = [json.loads(text) for text in really_recorded.splitlines()]
+    assert {"header", "oracle", "finding", "group", "map", "footer"} <= {line["type"] for line in lines}
+    for line in lines:
+        assert violations(line, RECORD, closed=True) == []
+
+
+def test_the_summary_of_what_a_run_records_fits(really_recorded, tmp_path):
+    path = tmp_path / "record.jsonl"
+    path.write_text(really_recorded, encoding="utf-8")
+    assert violations(of_summary(read(path)), SUMMARY, closed=True) == []
+
+
+@pytest.mark.parametrize(("kind", "type_"), [("equation", EquationCheck), ("proof", Proof)])
+def test_lines_of_the_derivation_have_the_fields_of_their_values(kind, type_):
+    assert set(RECORD["$defs"][kind]["required"]) == {field.name for field in fields(type_)} | {"type"}
+
+
+def test_a_timing_line_is_a_timing():
+    rows = FAMILIES["tower-body"].rows(1, 8)
+    contender = Contender("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
+    *_, (_, (timing,)) = measure([contender], rows, 2, shortest_s=1e-6)
+    line = {"type": "timing", "workload": "w", "median_ns": timing.median_ns, **json.loads(json.dumps(asdict(timing)))}
+    assert violations(line, RECORD, closed=True) == []
+
+
+def truncated_early():
+    """What is left of a run that was interrupted at once."""
+    return replace(samples.record([], exit_code=None), lines=())
+
+
+@pytest.mark.parametrize("record", [samples.record(), samples.record(exit_code=None), truncated_early()])
+def test_summaries_fit(record):
+    assert violations(of_summary(record), SUMMARY, closed=True) == []
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda found: found.pop("oracles"),
+        lambda found: found.update(exit_code="0"),
+        lambda found: found.update(schema="2.0.0"),
+        lambda found: found.update(passed=None),
+        lambda found: found["oracles"]["exact"].update(asked=-1),
+        lambda found: found["oracles"]["exact"]["stages"].update(proved="20"),
+        lambda found: found["equations"].pop("misprint"),
+        lambda found: found["implementations"][0].update(worst_backward_error_u="∞"),
+        lambda found: found["implementations"][0]["families"]["ring"].pop("wrong"),
+        lambda found: found["implementations"][0]["statuses"].update(right=0.5),
+        lambda found: found["timings"][0].update(median_ns=None),
+        lambda found: found.update(surprise=1),
+    ],
+)
+def test_a_spoilt_summary_does_not_fit(spoil):
+    found = of_summary(samples.record())
+    spoil(found)
+    assert violations(found, SUMMARY, closed=True)
+
+
+@pytest.mark.parametrize(
+    ("kind", "field", "value"),
+    [
+        ("oracle", "undecided", -1),
+        ("oracle", "asked", True),
+        ("finding", "first_row", ["0x1p+0"] * 6),
+        ("finding", "first_row", ["1.0"] * 7),
+        ("finding", "reason", 3),
+        ("group", "question", "where"),
+        ("map", "lines", ["exterior"]),
+        ("timing", "samples_ns", []),
+        ("proof", "type", "theorem"),
+    ],
+)
+def test_a_spoilt_line_does_not_fit(kind, field, value):
+    line = next(line for line in samples.lines() if line["type"] == kind)
+    assert violations({**line, field: value}, RECORD)

@@ -1,0 +1,80 @@
+"""The summary on the terminal is short, begins with the verdict, and cannot be used to write anything else there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+import pytest
+from hypothesis import given, settings
+
+from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
+from hypcheck.report.write import Written
+from tests import report_samples as samples
+from tests.test_report_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
+
+WRITTEN = [
+    Written(Path("out/summary.json")),
+    Written(Path("out/map.svg"), "no matplotlib"),
+    Written(Path("out/report.md")),
+]
+
+
+def shown(*extra, exit_code=0, body=None, colour=False):
+    lines = [*(samples.lines() if body is None else body), *extra]
+    return summary_lines(samples.record(lines, exit_code), WRITTEN, colour=colour)
+
+
+def test_a_run_that_held():
+    assert shown() == [
+        samples.HELD,
+        "oracles in agreement: exact 40 of 40, nearest 40 of 40, roots 3 of 5",
+        "oracles not available: mesh (python-fcl cannot be imported)",
+        "equations of the paper: 1 of 2 hold; misprint: (12)",
+        "proofs: 2 of 2 hold",
+        "wrong in exact arithmetic: 2 inside the stated regimes (ring), 1 outside",
+        "float32: 1 of 1 formula beyond the tolerance; farthest off: table-2-float32, ∞ u at ring/1/1/7",
+        "float64: 0 of 1 formula beyond the tolerance; farthest off: table-2-float64, 0 u at none",
+        "ns a row: fast path 80, plain numpy formula 100",
+        "reports in out/: summary.json, report.md",
+        "no map.svg: no matplotlib",
+    ]
+
+
+def test_failures_follow_the_verdict_with_their_cases():
+    lines = shown(DISAGREEMENT, UNPROVED, EXACT_WRONG, exit_code=6)
+    assert lines[0].startswith("FAILED with exit code 6: ")
+    said = "nearest: contact, tangent: False, None; exact decision: exterior, tangent: False, exterior"
+    assert lines[1] == f"  ✗ tangent/1/1/3: {said}"
+    assert lines[2] == "  ✗ hessian: not proved: it is 3Δ"
+    assert lines[3].startswith("  ✗ tangent/1/1/0: fast promises to be exact, but 1 of 5 cases ended wrong")
+
+
+def test_an_interrupted_run_says_so_first():
+    assert shown(exit_code=None)[0].startswith("TRUNCATED: ")
+
+
+def test_it_stays_short():
+    many = [samples.group(f"m-{name}", name, "ring", {"wrong": 1, "right": 2}) for name in "abcdefghijklmnop"]
+    lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6)
+    assert len(lines) == MOST_LINES == 25
+    assert lines[9] == "  ✗ … and 42 more failures"
+    assert lines[-2:] == ["reports in out/: summary.json, report.md", "no map.svg: no matplotlib"]
+    assert max(map(len, lines)) == WIDTH + 2  # and the two spaces before a failure
+
+
+@pytest.mark.parametrize("code", [0, 6, None])
+def test_colour_only_where_it_is_asked_for(code):
+    plain, coloured = shown(exit_code=code), shown(exit_code=code, colour=True)
+    assert not any("\x1b" in line for line in plain)
+    assert coloured[0].startswith("\x1b[32m" if code == 0 else "\x1b[31m")
+    assert list(map(click.unstyle, coloured)) == plain
+
+
+@pytest.mark.parametrize("old", ["table-2-float32", "ring/1/1/7", "python-fcl cannot be imported", "fast path", "ring"])
+@settings(max_examples=25)
+@given(foreign=samples.FOREIGN)
+def test_foreign_text_does_nothing_to_the_terminal(old, foreign):
+    changed = samples.rewritten([*samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
+    for line in summary_lines(samples.record(changed, 6), WRITTEN):
+        assert line.isprintable()

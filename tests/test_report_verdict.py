@@ -1,0 +1,154 @@
+"""The verdict says what the record's lines say: no more, and nothing that fails is lost."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.report.digest import implementations, oracle_totals, timing_totals
+from hypcheck.report.verdict import failures, verdict
+from tests import report_samples as samples
+
+
+def of(*extra, exit_code=0, body=None):
+    return samples.record([*(samples.lines() if body is None else body), *extra], exit_code)
+
+
+DISAGREEMENT = samples.oracle(
+    "nearest", "tangent", {"exact": 5}, cases=[samples.disagreement("nearest", "tangent/1/1/3")]
+)
+UNPROVED = {"type": "proof", "formula": "hessian", "quantity": "delta_3", "holds": False, "statement": "it is 3Δ"}
+EXACT_WRONG = samples.group(
+    "fast",
+    "float64",
+    "tangent",
+    {"right": 4, "wrong": 1},
+    [samples.worst("tangent/1/1/0", "wrong", 0.0, answer=1, truth=0, mistake="false-clear")],
+    exact=True,
+)
+EXACT_ABSTAINS = samples.group("fast", "float64", "tangent", {"abstained": 2, "right": 3}, exact=True)
+CRASHED = samples.group("theirs", "float32", "tangent", {"crash": 2, "right": 3})
+DRIFT = {"type": "drift", "sentence": "table-2 errs on uniform inside its stated regimes; see uniform/1/1/4"}
+TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no pass."
+
+
+def test_all_held():
+    found = verdict(of())
+    assert found.passed
+    assert found.sentence == samples.HELD
+    assert failures(of()) == []
+
+
+def test_one_oracle_alone_agrees_with_nobody():
+    body = [samples.oracle("exact", "ring", {"proved": 20})]
+    assert verdict(of(body=body)).sentence == "HELD: 20 cases asked of exact and of no other oracle."
+
+
+def test_what_the_papers_formulas_get_wrong_fails_nothing():
+    body = [line for line in samples.lines() if line["type"] in ("finding", "equation") or not line.get("exact", True)]
+    assert {line["type"] for line in body} == {"finding", "equation", "group"}
+    assert any("wrong" in line.get("counts", {}) for line in body)
+    assert verdict(of(body=body)).passed
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "says", "case"),
+    [
+        (DISAGREEMENT, 6, "1 disagreement of oracles", "tangent/1/1/3"),
+        (UNPROVED, 6, "1 failed proof", None),
+        (EXACT_WRONG, 1, "1 implementation failure", "tangent/1/1/0"),
+        (EXACT_ABSTAINS, 1, "1 implementation failure", None),
+        (CRASHED, 1, "1 implementation failure", None),
+        (DRIFT, 1, "1 drift from the known findings", None),
+    ],
+)
+def test_each_failure_is_named(line, code, says, case):
+    record = of(line, exit_code=code)
+    assert verdict(record).sentence == f"FAILED with exit code {code}: {says}."
+    assert not verdict(record).passed
+    (failure,) = failures(record)
+    assert failure.case == case
+    assert (failure.replay is None) == (case is None)
+
+
+def test_a_replay_line_is_the_command_that_decides_the_row():
+    (failure,) = failures(of(EXACT_WRONG))
+    assert failure.message.endswith("tangent/1/1/0 is contact, and the answer was 1")
+    assert failure.replay == "hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0"
+
+
+def test_several_failures_are_counted_worst_first():
+    record = of(DRIFT, EXACT_WRONG, UNPROVED, DISAGREEMENT, DISAGREEMENT, exit_code=6)
+    assert verdict(record).sentence == (
+        "FAILED with exit code 6: 2 disagreements of oracles, 1 failed proof, 1 implementation failure and"
+        " 1 drift from the known findings."
+    )
+
+
+def test_cases_that_the_record_did_not_keep_are_counted():
+    line = samples.oracle(
+        "roots", "tangent", {"signs suffice": 50}, cases=[samples.disagreement("roots")] * 20, disagreeing=33
+    )
+    assert "33 disagreements of oracles" in verdict(of(line, exit_code=6)).sentence
+    assert sum(failure.count for failure in failures(of(line))) == 33
+
+
+@pytest.mark.parametrize(
+    ("extra", "code", "sentence"),
+    [
+        ((), None, TRUNCATED),
+        (
+            (UNPROVED,),
+            None,
+            f"{TRUNCATED} What was finished has already failed: 1 failed proof.",
+        ),
+        ((), 130, "FAILED with exit code 130: interrupted."),
+        ((UNPROVED,), 130, "FAILED with exit code 130: interrupted; 1 failed proof."),
+        ((), 70, "FAILED with exit code 70: an internal error of hypcheck."),
+        ((), 6, "FAILED with exit code 6: the oracles or a proof contradict each other."),
+        ((), 3, "FAILED with exit code 3: no line of the record says why."),
+        ((UNPROVED,), 0, "CONTRADICTORY: the record ends with exit code 0, but holds 1 failed proof."),
+    ],
+)
+def test_no_other_end_is_a_pass(extra, code, sentence):
+    assert verdict(of(*extra, exit_code=code)).sentence == sentence
+    assert not verdict(of(*extra, exit_code=code)).passed
+
+
+def test_nothing_asked_is_no_pass():
+    assert verdict(samples.record([])).sentence == "NOTHING was asked and nothing was judged: this is no pass."
+    assert not verdict(samples.record([])).passed
+    skipped = [samples.group("fast", "float64", "ring", {"skipped": 9}, exact=True)]
+    assert not verdict(samples.record(skipped)).passed
+
+
+def test_an_oracles_counts_add_up():
+    refused = samples.disagreement("exact", opinion="certificate refused")
+    body = [
+        samples.oracle("exact", "ring", {"proved": 7, "certificate refused": 1}, undecided=1, cases=[refused]),
+        samples.oracle("exact", "tangent", {"proved": 4}),
+        samples.oracle("mesh", "ring", {"clear": 3, "undecided": 2}, undecided=2),
+    ]
+    exact, mesh = oracle_totals(samples.record(body))
+    assert (exact.asked, exact.agreed, exact.undecided, exact.disagreements) == (12, 11, 0, 1)
+    assert (mesh.asked, mesh.agreed, mesh.undecided, mesh.disagreements) == (5, 3, 2, 0)
+    assert exact.stages == {"certificate refused": 1, "proved": 11}
+
+
+def test_an_implementations_totals():
+    fast, low, high = implementations(samples.record())
+    assert (fast.name, fast.exact, fast.asked, fast.worst) == ("fast", True, 40, None)
+    assert (low.spec, low.asked) == ("builtin:table-2-float32", 39)
+    assert list(low.statuses.items()) == [("right", 28), ("tolerated", 5), ("wrong", 6), ("skipped", 1)]
+    assert low.mistakes == {"false-clear": 1, "false-contact": 10}
+    assert low.worst is not None
+    assert low.worst["case"] == "ring/1/1/7"  # inf is more than any number
+    assert (high.asked, high.statuses) == (20, {"right": 20, "skipped": 20})
+
+
+def test_a_ratio_is_taken_round_by_round():
+    fast, plain = timing_totals(samples.record())
+    assert plain.ratio == 1
+    assert fast.ratio == 0.5  # the median of 0.5, 0.9 and 0.4
+    assert (fast.least_ns, fast.median_ns, fast.greatest_ns) == (50, 80, 90)
+    alone = [line for line in samples.lines() if line.get("name") != "plain numpy formula"]
+    assert timing_totals(samples.record(alone))[0].ratio is None

@@ -1,0 +1,93 @@
+"""Reports are written whole or not at all, each on its own, and what cannot be made is said."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from hypcheck.errors import InputError, UnavailableError
+from hypcheck.record import read
+from hypcheck.report import junit, markdown, picture, summary
+from hypcheck.report.write import REPORTS, write_reports
+from tests import report_samples as samples
+
+FILES = {"summary.json", "junit.xml", "map.svg", "report.md"}
+
+
+def test_all_of_them(tmp_path):
+    record = samples.record()
+    written = write_reports(record, tmp_path / "a" / "b")
+    assert {each.path.name for each in written} == FILES == set(os.listdir(tmp_path / "a" / "b"))
+    assert {each.skipped for each in written} == {None}
+    contents = {each.path.name: each.path.read_bytes() for each in written}
+    assert contents == {
+        "summary.json": summary.render(record),
+        "junit.xml": junit.render(record),
+        "map.svg": picture.render(record),
+        "report.md": markdown.render(record, "map.svg"),
+    }
+    assert b"](map.svg)" in contents["report.md"]
+
+
+def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
+    text, record = samples.text_and_record()
+    path = tmp_path / "record.jsonl"
+    path.write_text(text, encoding="utf-8")
+    for name, report in REPORTS.items():
+        assert report.render(read(path), ()) == report.render(record, ()), name
+
+
+def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
+    text, _ = samples.text_and_record(exit_code=None)
+    path = tmp_path / "record.jsonl"
+    path.write_text(text, encoding="utf-8")
+    for each in write_reports(read(path), tmp_path):
+        assert each.skipped is None
+        if each.path.name != "map.svg":
+            assert "TRUNCATED" in each.path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("kept", range(len(samples.lines()) + 1))
+def test_wherever_it_was_interrupted(kept, tmp_path):
+    written = write_reports(samples.record(samples.lines()[:kept], exit_code=None), tmp_path)
+    has_map = any(line["type"] == "map" for line in samples.lines()[:kept])
+    assert [each.path.name for each in written if each.skipped] == ([] if has_map else ["map.svg"])
+
+
+def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
+    def unavailable(record):
+        raise UnavailableError("matplotlib is not here")
+
+    write_reports(samples.record(), tmp_path)
+    monkeypatch.setattr(picture, "render", unavailable)
+    written = {each.path.name: each.skipped for each in write_reports(samples.record(), tmp_path)}
+    assert written == {"summary.json": None, "junit.xml": None, "map.svg": "matplotlib is not here", "report.md": None}
+    assert set(os.listdir(tmp_path)) == FILES - {"map.svg"}  # the picture of an earlier run would be of another record
+    assert "map.svg" not in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path):
+    (tmp_path / "junit.xml").mkdir()
+    with pytest.raises(InputError, match=r"cannot write .*junit\.xml"):
+        write_reports(samples.record(), tmp_path)
+    assert not [name for name in os.listdir(tmp_path) if name.startswith(".")]
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match=r"cannot make the folder .*file"):
+        write_reports(samples.record(), tmp_path / "file" / "reports")
+
+
+def test_a_report_that_breaks_leaves_the_old_one(tmp_path, monkeypatch):
+    (tmp_path / "summary.json").write_text("old", encoding="utf-8")
+
+    def broken(record):
+        raise RuntimeError("a defect")
+
+    monkeypatch.setattr(summary, "render", broken)
+    with pytest.raises(RuntimeError):
+        write_reports(samples.record(), tmp_path)
+    assert (tmp_path / "summary.json").read_text(encoding="utf-8") == "old"
+    assert os.listdir(tmp_path) == ["summary.json"]

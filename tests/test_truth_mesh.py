@@ -1,0 +1,171 @@
+"""The mesh oracle against exact decisions in fractions, and against pairs whose distance is known."""
+
+from __future__ import annotations
+
+import math
+import sys
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hypcheck.errors import UnavailableError
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import mesh, mesh_refine
+from hypcheck.truth.mesh import Outcome, availability, verdict
+from tests.fractions_truth import everyday, exact_position, grown, near_contact_rows, rows_of, steps_at, tangent_rows
+
+pytest.importorskip("fcl", reason="python-fcl has no wheel here")
+
+
+def test_exact_position_of_this_file_on_witnesses():
+    ring, slipped, crossing = (
+        (1, 2, 1, 1, Fraction(5, 2), 0, 0),
+        (3, 3, 1, 1, 1, 0, 0),
+        (2, Fraction(1, 2), 1, 1, 4, 0, 0),
+    )
+    assert [exact_position(row) for row in (ring, slipped, crossing)] == [1, -1, 0]
+    assert [exact_position((4, 2, 1, 1, 5 + e, 0, 0)) for e in (Fraction(1, 10**9), 0, -Fraction(1, 10**9))] == [
+        1,
+        0,
+        0,
+    ]
+    assert [exact_position((1 + e, 1, 1, 1, 0, 0, 0)) for e in (Fraction(1, 10**9), 0)] == [-1, 0]
+
+
+@pytest.mark.parametrize(
+    ("row", "position"),
+    [
+        ((1, 2, 1, 1, 2.5, 0, 0), Position.EXTERIOR),  # Δ = 0 on the ring, clear by 1/2
+        ((7, 7, 1, 1, 10, 0, 0), Position.EXTERIOR),  # Δ = 0 on the ring, clear by 2
+        ((3, 3, 1, 1, 1, 0, 0), Position.INTERIOR),  # clear by 1 at the waist
+        ((4, 1, 1, 1, 1, 0, 0), Position.INTERIOR),
+        ((2, 0.5, 1, 1, 4, 0, 0), Position.CONTACT),  # crosses above and below, free at the waist
+        ((1, 0.25, 1, 1, 2, 0, 0.5), Position.CONTACT),
+        ((2, 17.8, 0.25, 0.15, 1.7, 0, 0), Position.INTERIOR),  # 0.05 from the tower's wall
+        ((2, 17.8, 0.25, 0.15, 1.8, 0, 0), Position.CONTACT),
+        ((2, 17.8, 0.25, 0.15, 2.2, 0, 0), Position.CONTACT),
+        ((2, 17.8, 0.25, 0.15, 2.3, 0, 0), Position.EXTERIOR),
+        ((1, 1, 1, 1, 1, 0, 0), Position.CONTACT),  # the centre is on the surface
+        ((1, 1, 10, 10, 0, 0, 0), Position.CONTACT),  # the waist is inside the spheroid
+    ],
+)
+def test_hand_checked_pairs(row, position):
+    assert verdict(Pair(*row)).position is position
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        (4, 2, 1, 1, 5, 0, 0),
+        (2, 1, 1, 1, 1, 0, 0),
+        (1, 1, 1, 1, 0, 0, 0),
+        (1, 1, 3, 1, 4, 1e-160, 0),
+        (4, 10, 1, 1, 3, 4, 1e-160),
+    ],
+)
+def test_a_tangency_or_less_than_float64_from_one_is_undecided(row):
+    found = verdict(Pair(*row))
+    assert found.outcome is Outcome.UNDECIDED
+    assert found.position is None
+    assert "within 7.1e-15 radii" in found.reason
+    assert found.lower <= 1 <= found.upper <= found.lower + 2**-46
+
+
+@settings(max_examples=300)
+@given(tangent_rows(steps_at(st.integers(3, 26))))
+def test_known_clearances_down_to_one_in_a_hundred_million_are_decided(known):
+    row, position = known
+    assert verdict(Pair(*row)).position == position
+
+
+@settings(max_examples=100)
+@given(tangent_rows(st.sampled_from([Fraction(1), Fraction(-1)])))
+def test_no_tangency_is_called_clear(known):
+    found = verdict(Pair(*known[0]))
+    assert found.outcome is not Outcome.CLEAR
+    assert found.lower <= 1
+
+
+def check_against_exact(row):
+    """The verdict is right or undecided, its bounds hold, and undecided means within 2⁻⁴⁶ of touching."""
+    row = Pair(*row).row
+    found = verdict(Pair(*row))
+    if found.outcome is Outcome.UNDECIDED:
+        assert exact_position(grown(row, 1 + Fraction(1, 2**46))) == 0
+        assert exact_position(grown(row, 1 - Fraction(1, 2**46))) != 0
+    else:
+        assert found.position == exact_position(row)
+    if found.lower > 0:
+        assert exact_position(grown(row, Fraction(found.lower) * (1 - Fraction(1, 2**60)))) != 0
+    if math.isfinite(found.upper):
+        assert exact_position(grown(row, Fraction(found.upper) * (1 + Fraction(1, 2**60)))) == 0
+
+
+@settings(max_examples=400)
+@given(rows_of(*everyday()))
+def test_everyday_rows(row):
+    check_against_exact(row)
+
+
+@settings(max_examples=300)
+@given(rows_of(*everyday(-1, 1)))
+def test_rows_of_like_sizes(row):
+    check_against_exact(row)
+
+
+@settings(max_examples=300)
+@given(
+    rows_of(
+        st.floats(min_value=5e-324, allow_infinity=False, allow_nan=False),
+        st.floats(allow_infinity=False, allow_nan=False),
+    )
+)
+def test_any_valid_row(row):
+    check_against_exact(row)
+
+
+@pytest.mark.parametrize("sizes", [(5e-324, 1.7e308, 1.7e308, 5e-324), (1.7e308, 5e-324, 5e-324, 1.7e308)])
+@pytest.mark.parametrize("center", [(1.7e308, 0, 0), (5e-324, 0, 5e-324), (0, 0, 1.7e308), (1, 1, 1)])
+def test_the_most_extreme_rows(sizes, center):
+    check_against_exact((*sizes, *center))
+
+
+def test_near_contact_is_decided_and_right():
+    rows = near_contact_rows(500)
+    assert [verdict(Pair(*row)).position for row, _ in rows] == [position for _, position in rows]
+    assert {position for _, position in rows} == {-1, 0, 1}
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
+)
+def test_where_fcl_says_otherwise_the_verdict_is_undecided(monkeypatch, row, said):
+    assert verdict(Pair(*row)).outcome is not Outcome.UNDECIDED
+    monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: said)
+    found = verdict(Pair(*row))
+    assert found.outcome is Outcome.UNDECIDED
+    assert "FCL" in found.reason
+    assert found.triangles > 0
+
+
+def test_too_many_open_cells_are_a_reason_not_an_endless_search(monkeypatch):
+    monkeypatch.setattr(mesh_refine, "MOST_CELLS", 100)
+    found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
+    assert found.outcome is Outcome.UNDECIDED
+    assert "too many cells" in found.reason
+
+
+def test_surface_out_of_reach_needs_no_mesh():
+    found = verdict(Pair(1, 1, 1, 1, 100, 0, 0))
+    assert (found.position, found.levels, found.triangles, found.lower, found.upper) == (1, 0, 0, 1.25, math.inf)
+
+
+def test_without_fcl_the_oracle_says_why(monkeypatch):
+    assert availability() is None
+    monkeypatch.setitem(sys.modules, "fcl", None)
+    assert "python-fcl cannot be imported" in availability()
+    with pytest.raises(UnavailableError, match="not available: python-fcl"):
+        verdict(Pair(1, 1, 1, 1, 0, 0, 0))

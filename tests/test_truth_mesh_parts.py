@@ -1,0 +1,104 @@
+"""What the mesh oracle stands on: cells that shut the arc in, a window that loses nothing, FCL on a ribbon."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from hypcheck.pairs import Pair
+from hypcheck.truth.mesh_cells import bounds_of, cell_of, halves
+from hypcheck.truth.mesh_fcl import distance_to_mesh, ribbon
+from hypcheck.truth.mesh_window import REACH, UNIT, meridian_of, window_of
+from tests.fractions_truth import everyday, rows_of
+
+
+@settings(max_examples=200)
+@given(rows_of(*everyday(-3, 3)), st.integers(0, 12), st.integers(0, 4095))
+def test_cells_are_one_sided_and_their_triangle_holds_the_arc(row, level, path):
+    meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))
+    window = window_of(meridian)
+    assume(window is not None)
+    cell = cell_of(meridian, *window)
+    for depth in range(level):
+        cell = halves(meridian, cell)[path >> depth & 1]
+    a, c, e, f = meridian.a, meridian.c, Fraction(cell.low, meridian.one), Fraction(cell.high, meridian.one)
+    p, q, corner = ((a * (g * h + 1) / (g + h), c * (g * h - 1) / (g + h)) for g, h in ((e, e), (f, f), (e, f)))
+    for point, seen in ((p, cell.start), (q, cell.end), (corner, cell.corner)):
+        center = (abs(Fraction(row[4])) / Fraction(row[2]), abs(Fraction(row[6])) / Fraction(row[3]))
+        known = Fraction(1, 2**53) + Fraction(1, 2**96)  # one rounding, and the centre to 2⁻⁹⁶
+        assert all(abs(s - (v - w)) <= known for s, v, w in zip(seen, point, center, strict=True))
+        assert max(map(abs, seen)) <= 1.25 + 2**-50
+
+    def level_of(point):
+        return point[0] ** 2 / a**2 - point[1] ** 2 / c**2 - 1
+
+    def between(s, t, share):
+        return tuple(v + share * (w - v) for v, w in zip(s, t, strict=True))
+
+    assert level_of(p) == level_of(q) == 0
+    for share in (Fraction(1, 7), Fraction(1, 2), Fraction(5, 6)):
+        assert level_of(between(p, q, share)) >= 0
+        assert level_of(between(p, corner, share)) <= 0
+        assert level_of(between(corner, q, share)) <= 0
+
+
+@settings(max_examples=200)
+@given(rows_of(*everyday(-3, 3)), st.fractions(0, 1))
+def test_nothing_within_reach_is_left_out_of_the_window(row, share):
+    meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))
+    center = (abs(Fraction(row[4])) / Fraction(row[2]), abs(Fraction(row[6])) / Fraction(row[3]))
+    window = window_of(meridian)
+    reach = Fraction(REACH, UNIT)
+
+    def within(e):
+        point = (meridian.a * (e + 1 / e) / 2, meridian.c * (e - 1 / e) / 2)
+        return all(abs(v - w) <= reach for v, w in zip(point, center, strict=True))
+
+    if window is None:
+        first, last = Fraction(1), 2 * (center[0] + reach) / meridian.a + 1
+        assert not within(first + share * (last - first))
+    else:
+        first, last = (Fraction(e, meridian.one) for e in window)
+        assert first == 1 or not within(1 + share * (first - 1))
+        assert not within(last + share)
+
+
+@settings(max_examples=200)
+@given(
+    st.lists(st.tuples(*[st.floats(-1.25, 1.25)] * 2).map(tuple), min_size=2, max_size=20),
+    st.sampled_from([1.0, 1e-4, 1e-9]),
+)
+def test_fcl_measures_a_ribbon_as_exact_arithmetic_does(points, scale):
+    pytest.importorskip("fcl", reason="python-fcl has no wheel here")
+    about = points[0]
+    corners = [about, *((about[0] + scale * (u - about[0]), about[1] + scale * (v - about[1])) for u, v in points[1:])]
+    segments = [pair for pair in pairwise(corners) if math.dist(*pair) > 1e-150]
+    assume(segments)
+
+    def squared(segment):
+        (px, pz), (qx, qz) = (tuple(map(Fraction, end)) for end in segment)
+        ex, ez = qx - px, qz - pz
+        s = min(max(-(px * ex + pz * ez) / (ex * ex + ez * ez), Fraction(0)), Fraction(1))
+        return (px + s * ex) ** 2 + (pz + s * ez) ** 2
+
+    assert distance_to_mesh(*ribbon(segments)) == pytest.approx(
+        math.sqrt(min(map(squared, segments))), rel=0, abs=1e-14
+    )
+
+
+def test_segments_without_length_reach_fcl_as_nothing():
+    vertices, triangles = ribbon([((0.5, 0.5), (0.5, 0.5))])
+    assert len(vertices) == len(triangles) == 0
+    assert distance_to_mesh(vertices, triangles) == math.inf
+
+
+def test_bounds_of_a_cell_around_the_centre_claim_nothing():
+    meridian = meridian_of(Pair(1, 1, 1, 1, 1.01, 0, 0))
+    found = bounds_of(cell_of(meridian, *window_of(meridian)), outside=True)
+    assert found.lower < 0.02
+    assert found.upper > 0

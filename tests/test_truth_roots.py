@@ -1,0 +1,270 @@
+"""The oracle by roots: what it says of witnesses worked out by hand, of prescribed roots, and when it is sabotaged."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+import sympy
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import roots as oracle
+from hypcheck.truth import roots_isolation as isolation
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients
+
+# Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
+# (λ + A)(λ² − (B + Q − 1) λ − B): roots, places and kinds below follow by hand.
+WITNESSES = [
+    ((3, 3, 1, 1, 1, 0, 0), Kind.INTERIOR),  # λ² + 9λ + 9: −7.9 and −1.1, −A = −9
+    ((3, 3, 1, 1, 0, 0, 1), Kind.INTERIOR),  # −9 = −A, and λ² − 9λ − 9: −0.9
+    ((3, 3, 1, 1, 2, 0, 0), Kind.INTERIOR_TANGENT_POINT),  # reaches (3, 0, 0): (λ + 3)²
+    ((1, 1, 1, 1, 0, 0, 0), Kind.INTERIOR_TANGENT_CIRCLE),  # fits the throat: λ² − 1, −A = −1
+    ((2, 4, 3, 3, 0, 0, 5), Kind.INTERIOR_TANGENT_CIRCLE),  # Q = (1 − A)(A + B)/A = 25/9
+    ((0.25, 1, 1, 1, 0.5, 0, 0), Kind.CROSSING_THROAT_TWO_CURVES),  # λ² + 13/16 λ + 1/16: −0.73, −0.09; −A = −1/16
+    ((0.5, 1, 1, 1, 0, 0, 0), Kind.CROSSING_THROAT_TWO_CURVES),  # −1 below −A = −1/4
+    ((0.5, 1, 1, 1, 0.5, 0, 0), Kind.CROSSING_THROAT_NODE),  # reaches (−1/2, 0, 0): (λ + 1/2)², −A = −1/4
+    ((1, 1, 1, 1, 1, 0, 0), Kind.CROSSING_ONE_CURVE),  # λ³ − 1
+    ((1, 8, 1, 1, 4, 0, 0), Kind.EXTERIOR),  # λ² − 14λ + 1: 0.07 and 13.9 below B = 64
+    ((1, 1, 1, 1, 4, 0, 0), Kind.EXTERIOR),  # the same, 13.9 above B = 1
+    ((1, 2, 1, 1, 2.5, 0, 0), Kind.EXTERIOR_RING),  # λ² − 17/4 λ + 1: 1/4 and 4 = B
+    ((7, 7, 1, 1, 6, 8, 0), Kind.EXTERIOR_RING),  # λ² − 50λ + 49: 1 and 49 = B
+    ((1, 2, 1, 1, 2, 0, 0), Kind.EXTERIOR_TANGENT_POINT),  # reaches (1, 0, 0): (λ − 1)², B = 4
+    ((1, 0.5, 1, 1, 2.5, 0, 0), Kind.EXTERIOR_TANGENT_TWO_POINTS),  # (2, 0, ±√3/4) at distance 1; 1/4 = B and 4
+    ((4, 2, 1, 1, 5, 0, 0), Kind.EXTERIOR_TANGENT_OSCULATING),  # (λ − 4)³, B = 4
+    ((2, 0.5, 1, 1, 4, 0, 0), Kind.CROSSING_GROOVE_TWO_CURVES),  # λ² − 11λ + 4: 0.38 and 10.6 above B = 1/4
+    ((4, 1, 1, 1, 5, 0, 0), Kind.CROSSING_GROOVE_NODE),  # (λ − 4)² above B = 1
+    # Off the axes, from the double root m and the third root n = A B/m² (P = (A + m)²(A + n)/(A(A + B)) and so on):
+    ((51, 6, 27, 9, 74, 0, 4), Kind.CROSSING_GROOVE_ISOLATED_POINT),  # B = 4/9, m = 1, n = 1156/729
+    ((5, 4, 3, 7, 3, 7, 3), Kind.CROSSING_GROOVE_NODE),  # B = 16/49, m = 4/3, n = 25/49
+    ((1, 1, 27, 27, 4, 22, 16), Kind.CROSSING_GROOVE_CUSP),  # A = B = 1/729, m = n = 1/81
+]
+
+
+@pytest.mark.parametrize(("row", "kind"), WITNESSES)
+def test_witness(row, kind):
+    report = classify_by_roots(Pair.from_row(row))
+    assert report.kind is kind
+    assert report.position is kind.position
+    assert report.tangent is kind.tangent
+
+
+def test_every_kind_has_a_witness():
+    assert {kind for _, kind in WITNESSES} == set(Kind)
+
+
+@pytest.mark.parametrize(("row", "kind"), WITNESSES)
+def test_units_do_not_matter(row, kind):
+    """Each group of lengths has its own unit (Theorem 1): also one that makes squares underflow or overflow."""
+    alpha, gamma, b, d, x, y, z = row
+    for radial, axial in ((2.0**-1060, 2.0**1000), (2.0**1000, 2.0**-1060)):
+        scaled = (alpha * radial, gamma * axial, b * radial, d * axial, x * radial, y * radial, z * axial)
+        assert classify_by_roots(Pair.from_row(scaled)).kind is kind
+
+
+def test_the_cubic_is_that_of_the_pencil():
+    """det(λH + S) = (A + λ) g(λ)/(A² B), the matrices written out with the centre at azimuth 0."""
+    lam = sympy.Symbol("lambda")
+    for numbers in (("4", "9", "5", "2"), ("1/4", "3", "0", "7/5"), ("2", "1/3", "9/2", "0")):
+        A, B, r, z = map(sympy.Rational, numbers)
+        pair = Invariants(*map(Fraction, numbers[:2]), *(Fraction(number) ** 2 for number in numbers[2:]))
+        hyperboloid = sympy.diag(1 / A, 1 / A, -1 / B, -1)
+        sphere = sympy.Matrix([[1, 0, 0, -r], [0, 1, 0, 0], [0, 0, 1, -z], [-r, 0, -z, r**2 + z**2 - 1]])
+        pencil = sympy.Poly((lam * hyperboloid + sphere).det() * A**2 * B, lam)
+        g = sympy.Poly(coefficients(pair), lam)
+        assert g.LC() > 0
+        assert (pencil - sympy.Poly(A + lam, lam) * g.monic()).is_zero
+
+
+small = st.builds(Fraction, st.integers(1, 40), st.integers(1, 12))
+
+
+@st.composite
+def prescribed(draw):
+    """Invariants with three rational roots chosen beforehand, many of them at −A or B, repeated, or close together.
+
+    A monic cubic with roots of product A B has g(0) = −A B; it is the g of P = −g(−A)/(A (A + B)) and
+    Q = −g(B)/(B (A + B)) whenever these are ≥ 0.
+    """
+    B = draw(small)
+    A = draw(st.one_of(small, st.just(Fraction(1)), st.just(B**2), small.map(lambda x: x / 40)))
+    somewhere = st.one_of(
+        st.sampled_from([-A, B]),
+        small.map(lambda x: -A * x / 10),
+        small.map(lambda x: B * x / 10),
+    )
+    first = draw(somewhere)
+    close = st.sampled_from([first, first * (1 + Fraction(1, 2**60)), first * (1 + Fraction(1, 10**40))])
+    second = draw(st.one_of(somewhere, close))
+    roots = sorted((first, second, A * B / (first * second)))
+    g_at = [(x - roots[0]) * (x - roots[1]) * (x - roots[2]) for x in (-A, B)]
+    P, Q = -g_at[0] / (A * (A + B)), -g_at[1] / (B * (A + B))
+    assume(P >= 0)
+    assume(Q >= 0)
+    return Invariants(A, B, P, Q), roots
+
+
+@given(prescribed())
+def test_prescribed_roots_are_found(case):
+    """Each root lies in its own enclosure, with its multiplicity, in its place."""
+    pair, roots = case
+    report = classify_invariants(pair)
+    distinct = sorted(set(roots))
+    assert len(report.roots) == len(distinct)
+    assert not report.complex_pair
+    for found, root in zip(report.roots, distinct, strict=True):
+        assert found.lower < root < found.upper or found.lower == root == found.upper
+        assert found.multiplicity == roots.count(root)
+        marks = [root < -pair.A, root == -pair.A, -pair.A < root < 0, 0 < root < pair.B, root == pair.B, root > pair.B]
+        assert list(oracle.Place).index(found.place) == marks.index(True)
+    for left, right in pairwise(report.roots):
+        assert left.upper <= right.lower
+    for found in report.roots:
+        assert (found.upper - found.lower) * 2**30 <= min(abs(found.lower), abs(found.upper))
+
+
+integers = st.integers(-(10**6), 10**6)
+nonzero = integers.filter(bool)
+
+
+@given(st.one_of(st.tuples(nonzero, integers, nonzero), st.tuples(nonzero, integers, integers, nonzero)))
+def test_isolation_of_any_polynomial(f):
+    """Also of those that are no g: the enclosures are proved, and as many as another algebra counts roots."""
+    polynomial = sympy.Poly(f, sympy.Symbol("x"))
+    assert isolation.discriminant(f) == polynomial.discriminant()
+    assume(polynomial.discriminant() != 0)
+    found = isolation.isolate(f, ())
+    isolation.prove(f, found)
+    assert len(found) == polynomial.count_roots()
+
+
+@pytest.mark.parametrize(
+    ("f", "intervals"),
+    [
+        ((1, 0, 0, -1), []),  # λ³ − 1 has the root 1
+        ((1, 0, -2), []),  # λ² − 2 has two roots,
+        ((1, 0, -2), [(1, 2)]),  # not one
+        ((1, 0, -2), [(-2, -1), (Fraction(3, 2), 2)]),
+        ((1, 0, -2), [(-2, -1), (2, 1)]),
+        ((1, 0, -4), [(-2, -2), (3, 3)]),
+        ((1, 0, -4), [(2, 2), (2, 2)]),
+        ((1, 0, -4), [(2, 2), (-2, -2)]),
+        ((1, -6, 11, -6), [(0, 4)]),  # 1, 2, 3
+        ((1, -4, 5, -2), [(0, 3)]),  # 1, 1, 2
+    ],
+)
+def test_what_is_not_proved_is_refused(f, intervals):
+    with pytest.raises(AssertionError, match="enclosure"):
+        isolation.prove(f, [(Fraction(lower), Fraction(upper)) for lower, upper in intervals])
+
+
+def test_a_triple_root_is_exact():
+    (root,) = classify_by_roots(Pair(4.0, 2.0, 1.0, 1.0, 3.0, 4.0, 0.0)).roots
+    assert (root.lower, root.upper, root.multiplicity) == (4, 4, 3)
+
+
+def test_a_hair_from_tangency():
+    """(1,1,3,1) at x = 4 touches; y = 1e-160 lifts it off, and the two roots are about 1e-160 apart."""
+    assert classify_by_roots(Pair(1, 1, 3, 1, 4, 0, 0)).kind is Kind.EXTERIOR_TANGENT_POINT
+    for y in (1e-160, 5e-324):
+        report = classify_by_roots(Pair(1, 1, 3, 1, 4, y, 0))
+        assert report.kind is Kind.EXTERIOR
+        assert report.roots[0].upper <= report.roots[1].lower
+        assert report.roots[1].upper - report.roots[0].lower < 3 * y
+
+
+@pytest.mark.parametrize(
+    ("row", "literal", "kinds"),
+    [
+        ((0.5, 1, 1, 1, 0, 0, 2), None, {Kind.INTERIOR, Kind.CROSSING_THROAT_TWO_CURVES}),
+        ((0.25, 1, 1, 1, 0.5, 0, 0), None, {Kind.INTERIOR, Kind.CROSSING_THROAT_TWO_CURVES}),
+        ((2, 1, 1, 1, 4, 0, 0), None, {Kind.EXTERIOR, Kind.CROSSING_GROOVE_TWO_CURVES}),
+        ((2, 0.5, 1, 1, 4, 0, 0), None, {Kind.EXTERIOR, Kind.CROSSING_GROOVE_TWO_CURVES}),
+        ((1, 2, 1, 1, 2.5, 0, 0), None, {Kind.EXTERIOR_RING, Kind.EXTERIOR_TANGENT_POINT}),
+        ((1, 2, 1, 1, 2, 0, 0), None, {Kind.EXTERIOR_RING, Kind.EXTERIOR_TANGENT_POINT}),
+        ((3, 3, 1, 1, 1, 0, 0), Position.INTERIOR, {Kind.INTERIOR}),
+        ((1, 8, 1, 1, 4, 0, 0), Position.EXTERIOR, {Kind.EXTERIOR}),
+        ((1, 1, 1, 1, 1, 0, 0), Position.CONTACT, {Kind.CROSSING_ONE_CURVE}),
+        ((3, 3, 1, 1, 2, 0, 0), Position.CONTACT, {Kind.INTERIOR_TANGENT_POINT}),
+    ],
+)
+def test_literal_reading(row, literal, kinds):
+    """Signs and multiplicities alone: ambiguous for a < 1, for c² < a, and for a double positive root when c² > a."""
+    report = classify_by_roots(Pair.from_row(row))
+    assert report.literal is literal
+    assert set(report.literal_kinds) == kinds
+
+
+ROW = (1, 0.25, 1, 1, 2, 0, 0.5)  # three roots above B
+EXTREME = (1e-300, 1e-300, 5e-324, 3e299, 1e300, 7e-310, 1e200)  # three roots, coefficients of 10,000 bits
+
+
+def _shifted(f, cuts):
+    return [(upper, 2 * upper - lower) for lower, upper in isolation.isolate(f, cuts)]
+
+
+def _one_missing(f, cuts):
+    return isolation.isolate(f, cuts)[1:]
+
+
+def _merged(f, cuts):
+    found = isolation.isolate(f, cuts)
+    return [(found[0][0], found[-1][1])]
+
+
+def _one_twice(f, cuts):
+    found = isolation.isolate(f, cuts)
+    return [found[0], *found[:-1]]
+
+
+def _beyond_its_place(f, cuts):
+    """Enclosures that are right but reach over 0, where the sign of f at −1 and 0 is the same."""
+    return [(Fraction(-1), isolation.isolate(f, cuts)[0][1]), *isolation.isolate(f, cuts)[1:]]
+
+
+@pytest.mark.parametrize("row", [ROW, EXTREME])
+@pytest.mark.parametrize("sabotage", [_shifted, _one_missing, _merged, _one_twice])
+def test_wrong_enclosures_are_never_believed(monkeypatch, row, sabotage):
+    monkeypatch.setattr(oracle, "isolate", sabotage)
+    with pytest.raises(AssertionError, match=r"enclosure.* for Pair\(alpha="):
+        classify_by_roots(Pair.from_row(row))
+
+
+def test_an_enclosure_must_have_one_place(monkeypatch):
+    monkeypatch.setattr(oracle, "isolate", _beyond_its_place)
+    with pytest.raises(AssertionError, match="0 or B lies inside"):
+        classify_by_roots(Pair.from_row(ROW))
+
+
+@pytest.mark.parametrize("row", [row for row, kind in WITNESSES if kind.tangent or "node" in kind.value])
+def test_a_repeated_root_overlooked_is_never_believed(monkeypatch, row):
+    """Unless −A or B, tried anyway, is that root: then the answer is right without the gcd."""
+    expected = classify_by_roots(Pair.from_row(row))
+    monkeypatch.setattr(oracle, "_repeated_root", lambda g: [])
+    if any(root.multiplicity > 1 and root.place.value in ("−A", "B") for root in expected.roots):
+        assert classify_by_roots(Pair.from_row(row)) == expected
+    else:
+        with pytest.raises(AssertionError, match="enclosure"):
+            classify_by_roots(Pair.from_row(row))
+
+
+def test_a_wrong_multiplicity_is_never_believed(monkeypatch):
+    right = oracle._divided_by_known_roots
+
+    def wrong(g, candidates):
+        known, rest = right(g, candidates)
+        return {x: 3 - multiplicity for x, multiplicity in known.items()}, rest
+
+    monkeypatch.setattr(oracle, "_divided_by_known_roots", wrong)
+    with pytest.raises(AssertionError, match="multiply to g"):
+        classify_by_roots(Pair(1, 2, 1, 1, 2.5, 0, 0))
+
+
+def test_an_unlisted_or_impossible_pattern_is_an_error(monkeypatch):
+    for table in ({}, {">B >B >B": Kind.EXTERIOR_RING}):
+        monkeypatch.setattr(oracle, "KIND_OF", table)
+        with pytest.raises(AssertionError, match=r"not possible: >B >B >B, for Pair\(alpha=1.0"):
+            classify_by_roots(Pair.from_row(ROW))

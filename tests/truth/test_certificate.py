@@ -1,0 +1,84 @@
+"""A certificate that does not prove its claim is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.prove import prove
+from tests.strategies import pairs
+
+RING = Pair(1, 2, 1, 1, 2.5, 0, 0)
+TOUCHING = Pair(2, 5, 1, 1, 3, 0, 0)
+ON_SURFACE = Pair(1, 1, 1, 1, 1, 0, 0)
+CROSSING = Pair(2, 5, 1, 1, 2.5, 0, 0)
+
+
+def _point(*values: float) -> tuple[Fraction, Fraction, Fraction]:
+    x, y, z = map(Fraction, values)
+    return (x, y, z)
+
+
+@pytest.mark.parametrize(
+    ("pair", "certificate"),
+    [
+        (RING, Certificate(Position.EXTERIOR, multiplier=Fraction(2))),
+        (TOUCHING, Certificate(Position.CONTACT, double_root=Fraction(2))),
+        (TOUCHING, Certificate(Position.CONTACT, points=(_point(2, 0, 0),))),
+        (ON_SURFACE, Certificate(Position.CONTACT, points=(_point(1, 0, 0),))),
+        (CROSSING, Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(3.5, 0, 0)))),
+    ],
+)
+def test_a_proof_by_hand_is_accepted(pair, certificate):
+    assert check_certificate(pair, certificate)
+
+
+@pytest.mark.parametrize(
+    ("pair", "certificate", "flaw"),
+    [
+        (RING, Certificate(Position.EXTERIOR), "no witness at all"),
+        (RING, Certificate(Position.EXTERIOR, multiplier=Fraction(4)), "λ at the pole B"),
+        (RING, Certificate(Position.EXTERIOR, multiplier=Fraction(9)), "g > 0, but beyond B"),
+        (RING, Certificate(Position.EXTERIOR, multiplier=Fraction(1, 8)), "g < 0"),
+        (RING, Certificate(Position.INTERIOR, multiplier=Fraction(2)), "the other side's interval"),
+        (
+            RING,
+            Certificate(Position.CONTACT, double_root=Fraction(4)),
+            "the ring: a double root at B that is no tangency",
+        ),
+        (TOUCHING, Certificate(Position.CONTACT, double_root=Fraction(3)), "no root"),
+        (TOUCHING, Certificate(Position.CONTACT), "no points"),
+        (CROSSING, Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(1.6, 0, 0))), "one side only"),
+        (
+            CROSSING,
+            Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(3.75, 0, 0))),
+            "outside the spheroid",
+        ),
+    ],
+)
+def test_a_flawed_proof_is_refused(pair, certificate, flaw):
+    assert not check_certificate(pair, certificate), flaw
+
+
+@given(pairs)
+def test_a_proof_of_one_position_proves_no_other(pair):
+    certificate = prove(pair)
+    for position in Position:
+        if position is not certificate.position:
+            assert not check_certificate(pair, replace(certificate, position=position))
+
+
+def test_a_double_root_outside_the_poles_is_no_tangency():
+    """a = 1/2, c = 1: a double root below −A is a crossing with a node (r² and z² from the root m = −1/2, n = 1)."""
+    A, B, m = Fraction(1, 4), Fraction(1), Fraction(-1, 2)
+    n = A * B / m**2
+    P = (A + m) ** 2 * (A + n) / (A * (A + B))
+    Q = (B - m) ** 2 * (n - B) / (B * (A + B))
+    assert (P, Q) == (Fraction(1, 4), 0)
+    node = Pair(0.5, 1, 1, 1, 0.5, 0, 0)
+    assert not check_certificate(node, Certificate(Position.CONTACT, double_root=m))

@@ -1,0 +1,91 @@
+"""The exact decision against hand-worked pairs, against proofs, and against what must hold of any right answer."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.exact import cubic
+from hypcheck.truth.prove import prove
+from tests.strategies import pairs
+from tests.witnesses import KINDS, WITNESSES
+
+
+@pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
+def test_witnesses(row, position, clearance, why):
+    decision = exact.decide(Pair.from_row(row).lengths)
+    assert decision.position is position, why
+    assert decision.tangent == (clearance == 0), why
+
+
+@pytest.mark.parametrize(("row", "kind"), KINDS)
+def test_kinds_of_witnesses(row, kind):
+    assert exact.decide(Pair.from_row(row).lengths).kind is kind
+
+
+@given(pairs)
+def test_every_answer_is_proved(pair):
+    decision = exact.decide(pair.lengths)
+    certificate = prove(pair, decision)
+    assert certificate.position is decision.position
+    assert check_certificate(pair, certificate)
+    assert (certificate.double_root is not None) == decision.tangent
+
+
+@given(pairs)
+def test_the_kind_belongs_to_the_position(pair):
+    decision = exact.decide(pair.lengths)
+    assert decision.kind.position is decision.position
+    assert decision.kind.tangent == decision.tangent
+
+
+@given(pairs)
+def test_position_alone_is_the_decision_s(pair):
+    assert exact.position(pair.lengths) is exact.decide(pair.lengths).position
+
+
+@given(pairs, st.integers(-3, 3), st.integers(-3, 3))
+def test_each_group_of_lengths_has_its_own_unit(pair, radial, axial):
+    lengths = pair.lengths
+    scaled = type(lengths)(
+        *(value * 2 ** (3 + radial) for value in (lengths.alpha, lengths.b, lengths.x, lengths.y)),
+        *(value * 2 ** (3 + axial) for value in (lengths.gamma, lengths.d, lengths.z)),
+    )
+    assert exact.decide(scaled) == exact.decide(lengths)
+
+
+@given(pairs)
+def test_mirrored_and_turned_pairs_stand_alike(pair):
+    row = pair.row
+    mirrored = Pair(*row[:4], -pair.y, pair.x, -pair.z)
+    assert exact.decide(mirrored.lengths) == exact.decide(pair.lengths)
+
+
+@given(pairs)
+def test_the_cubic_is_the_pencil_s_determinant(pair):
+    """g at the poles and at 0, from the definition of the two quadrics, over N = b² d²."""
+    g = cubic(pair.lengths)
+    alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
+    A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / b**2, (z / d) ** 2
+
+    def at(t: Fraction) -> Fraction:
+        return ((g.n3 * t + g.n2) * t + g.n1) * t + g.n0
+
+    assert at(Fraction(0)) == -A * B * g.n3
+    assert at(-A) == -A * P * (A + B) * g.n3
+    assert at(B) == -B * Q * (A + B) * g.n3
+
+
+@pytest.mark.parametrize("ulps", [-1, 0, 1])
+def test_one_ulp_from_tangency_is_told_apart(ulps):
+    """r − a = 1 is a tangency from outside; one ulp of x to either side is contact, or clear."""
+    x = 3.0 + ulps * 2.0**-51
+    decision = exact.decide(Pair(2.0, 5.0, 1.0, 1.0, x, 0.0, 0.0).lengths)
+    assert decision.tangent == (ulps == 0)
+    assert decision.position is (Position.EXTERIOR if ulps > 0 else Position.CONTACT)

@@ -1,0 +1,81 @@
+"""The backward error: hand-worked distances, and that the number found is where the answer flips."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.flip import backward_error, corner, flip_exponent, makes_right
+from tests.strategies import grid_pairs, ordinary_pairs, pairs
+
+POSITIONS = st.sampled_from(list(Position))
+
+
+def error(row: tuple[float, ...], answer: Position) -> float:
+    lengths = Pair.from_row(row).lengths
+    return backward_error(lengths, exact.decide(lengths), answer)
+
+
+@pytest.mark.parametrize(
+    ("row", "answer", "expected", "why"),
+    [
+        ((1, 2, 1, 1, 2.5, 0, 0), Position.CONTACT, 1 / 9, "2.5 (1−ε) = (1 + 1)(1+ε)"),
+        ((3, 3, 1, 1, 1, 0, 0), Position.CONTACT, 1 / 5, "3 (1−ε) = (1 + 1)(1+ε)"),
+        ((2, 5, 1, 1, 2.5, 0, 0), Position.EXTERIOR, 1 / 11, "2.5 (1+ε) = (2 + 1)(1−ε)"),
+        ((2, 1, 1, 1, 1.5, 0, 0), Position.INTERIOR, 1 / 9, "2 (1+ε) = 1.5 (1−ε) + (1−ε)"),
+        ((2, 5, 1, 1, 3, 0, 0), Position.EXTERIOR, 0, "a tangency from outside"),
+        ((2, 5, 1, 1, 3, 0, 0), Position.INTERIOR, 1 / 3, "2 (1+ε) = (3 + 1)(1−ε), though a tangency from outside"),
+        ((2, 1, 1, 1, 1, 0, 0), Position.INTERIOR, 0, "a tangency from inside"),
+        ((2, 1, 1, 1, 0, 0, 3), Position.EXTERIOR, math.inf, "on the axis nothing is outside"),
+    ],
+)
+def test_distances_worked_out_by_hand(row, answer, expected, why):
+    assert error(row, answer) == pytest.approx(expected, rel=2e-4), why
+
+
+@given(pairs, POSITIONS)
+def test_an_answer_flips_at_its_backward_error(pair, answer):
+    lengths = pair.lengths
+    truth = exact.decide(lengths)
+    found = backward_error(lengths, truth, answer)
+    assume(0 < found < 1 and found > 1e-300)
+    assert makes_right(lengths, truth.position, answer, Fraction(found))
+    assert not makes_right(lengths, truth.position, answer, Fraction(found) * Fraction(999, 1000))
+
+
+@given(grid_pairs, POSITIONS, st.integers(-300, 5))
+def test_the_octave_does_not_depend_on_the_guess(pair, answer, guess):
+    lengths = pair.lengths
+    truth = exact.decide(lengths)
+    octave = flip_exponent(lengths, truth, answer, guess)
+    found = backward_error(lengths, truth, answer)
+    if not math.isfinite(octave):
+        assert found == (0 if octave < 0 else math.inf)
+    else:
+        assert 2.0**octave <= found <= 2.0 ** (octave + 1)
+
+
+@given(ordinary_pairs, st.fractions(0, Fraction(9, 10)), st.fractions(0, Fraction(9, 10)), st.sampled_from([-1, 1]))
+def test_clear_positions_are_monotone_in_the_change(pair, first, second, side):
+    """A larger change towards a clear position never loses it: the corner is the best of the box."""
+    toward = Position(side)
+    less, more = sorted((first, second))
+    if exact.position(corner(pair.lengths, less, toward)) is toward:
+        assert exact.position(corner(pair.lengths, more, toward)) is toward
+
+
+@given(ordinary_pairs, st.lists(st.fractions(-1, 1), min_size=7, max_size=7), st.sampled_from([-1, 1]))
+def test_no_change_inside_the_box_does_better_than_the_corner(pair, shares, side):
+    toward, box = Position(side), Fraction(1, 4)
+    changed = [Fraction(value) * (1 + box * share) for value, share in zip(pair.row, shares, strict=True)]
+    denominators = math.lcm(*(value.denominator for value in changed))
+    alpha, gamma, b, d, x, y, z = (int(value * denominators) for value in changed)
+    inside = type(pair.lengths)(alpha, b, x, y, gamma, d, z)
+    if exact.position(inside) is toward:
+        assert exact.position(corner(pair.lengths, box, toward)) is toward

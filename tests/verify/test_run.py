@@ -1,0 +1,117 @@
+"""A run of verify as a whole: it ends well, and each thing that may go wrong ends it as it should."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hypcheck.cli.verify import verify
+from hypcheck.methods import builtin
+from hypcheck.pairs import Position
+from hypcheck.record import read
+from hypcheck.verify import opinions, run
+
+SMALL = ["--count", "24", "--workers", "1"]
+FAMILIES = ["--families", "ring,tangent,tower-body,regime-borders"]
+
+
+def ended(tmp_path, *options):
+    result = CliRunner().invoke(verify, ["--out", str(tmp_path), *SMALL, *FAMILIES, *options], standalone_mode=False)
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return result
+
+
+def exit_code(tmp_path):
+    return read(tmp_path / "record.jsonl").footer["exit_code"]
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    monkeypatch.setattr(run, "ROUNDS", 1)
+
+
+def test_a_run_ends_with_0_and_leaves_its_reports(tmp_path):
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 0
+    assert {path.name for path in tmp_path.iterdir()} >= {"record.jsonl", "summary.json", "report.md", "junit.xml"}
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["exit_code"] == 0
+    assert set(summary["oracles"]) == {"exact", "nearest", "roots", "mesh"}
+
+
+@pytest.mark.parametrize("name", ["exact", "nearest", "roots", "mesh"])
+def test_a_wrong_oracle_ends_with_6_and_shows_the_case(tmp_path, monkeypatch, name):
+    """An oracle that calls one exterior case of the ring a contact."""
+    right = opinions.ORACLES[name]
+
+    def lying(rows):
+        given = list(right.ask(rows))
+        return [
+            replace(opinion, position=Position.CONTACT) if opinion.position is Position.EXTERIOR else opinion
+            for opinion in given
+        ]
+
+    monkeypatch.setitem(opinions.ORACLES, name, replace(right, ask=lying))
+    result = ended(tmp_path)
+    assert exit_code(tmp_path) == 6
+    disagreeing = [line for line in read(tmp_path / "record.jsonl").of("oracle") if line["disagreeing"]]
+    assert {line["oracle"] for line in disagreeing} == {name}
+    case = disagreeing[0]["disagreements"][0]["case"]
+    assert any(line["disagreements"][0]["case"] in result.output for line in disagreeing), case
+
+
+def test_an_oracle_whose_tangencies_are_wrong_ends_with_6(tmp_path, monkeypatch):
+    right = opinions.ORACLES["nearest"]
+
+    def lying(rows):
+        return [replace(opinion, tangent=False) for opinion in right.ask(rows)]
+
+    monkeypatch.setitem(opinions.ORACLES, "nearest", replace(right, ask=lying))
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 6
+
+
+def test_a_refused_certificate_ends_with_6(tmp_path, monkeypatch):
+    monkeypatch.setattr("hypcheck.truth.certificate.check_certificate", lambda pair, certificate: False)
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 6
+
+
+def test_a_wrong_exact_method_ends_with_1(tmp_path, monkeypatch):
+    methods = dict(builtin.builtin_methods())
+    methods["fast"] = replace(methods["fast"], answer=lambda rows: np.zeros(len(rows), dtype=np.int8))
+    monkeypatch.setattr(run, "builtin_methods", lambda: methods)
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 1
+
+
+def test_a_finding_that_is_not_known_ends_with_1(tmp_path, monkeypatch):
+    monkeypatch.setattr(run.known, "known_findings", lambda: ())
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 1
+    assert any("not a known finding" in line["sentence"] for line in read(tmp_path / "record.jsonl").of("drift"))
+
+
+def test_a_formula_that_is_not_the_derivation_ends_with_6(tmp_path, monkeypatch):
+    right = run.prove_formulas()
+    monkeypatch.setattr(run, "prove_formulas", lambda: (replace(right[0], holds=False), *right[1:]))
+    ended(tmp_path)
+    assert exit_code(tmp_path) == 6
+
+
+def test_the_same_seed_gives_the_same_record_but_for_times(tmp_path):
+    def lines(name, workers):
+        ended(tmp_path / name, "--workers", workers)
+        record = read(tmp_path / name / "record.jsonl")
+        return [
+            {key: value for key, value in line.items() if key != "seconds"}
+            for line in record.lines
+            if line["type"] not in ("timing",)
+        ]
+
+    assert lines("one", "1") == lines("two", "2")
