@@ -104,6 +104,8 @@ def read(path: Path) -> Record:
     if schema.partition(".")[0] != readable:
         raise InputError(f"{path}: has schema {schema}; this version reads {readable}.x")
     complete = lines[-1].get("type") == "footer"
+    if complete and lines[-1].get("lines") != len(lines):
+        raise InputError(f"{path}: has {len(lines)} lines, but its footer counts {lines[-1].get('lines')}")
     return Record(lines[0], tuple(lines[1:-1] if complete else lines[1:]), lines[-1] if complete else None)
 
 
@@ -112,6 +114,8 @@ def _lines(stream: Iterable[str], path: Path) -> Iterator[Line]:
         try:
             line = json.loads(text)
         except ValueError as error:
+            if number > 1 and not text.endswith("\n"):
+                return  # the line that was being written when the run was interrupted
             raise InputError(f"{path}: line {number} is no JSON: {error}") from None
         if not isinstance(line, dict) or not isinstance(line.get("type"), str):
             raise InputError(f"{path}: line {number} is no object with a type")

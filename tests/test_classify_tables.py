@@ -176,17 +176,17 @@ def test_a_stream_of_npy_that_ends_early_or_late_is_an_error(tmp_path):
 
 
 def test_marking_goes_on_past_rows_that_are_no_pairs(tmp_path):
-    good, bad = text_of(ROWS[1]), ["1,2,1,1,nan,0,0", "1,2,0,1,1,0,0", "1,2,,1,1,0,0", "1,2,1,1,1,0,zero"]
+    good, bad = text_of(ROWS[3]), ["1,2,1,1,nan,0,0", "1,2,0,1,1,0,0", "1,2,,1,1,0,0", "1,2,1,1,1,0,zero"]
     (tmp_path / "in.csv").write_text("\n".join([HEADER, bad[0], good, *bad[1:]]) + "\n")
     assert classify(tmp_path / "in.csv", tmp_path / "out.csv", "--on-invalid", "flag") == 0
     lines = (tmp_path / "out.csv").read_text().splitlines()[1:]
     assert lines == [
         f"{bad[0]},127,refused,,",
-        f"{good},0,contact,true,0.0",
+        f"{good},-1,interior,false,3.0",
         *(f"{row},127,refused,," for row in bad[1:]),
     ]
     assert classify(tmp_path / "in.csv", tmp_path / "out.npy", "--on-invalid", "flag") == 0
-    assert np.load(tmp_path / "out.npy").tolist() == [127, 0, 127, 127, 127]
+    assert np.load(tmp_path / "out.npy").tolist() == [127, -1, 127, 127, 127]
 
     objects = [dict(zip(COLUMNS, ROWS[1], strict=True)) | change for change in ({}, {"b": None}, {"x": "1"}, {"d": -1})]
     (tmp_path / "in.jsonl").write_text("\n".join(map(json.dumps, objects)))

@@ -124,9 +124,12 @@ def test_debug_shows_the_traceback(monkeypatch, capsys):
 
 
 def test_the_handler_of_termination_is_put_back():
-    before = signal.getsignal(signal.SIGTERM)
-    main(["--version"])
-    assert signal.getsignal(signal.SIGTERM) is before
+    before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    try:
+        main(["--version"])
+        assert signal.getsignal(signal.SIGTERM) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def test_a_command_may_end_with_a_code_of_its_own(monkeypatch, capsys):
@@ -148,6 +151,29 @@ def test_a_closed_pipe_ends_quietly(arguments):
     done = subprocess.run([*HYPCHECK, *arguments], input=rows, stdout=write, stderr=subprocess.PIPE, check=False)
     os.close(write)
     assert (done.returncode, done.stderr) == (Exit.CLOSED_PIPE, b"")
+
+
+def test_a_closed_pipe_adds_nothing_to_another_error():
+    """What was printed before the error and could not be written is not tried again when the interpreter ends."""
+    code = """
+import click, sys
+from hypcheck.cli import commands
+from hypcheck.cli.main import main
+
+@click.command()
+def command():
+    print("held back in the buffer")
+    raise click.UsageError("no")
+
+commands.LazyGroup.get_command = lambda *_: command
+sys.exit(main(["classify"]))
+"""
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run([sys.executable, "-c", code], stdout=write, stderr=subprocess.PIPE, check=False)
+    os.close(write)
+    assert done.returncode == Exit.USAGE
+    assert len(done.stderr.splitlines()) == 2
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")

@@ -35,9 +35,18 @@ def test_without_a_footer_a_record_is_truncated(tmp_path):
     assert len(read(path).lines) == 1
 
 
+def test_a_line_cut_off_while_it_was_written_is_left_out(tmp_path):
+    path = tmp_path / "record.jsonl"
+    written(path)
+    path.write_text(path.read_text(encoding="utf-8")[:-9], encoding="utf-8")
+    assert read(path).footer is None
+    assert len(read(path).lines) == 1
+
+
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
+        (lambda text: text.replace('"lines": 3', '"lines": 4'), "has 3 lines, but its footer counts 4"),
         (lambda text: text.replace('"method"', "method", 1), "line 2 is no JSON"),
         (lambda text: text.partition("\n")[2], "line 1 is no header"),
         (lambda text: "", "line 1 is no header"),

@@ -72,34 +72,37 @@ def verify(
     )
     outcome = Outcome()
     record = _recorded(plan, outcome, out)
-    written = write_reports(record, out)
-    for line in summary_lines(record, written):
+    for line in summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()):
         click.echo(line)
     context.exit(outcome.exit_code)
 
 
 def _recorded(plan: Plan, outcome: Outcome, out: Path) -> Record:
-    """Run the plan and keep its record in `out`; what was finished is kept when the run is interrupted."""
-    from hypcheck.record import Recorder
+    """Run the plan and keep its record in `out`; of an interrupted run what was finished is kept, and reported."""
+    from hypcheck.record import Recorder, read
+    from hypcheck.report.write import write_reports
     from hypcheck.verify.run import options, stages
 
     growing, path = out / "record.jsonl.part", out / "record.jsonl"
     try:
         out.mkdir(parents=True, exist_ok=True)
-        stream = growing.open("w", encoding="utf-8")
+        stream = growing.open("w", encoding="utf-8", errors="backslashreplace")
     except OSError as error:
         raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
     with stream:
         recorder = Recorder(stream, options(plan))
         try:
             _run(stages(plan, recorder, outcome))
-            return recorder.close(outcome.exit_code)
+            record = recorder.close(outcome.exit_code)
         except InputError:
             growing.unlink()
             raise
-        finally:
-            if growing.exists():
-                growing.replace(path)
+        except BaseException:
+            growing.replace(path)
+            write_reports(read(path), out)
+            raise
+    growing.replace(path)
+    return record
 
 
 def _run(parts: Sequence[Stage]) -> None:

@@ -48,7 +48,7 @@ def _introduction(record: Record) -> list[str]:
         "## Numerical findings",
         "",
         *paragraph(
-            "Each formula in floats, held against the exact decisions, on the cases inside its stated regimes. The",
+            "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The",
             "*backward error* of a wrong answer is the least relative change of the inputs that makes it right, in",
             f"units u of the precision (∞: no change of up to 100 % does); a wrong answer with {limit} is *tolerated*.",
             "A *false clear* (dangerous) calls a contact clear, a *false contact* is an invisible wall.",

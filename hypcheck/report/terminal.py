@@ -78,7 +78,7 @@ def _paper(record: Record) -> Iterator[str]:
 
 
 def _methods(record: Record) -> Iterator[str]:
-    """For each precision how many formulas err beyond the tolerance, and the one that does most."""
+    """For each precision how many methods err beyond the tolerance, and the one that does most."""
     found = [each for each in implementations(record) if each.asked]
     for precision in dict.fromkeys(each.precision for each in found if not each.exact):
         methods = [each for each in found if each.precision == precision and not each.exact]
@@ -86,7 +86,7 @@ def _methods(record: Record) -> Iterator[str]:
         worst = max(methods, key=lambda each: worst_error_u(each.worst))
         error, case = worst_error_u(worst.worst), worst.worst["case"] if worst.worst else "none"
         yield (
-            f"{precision}: {wrong} of {counted(len(methods), 'formula')} beyond the tolerance;"
+            f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond the tolerance;"
             f" farthest off: {worst.name}, {figure(error)} u at {case}"
         )
 

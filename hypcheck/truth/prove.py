@@ -174,9 +174,10 @@ def _precisions(start: int = 1) -> Iterator[int]:
 
 
 def _root(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
-    """√value to about `bits` bits; with `upward` never less than the root, and 0 for 0 alone."""
-    if value == 0:
-        return Fraction(0)
+    """√value, exact where that is rational, else to about `bits` bits; with `upward` never less than the root."""
+    root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator))
+    if root * root == value:
+        return root
     shift = bits + max(0, value.denominator.bit_length() - value.numerator.bit_length()) // 2 + 1
     scaled = value.numerator * (1 << 2 * shift) // value.denominator
     return Fraction(math.isqrt(scaled) + (1 if upward else 0), 1 << shift)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from hypcheck.derivation.exact_arithmetic import EXACT
@@ -96,9 +98,26 @@ def perform(todo: Sequence[Task], executor: Executor | None) -> Iterator[tuple[T
         for task in todo:
             yield task, *run(task)
         return
-    running: dict[Future[tuple[list[Opinion], float]], Task] = {executor.submit(run, task): task for task in todo}
+    with _interrupts_held():
+        running: dict[Future[tuple[list[Opinion], float]], Task] = {executor.submit(run, task): task for task in todo}
     for future in as_completed(running):
         yield running[future], *future.result()
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Interrupts from the keyboard wait, and the processes started meanwhile never get them.
+
+    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> Tally:
