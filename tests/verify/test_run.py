@@ -30,8 +30,17 @@ def exit_code(tmp_path):
     return read(tmp_path / "record.jsonl").footer["exit_code"]
 
 
+@pytest.fixture(scope="module")
+def derived():
+    """The derivation is the same in every run: once for all tests here."""
+    return run.check_equations(), run.prove_formulas()
+
+
 @pytest.fixture(autouse=True)
-def quick(monkeypatch):
+def quick(monkeypatch, derived):
+    equations, proofs = derived
+    monkeypatch.setattr(run, "check_equations", lambda: equations)
+    monkeypatch.setattr(run, "prove_formulas", lambda: proofs)
     monkeypatch.setattr(run, "ROUNDS", 1)
 
 
