@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify deep test lint format clean
+.PHONY: help verify deep test lint cases check-cases mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -15,10 +15,16 @@ verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; r
 	$(BIN)/hypcheck verify --out $(OUT)
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
-	$(BIN)/hypcheck verify --out reports/reference --count 33000 --judged 2000 --roots 20000 --meshes 20000
+	$(BIN)/hypcheck verify --out reports/reference --count 33000 --roots 20000 --meshes 20000
 
-test: lint ## lint, format, strict types, import layers and every test
+test: lint check-cases ## lint, format, strict types, import layers and every test
 	$(BIN)/python -m pytest -n auto --dist worksteal
+
+cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
+	$(BIN)/hypcheck cases freeze --into cases
+
+check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its certificate
+	$(BIN)/hypcheck cases check
 
 lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
 	$(BIN)/ruff check .

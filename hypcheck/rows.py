@@ -22,11 +22,11 @@ def as_rows(values: ArrayLike) -> Rows:
     """
     try:
         array = np.asarray(values)
-        rows = np.ascontiguousarray(array, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"the rows are not numbers of float64: {error}") from None
-    if array.dtype.kind == "c":
-        raise InputError("the rows are complex numbers; they must be real")
+    except (TypeError, ValueError) as error:
+        raise InputError(f"the rows are no array of numbers: {error}") from None
+    if array.dtype.kind not in "iuf":
+        raise InputError(f"the rows are of type {array.dtype}; they must be real numbers")
+    rows = np.ascontiguousarray(array, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
         raise InputError(f"the rows have shape {rows.shape}; it must be (n, 7): {', '.join(COLUMNS)}")
     return rows

@@ -45,6 +45,7 @@ DIGESTS: dict[str, str] = {
     "degenerate-crossing": "2a8eb5f8f81df2f51a801894f6c0b2d8d63c3018e555c758e3c4b58ed8baec77",
     "degenerate-neighbourhood": "8f20f5f2fd35cfcd08f0b27d3c1d5c5708f9f3dade149b54e45a04ed5252e45e",
     "on-surface": "99fccb4eb90cdf0b16e2998df33eb526b8966ca06b7890d3c22310608f8b0cd7",
+    "tangent-ladder": "e3b8919c1d23ce35216ac6f2ce8ed2a307afd4f9a52426c15fa6d0169a3579be",
     "ring": "a6b06cca15f49ddf56534026ced502713ff12129acd3eb8eb07cd49cbb95f584",
     "ring-neighbourhood": "ad367519a16f811a065a6b0a8752f66c1756f56f2266b334b307bf77a9bf5719",
     "osculation": "eacba7266c9f75c2d6fabe5aed43f5fa180dcc267cdcb6399fa6c3ab5ebec1fc",

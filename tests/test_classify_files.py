@@ -131,7 +131,9 @@ def test_what_cannot_be_opened_is_named_with_the_reason(tmp_path, source, capsys
     assert refused(capsys, source, away) == f"cannot write {away}: no such file or directory"
     below = source / "out.csv"
     assert refused(capsys, source, below) == f"cannot write {below}: not a directory"
-    assert refused(capsys, source, "a\0b.csv").startswith("cannot write a\\x00b.csv: embedded null")
+    no_name = refused(capsys, source, "a\0b.csv")  # in the words of each Python
+    assert no_name.startswith("cannot write a\\x00b.csv: ")
+    assert "embedded null" in no_name
     assert refused(capsys, f"{'n' * 300}.csv", out).endswith(": file name too long")
     assert sorted(os.listdir(tmp_path)) == ["d.csv", "in.csv"]
 

@@ -20,6 +20,7 @@ from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, Unava
 HYPCHECK = [sys.executable, "-m", "hypcheck"]
 PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
 TABLE = ["classify", "--input", "-", "--format", "csv"]
+BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
 
 def test_the_numbers_are_those_that_scripts_depend_on():
@@ -144,11 +145,15 @@ def test_a_command_may_end_with_a_code_of_its_own(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"], ["--help"]])
-def test_a_closed_pipe_ends_quietly(arguments):
+@pytest.mark.parametrize(
+    "environment", [BUFFERED, BUFFERED | {"PYTHONUNBUFFERED": "1"}], ids=["buffered", "unbuffered"]
+)
+def test_a_closed_pipe_ends_quietly(arguments, environment):
     read, write = os.pipe()
     os.close(read)
     rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
-    done = subprocess.run([*HYPCHECK, *arguments], input=rows, stdout=write, stderr=subprocess.PIPE, check=False)
+    words = [*HYPCHECK, *arguments]
+    done = subprocess.run(words, env=environment, input=rows, stdout=write, stderr=subprocess.PIPE, check=False)
     os.close(write)
     assert (done.returncode, done.stderr) == (Exit.CLOSED_PIPE, b"")
 
@@ -170,7 +175,7 @@ sys.exit(main(["classify"]))
 """
     read, write = os.pipe()
     os.close(read)
-    done = subprocess.run([sys.executable, "-c", code], stdout=write, stderr=subprocess.PIPE, check=False)
+    done = subprocess.run([sys.executable, "-c", code], env=BUFFERED, stdout=write, stderr=subprocess.PIPE, check=False)
     os.close(write)
     assert done.returncode == Exit.USAGE
     assert len(done.stderr.splitlines()) == 2
@@ -181,7 +186,8 @@ sys.exit(main(["classify"]))
 def test_a_full_output_is_told_in_one_line(arguments):
     rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
     with open("/dev/full", "wb") as full:
-        done = subprocess.run([*HYPCHECK, *arguments], input=rows, stdout=full, stderr=subprocess.PIPE, check=False)
+        words = [*HYPCHECK, *arguments]
+        done = subprocess.run(words, env=BUFFERED, input=rows, stdout=full, stderr=subprocess.PIPE, check=False)
     assert done.returncode == Exit.USAGE
     assert done.stderr.count(b"\n") == 1
     assert b"no space left" in done.stderr

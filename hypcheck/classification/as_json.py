@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from hypcheck.classification.answer import Answer
 from hypcheck.classification.rationals import exact
 from hypcheck.classification.witness import Squares, height, reach
-from hypcheck.pairs import Position
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth.certificate import Certificate
+
+if TYPE_CHECKING:
+    from hypcheck.classification.answer import Answer
 
 
 def answer_as_json(answer: Answer) -> str:
@@ -22,16 +25,16 @@ def answer_as_json(answer: Answer) -> str:
             "tangent": decision.tangent,
             "clearance": answer.clearance if answer.clearance != float("inf") else "inf",
             "kind": decision.kind.value,
-            "proof": _proof(answer),
+            "proof": proof_as_json(answer.pair, answer.certificate),
         }
     )
 
 
-def _proof(answer: Answer) -> dict[str, Any]:
-    squares = Squares.of(answer.pair)
-    certificate = answer.certificate
+def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
+    """A certificate of what is claimed of a pair, and the numbers that check it."""
+    squares = Squares.of(pair)
     if certificate.multiplier is not None:
-        outside = answer.decision.position is Position.EXTERIOR
+        outside = certificate.position is Position.EXTERIOR
         return {
             "by": "multiplier",
             "lambda": exact(certificate.multiplier),
@@ -46,12 +49,12 @@ def _proof(answer: Answer) -> dict[str, Any]:
             "third_root": exact(squares.third_root(certificate.double_root)),
             **_squares(squares),
         }
-    return {"by": "points", "points": [_point(answer, point) for point in certificate.points]}
+    return {"by": "points", "points": [_point(pair, point) for point in certificate.points]}
 
 
-def _point(answer: Answer, point: tuple[Fraction, Fraction, Fraction]) -> dict[str, str]:
+def _point(pair: Pair, point: tuple[Fraction, Fraction, Fraction]) -> dict[str, str]:
     named = dict(zip(("x", "y", "z"), map(exact, point), strict=True))
-    return named | {"h": exact(height(answer.pair, point)), "s": exact(reach(answer.pair, point))}
+    return named | {"h": exact(height(pair, point)), "s": exact(reach(pair, point))}
 
 
 def _squares(squares: Squares) -> dict[str, str]:

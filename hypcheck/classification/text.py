@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from hypcheck.classification.answer import Answer
 from hypcheck.classification.rationals import readable, relation
 from hypcheck.classification.witness import Squares, height, reach
-from hypcheck.pairs import Position
-from hypcheck.truth.certificate import Point
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth.certificate import Certificate, Point
+from hypcheck.truth.kinds import Kind
+
+if TYPE_CHECKING:
+    from hypcheck.classification.answer import Answer
 
 
 def answer_as_text(answer: Answer) -> str:
@@ -18,8 +22,8 @@ def answer_as_text(answer: Answer) -> str:
     lines = [
         f"{label}, tangent" if answer.decision.tangent else label,
         f"clearance  {_number(answer.clearance)} spheroid radii ({_meaning(answer.clearance)})",
-        f"kind       {kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}",
-        *_titled("proof", _proof(answer)),
+        f"kind       {kind_as_text(kind)}",
+        *_titled("proof", proof_lines(answer.pair, answer.certificate)),
     ]
     return "\n".join(lines)
 
@@ -40,22 +44,26 @@ def _titled(title: str, lines: list[str]) -> list[str]:
     return [f"{title if not index else '':11}{line}" for index, line in enumerate(lines)]
 
 
-def _proof(answer: Answer) -> list[str]:
-    certificate = answer.certificate
+def kind_as_text(kind: Kind) -> str:
+    """The name of a kind and what it means, on one line."""
+    return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
+
+
+def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
+    """A certificate of what is claimed of a pair, and how to check it by hand."""
     if certificate.multiplier is not None:
-        lines = _by_multiplier(answer, certificate.multiplier)
+        lines = _by_multiplier(pair, certificate.position, certificate.multiplier)
     elif certificate.double_root is not None:
-        lines = _by_double_root(answer, certificate.double_root)
+        lines = _by_double_root(pair, certificate.double_root)
     else:
-        lines = _by_points(answer, certificate.points)
+        lines = _by_points(pair, certificate.points)
     if any("≈" in line for line in lines):
         lines.append("≈ marks a rounded number; --json gives all of them exactly.")
     return lines
 
 
-def _by_multiplier(answer: Answer, at: Fraction) -> list[str]:
-    squares = Squares.of(answer.pair)
-    position = answer.decision.position
+def _by_multiplier(pair: Pair, position: Position, at: Fraction) -> list[str]:
+    squares = Squares.of(pair)
     interval = "(0, B)" if position is Position.EXTERIOR else "(−A, 0)"
     return [
         f"λ {relation(at)} lies in {interval} and g(λ) {relation(squares.g(at))} is above 0;",
@@ -64,8 +72,8 @@ def _by_multiplier(answer: Answer, at: Fraction) -> list[str]:
     ]
 
 
-def _by_double_root(answer: Answer, m: Fraction) -> list[str]:
-    squares = Squares.of(answer.pair)
+def _by_double_root(pair: Pair, m: Fraction) -> list[str]:
+    squares = Squares.of(pair)
     interval = "(0, B]" if m > 0 else "[−A, 0)"
     end = f", and the third root, {readable(squares.third_root(m))}, is not below B" if m == squares.B else ""
     return [
@@ -83,15 +91,15 @@ def _definitions(squares: Squares) -> list[str]:
     ]
 
 
-def _by_points(answer: Answer, points: tuple[Point, ...]) -> list[str]:
-    on_it = [point for point in points if height(answer.pair, point) == 0][:1]
+def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
+    on_it = [point for point in points if height(pair, point) == 0][:1]
     if on_it:
         lines = ["a point of the spheroid (s ≤ 1) lies on the hyperboloid (h = 0):"]
     else:
         lines = ["two points of the spheroid (s ≤ 1) lie on different sides of the hyperboloid, outside (h > 0) and"]
         lines.append("inside (h < 0), so the surfaces meet:")
     for point in on_it or points:
-        h, s = height(answer.pair, point), reach(answer.pair, point)
+        h, s = height(pair, point), reach(pair, point)
         lines.append(f"({', '.join(map(readable, point))}) has s {relation(s)} and h {relation(h)},")
     lines.append("where h = (x²+y²)/α² − z²/γ² − 1, s = ((x−x₀)²+(y−y₀)²)/b² + (z−z₀)²/d², centre (x₀, y₀, z₀).")
     return lines

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from importlib import import_module
+from pathlib import Path
 
 import click
 
@@ -13,6 +14,11 @@ from hypcheck.version import VERSION
 COMMANDS = {
     "classify": "hypcheck.cli.classify:classify",
     "verify": "hypcheck.cli.verify:verify",
+    "cases": "hypcheck.cli.cases:cases",
+    "hunt": "hypcheck.cli.hunt:hunt",
+    "minimise": "hypcheck.cli.minimise:minimise",
+    "replay": "hypcheck.cli.replay:replay",
+    "init": "hypcheck.cli.init:init",
 }
 """Name → module:attribute of the click command."""
 
@@ -54,5 +60,15 @@ class LazyGroup(click.Group):
 )
 @click.version_option(VERSION, message="%(prog)s %(version)s")
 @click.option("--debug", is_flag=True, expose_value=False, help="Show the traceback of an error (before the command).")
-def hypcheck() -> None:
+@click.option("--no-settings", is_flag=True, help="Leave hypcheck.toml aside (before the command).")
+@click.pass_context
+def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, and a judge of others."""
+    if no_settings or any(name in context.args for name in context.help_option_names):
+        return
+    from hypcheck.cli.settings import COMMANDS as SETTING
+    from hypcheck.cli.settings import FILE, read_settings
+
+    found = read_settings(Path(FILE)) if context.invoked_subcommand in SETTING else None
+    if found is not None:
+        context.obj, context.default_map = found, found.default_map

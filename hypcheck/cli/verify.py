@@ -2,129 +2,173 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterable
+from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
+from click.core import ParameterSource
 
+from hypcheck.cli.options import bytes_of
+from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.settings import FILE, Settings
 from hypcheck.errors import InputError
 
-if TYPE_CHECKING:
-    from hypcheck.record import Record
-    from hypcheck.verify.plan import Plan
-    from hypcheck.verify.run import Outcome, Stage
+OURS_ONLY = ("oracles", "judged", "roots", "meshes", "workers")
+"""Options of a run without SPEC."""
+
+GATE_ONLY = (
+    "max_abstained",
+    "fail_on",
+    "deterministic",
+    "known_failures",
+    "update",
+    "precision",
+    "question",
+    "domain",
+    "startup_timeout",
+    "timeout",
+    "restarts",
+    "memory",
+)
+"""Options of a run with SPEC."""
+
+_COUNT = click.IntRange(1)
 
 
-@click.command(short_help="Derive, prove, cross-check four oracles, judge and time; write the reports.")
+@click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
+@click.argument("specs", nargs=-1, metavar="[SPEC]...")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True)
 @click.option("--families", help="Names and globs, separated by commas.  [default: all but the extreme ones]")
-@click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
-@click.option("--count", type=click.IntRange(1), default=400, show_default=True, help="Rows of each family.")
-@click.option("--judged", type=click.IntRange(1), default=400, show_default=True, help="Of these, asked of methods.")
-@click.option(
-    "--roots", type=click.IntRange(1), default=1500, show_default=True, help="Rows in all for the roots oracle."
-)
-@click.option(
-    "--meshes", type=click.IntRange(1), default=2000, show_default=True, help="Rows in all for the mesh oracle."
-)
+@click.option("--count", type=click.IntRange(0), default=400, show_default=True, help="Generated rows of each family.")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
-@click.option("--workers", type=click.IntRange(1), help="Processes for the oracles.  [default: one a processor]")
 @click.option("--tolerance", type=click.FloatRange(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
+@click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
+@click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
+@click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
+@click.option("--workers", type=_COUNT, help="Processes for the oracles.  [default: one a processor]")
+@click.option("--precision", help="With SPEC: stands for the precision it declares.")
+@click.option("--question", help="With SPEC: stands for the question it declares.")
+@click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
+@click.option("--max-abstained", type=click.IntRange(0), default=0, show_default=True, help="Cases it may not answer.")
+@click.option("--fail-on", type=click.Choice(["wrong", "false-clear"]), default="wrong", show_default=True)
+@click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
+@click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
+@click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
+@click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds.")
+@click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without progress.")
+@click.option("--restarts", type=int, default=20, show_default=True, help="Restarts after faults.")
+@click.option("--memory", default="4G", show_default=True, help="Resident size it may reach, with its children.")
 @click.pass_context
-def verify(
-    context: click.Context,
-    out: Path,
-    families: str | None,
-    oracles: str,
-    count: int,
-    judged: int,
-    roots: int,
-    meshes: int,
-    seed: int,
-    workers: int | None,
-    tolerance: float,
-) -> None:
-    """Derive the coefficients, prove the formulas, cross-check four oracles, judge every method, time the fast path.
+def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
+    """Verify ourselves, or gate the implementations that SPEC names.
 
-    Reports are written to --out: record.jsonl, summary.json, report.md, junit.xml and a picture.
+    Without SPEC: derive the coefficients, prove the formulas, cross-check four oracles, judge every method, time the
+    fast path. Ends with 0 when the oracles agree and the fast path is exact, 6 when oracles disagree, 1 when an exact
+    method erred or the mathematical findings are not the known ones.
 
-    Ends with 0 when the oracles agree and the fast path is exact, 6 when oracles disagree, 1 when an exact method
-    erred or the mathematical findings are not the known ones.
+    With SPEC (builtin:NAME, python:package.module:function, python:file.py:function, library:path.so, command:…):
+    ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
+    wrong by more than --tolerance units, 1 when one is or a case ended without an answer, 5 when it cannot be started.
+
+    Reports are written to --out: record.jsonl, summary.json, report.md, junit.xml. Options that are not given are those
+    of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
     """
-    from hypcheck.report.terminal import summary_lines
-    from hypcheck.report.write import write_reports
+    settings = context.find_object(Settings)
+    chosen = specs or (settings.specs if settings is not None else ())
+    _refuse_others(context, OURS_ONLY if chosen else GATE_ONLY, chosen=chosen, given=specs)
+    code = _gate(chosen, options) if chosen else _ourselves(options)
+    context.exit(code)
+
+
+def _refuse_others(
+    context: click.Context, names: Iterable[str], *, chosen: tuple[str, ...], given: tuple[str, ...]
+) -> None:
+    for name in names:
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            option = "--" + name.replace("_", "-")
+            hint = f"; {FILE} names one, and `hypcheck --no-settings verify` leaves it aside" if chosen != given else ""
+            raise InputError(f"{option} is for a run {'without' if chosen else 'with'} SPEC{hint}")
+
+
+def _ourselves(options: dict[str, Any]) -> int:
+    from hypcheck.verify import run
     from hypcheck.verify.plan import Plan
-    from hypcheck.verify.run import Outcome, default_workers
 
     plan = Plan(
-        families=_names(families or ""),
-        oracles=_oracles(oracles),
-        count=count,
-        judged=judged,
-        roots=roots,
-        meshes=meshes,
-        seed=seed,
-        workers=workers or default_workers(),
-        tolerance=Fraction(tolerance),
+        families=names_in(options["families"]),
+        oracles=_oracles(options["oracles"]),
+        count=max(1, options["count"]),
+        judged=options["judged"],
+        roots=options["roots"],
+        meshes=options["meshes"],
+        seed=options["seed"],
+        workers=options["workers"] or run.default_workers(),
+        tolerance=Fraction(options["tolerance"]),
     )
-    outcome = Outcome()
-    record = _recorded(plan, outcome, out)
-    for line in summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()):
-        click.echo(line)
-    context.exit(outcome.exit_code)
+    outcome = run.Outcome()
+    record_and_report(
+        options["out"],
+        run.options(plan),
+        lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
+        lambda: outcome.exit_code,
+    )
+    return outcome.exit_code
 
 
-def _recorded(plan: Plan, outcome: Outcome, out: Path) -> Record:
-    """Run the plan and keep its record in `out`; of an interrupted run what was finished is kept, and reported."""
-    from hypcheck.record import Recorder, read
-    from hypcheck.report.write import write_reports
-    from hypcheck.verify.run import options, stages
+def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
+    from hypcheck.gate import run
+    from hypcheck.gate.known_failures import update
+    from hypcheck.gate.plan import GatePlan
+    from hypcheck.methods.description import parse_domain
+    from hypcheck.methods.limits import Limits
 
-    growing, path = out / "record.jsonl.part", out / "record.jsonl"
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        stream = growing.open("w", encoding="utf-8", errors="backslashreplace")
-    except OSError as error:
-        raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
-    with stream:
-        recorder = Recorder(stream, options(plan))
-        try:
-            _run(stages(plan, recorder, outcome))
-            record = recorder.close(outcome.exit_code)
-        except InputError:
-            growing.unlink()
-            raise
-        except BaseException:
-            growing.replace(path)
-            write_reports(read(path), out)
-            raise
-    growing.replace(path)
-    return record
+    listed: Path | None = options["known_failures"]
+    plan = GatePlan(
+        specs=specs,
+        families=names_in(options["families"]),
+        count=options["count"],
+        seed=options["seed"],
+        tolerance=Fraction(options["tolerance"]),
+        max_abstained=options["max_abstained"],
+        fail_on=options["fail_on"],
+        deterministic=options["deterministic"],
+        known_failures=listed if listed is not None and not (options["update"] and not listed.exists()) else None,
+        precision=options["precision"],
+        question=options["question"],
+        domain=None if options["domain"] is None else parse_domain(options["domain"]),
+        limits=Limits(options["startup_timeout"], options["timeout"], options["restarts"], bytes_of(options["memory"])),
+    )
+    if options["update"] and (listed is None or plan.filtered):
+        raise InputError(
+            "--update needs --known-failures and a run of all families, or it would forget what it skipped"
+        )
+    outcome = run.GateOutcome()
+    steps = len(run.chosen(plan)) * len(specs)
+    shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
+    record = record_and_report(
+        options["out"],
+        shown,
+        lambda recorder: [Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance))],
+        lambda: outcome.exit_code,
+    )
+    if options["update"] and listed is not None:
+        click.echo(update(listed, record))
+    return outcome.exit_code
 
 
-def _run(parts: Sequence[Stage]) -> None:
-    """Every part in turn, under a progress bar where a person is watching."""
-    if not sys.stderr.isatty():
-        for part in parts:
-            part.run(lambda _: None)
-        return
-    with click.progressbar(length=sum(part.steps for part in parts), file=sys.stderr, show_pos=False) as bar:
-        for part in parts:
-            bar.label = f"{part.title:28}"
-            part.run(bar.update)
-
-
-def _names(text: str) -> tuple[str, ...]:
-    return tuple(name.strip() for name in text.split(",") if name.strip())
+def names_in(text: str | None) -> tuple[str, ...]:
+    """The names in a list separated by commas; none of None."""
+    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
 
 
 def _oracles(text: str) -> tuple[str, ...]:
     from hypcheck.verify.opinions import ORACLES
 
-    names = _names(text)
+    names = names_in(text)
     unknown = [name for name in names if name not in ORACLES]
     if unknown or not names:
         raise InputError(f"--oracles: {unknown[0] if unknown else text!r} is no oracle; there are {', '.join(ORACLES)}")

@@ -53,8 +53,7 @@ def _of_fcl(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
 
 
 @cache
-def builtin_methods() -> dict[str, Method]:
-    """Every built-in method by its name, as `builtin:NAME` has it."""
+def _without_fcl() -> dict[str, Method]:
     fast = Method(
         name="fast",
         title="the fast path: certified floats, integers where they cannot tell",
@@ -66,14 +65,19 @@ def builtin_methods() -> dict[str, Method]:
     )
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
     methods = [fast, *(_of_formula(formula, precision) for precision in PRECISIONS for formula in formulas)]
-    if fcl_trouble() is None:
-        methods += [_of_fcl(*naive) for naive in NAIVE_FCL]
     return {method.name: method for method in methods}
+
+
+@cache
+def builtin_methods() -> dict[str, Method]:
+    """Every built-in method by its name, as `builtin:NAME` has it."""
+    naive = [_of_fcl(*each) for each in NAIVE_FCL] if fcl_trouble() is None else []
+    return _without_fcl() | {method.name: method for method in naive}
 
 
 def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist."""
-    method = builtin_methods().get(name)
+    method = _without_fcl().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
     if method is None:
         raise InputError(f"there is no built-in method {name!r}; there are {', '.join(builtin_methods())}")
     return method

@@ -23,19 +23,26 @@ Floats = NDArray[Any]
 Mask = NDArray[np.bool_]
 
 
-_DISTANCES = ("lambda_", "A_plus_lambda", "B_minus_lambda")
-_PHI = cut(FORMULAS["dual"].program, _DISTANCES, ("phi",))
+DISTANCES = ("lambda_", "A_plus_lambda", "B_minus_lambda")
+"""What the search hands to the formula, by the formula's own names."""
+
+_PHI = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
 """The dual form from the distances of λ to 0, −A and B on, which the search knows better than λ itself tells them."""
 
 
 def dual_positions(rows: Rows, precision: str) -> Answers:
     """Positions by the dual form with everything, the search included, in one float format; int8 (n,)."""
-    columns = dict(zip(COLUMNS, rows.astype(precision).T, strict=True))
+    found = searched(rows, precision)
+    (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
+    return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
+
+
+def searched(rows: Rows, precision: str) -> dict[str, Floats]:
+    """The columns in a float format, and the distances of the best λ that is found in it: (n,) each."""
     with np.errstate(all="ignore"):
+        columns = dict(zip(COLUMNS, rows.astype(precision).T, strict=True))
         distances = _best_multiplier(*(columns[name] for name in COLUMNS))
-    inputs = {**columns, **dict(zip(_DISTANCES, distances, strict=True))}
-    (phi,) = outputs(_PHI, float_arithmetic(precision), inputs, ("phi",))
-    return np.where(phi > 0, np.sign(distances[0]), 0).astype(np.int8)
+    return {**columns, **dict(zip(DISTANCES, distances, strict=True))}
 
 
 def _best_multiplier(

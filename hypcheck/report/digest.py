@@ -16,6 +16,9 @@ EXACT_ORACLE = "exact"
 REFUSED = "certificate refused"
 """The stage of such an answer; the record counts it among the undecided and among the disagreeing, here it is one."""
 
+Subject = tuple[str, "str | None"]
+"""A name and a SPEC: two implementations may call themselves alike."""
+
 REFERENCE = "plain numpy formula"
 """The contender whose time every other is divided by."""
 
@@ -51,6 +54,11 @@ class Implementation:
     groups: tuple[Line, ...]
 
     @property
+    def gated(self) -> bool:
+        """Whether it is under test in its own right, so that its wrong answers fail the run."""
+        return "failing" in self.groups[0]
+
+    @property
     def asked(self) -> int:
         """The cases it was asked; skipped ones are not among them."""
         return sum(group["asked"] for group in self.groups)
@@ -70,6 +78,18 @@ class Implementation:
     def worst(self) -> Line | None:
         """The recorded case with the greatest backward error; the first of equals."""
         return worst_case([case for group in self.groups for case in group["worst"]])
+
+
+@dataclass(frozen=True, slots=True)
+class UnderTest:
+    """A gated implementation as a whole: its name in reports and the record's implementation line about it.
+
+    `groups` are the lines about its families, none where it could not be started.
+    """
+
+    name: str
+    line: Line
+    groups: tuple[Line, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,11 +153,35 @@ def explanation(finding: Line) -> str:
 
 def implementations(record: Record) -> list[Implementation]:
     """Every implementation in the order of the record, exact ones first."""
-    by_name: dict[str, list[Line]] = {}
+    names = names_in(record)
+    by_subject: dict[Subject, list[Line]] = {}
     for line in record.of("group"):
-        by_name.setdefault(line["method"], []).append(line)
-    found = [_implementation(name, lines) for name, lines in by_name.items()]
+        by_subject.setdefault(subject_of(line), []).append(line)
+    found = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
     return sorted(found, key=lambda each: not each.exact)
+
+
+def under_test(record: Record) -> list[UnderTest]:
+    """Every gated implementation in the order of the record, those that could not be started included."""
+    names, groups = names_in(record), record.of("group")
+    return [
+        UnderTest(
+            names[subject_of(line)], line, tuple(group for group in groups if subject_of(group) == subject_of(line))
+        )
+        for line in record.of("implementation")
+    ]
+
+
+def subject_of(line: Line) -> Subject:
+    """Whom a line of a group or of an implementation is about: the name it gives itself, and its spec if it has one."""
+    return str(line["method"] if line["type"] == "group" else line["name"]), line.get("spec")
+
+
+def names_in(record: Record) -> dict[Subject, str]:
+    """The name of everyone that lines are about: its own, with the spec behind it where others have the same."""
+    subjects = dict.fromkeys(map(subject_of, [*record.of("group"), *record.of("implementation")]))
+    alike = Counter(name for name, _ in subjects)
+    return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
 
 
 def _implementation(name: str, lines: list[Line]) -> Implementation:

@@ -6,7 +6,7 @@ import json
 from itertools import chain
 
 from hypcheck.record import Line, Record
-from hypcheck.report import markdown_methods
+from hypcheck.report import markdown_gate, markdown_methods
 from hypcheck.report.digest import REFERENCE, OracleTotal, explanation, oracle_totals, timing_totals, unlisted
 from hypcheck.report.markup import bullets, code, paragraph, table, text
 from hypcheck.report.text import counted, figure, from_hex, short_row
@@ -25,6 +25,7 @@ def render(record: Record, picture: str | None = None) -> bytes:
         _equations(record.of("equation")),
         _proofs(record.of("proof")),
         _mathematical(record.of("finding")),
+        markdown_gate.sections(record),
         markdown_methods.sections(record),
         _map(record.of("map"), picture),
         _timings(record),
@@ -43,7 +44,8 @@ def _failures(record: Record) -> list[str]:
         return []
     items = []
     for failure in found[:FAILURES_SHOWN]:
-        case = f" Case {code(failure.case)}: {code(failure.replay)}" if failure.case else ""
+        place = f" ({code(failure.place)})" if failure.place else ""
+        case = f" Case {code(failure.case)}{place}: {code(failure.replay)}" if failure.case else ""
         items.append(f"**{failure.subject}, {text(failure.group)}**: {text(failure.message)}.{case}")
     rest = len(found) - FAILURES_SHOWN
     if rest > 0:

@@ -11,7 +11,17 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from hypcheck.record import Line, Record
-from hypcheck.report.digest import Implementation, explanation, implementations, in_order, oracle_totals, worst_case
+from hypcheck.report.claims import claims
+from hypcheck.report.digest import (
+    Implementation,
+    explanation,
+    implementations,
+    in_order,
+    oracle_totals,
+    under_test,
+    worst_case,
+)
+from hypcheck.report.replays import Replays
 from hypcheck.report.text import classify_command, counted, figure, from_hex
 from hypcheck.report.verdict import UNFINISHED, Failure, failures, verdict
 
@@ -67,9 +77,11 @@ def suites(record: Record) -> Iterator[Suite]:
         else:
             yield Suite(f"oracles.{total.name}", tuple(_oracle(line, failed) for line in lines))
     yield Suite("findings", tuple(_findings(record, failed)))
+    replays = Replays.of(record)
     for implementation in implementations(record):
-        cases = (case for group in implementation.groups for case in _group(implementation, group, failed))
+        cases = [case for group in implementation.groups for case in _group(implementation, group, failed, replays)]
         yield Suite(f"implementations.{implementation.name}", tuple(cases))
+    yield Suite("implementations", tuple(_as_wholes(record, failed)))
 
 
 def _ended(record: Record, failed: list[Failure]) -> Case:
@@ -127,7 +139,8 @@ def _oracle(line: Line, failed: list[Failure]) -> Case:
 def _details(failed: Iterable[Failure]) -> Iterator[str]:
     """Each failure with its case and how to look at it."""
     for each in failed:
-        yield f"case {each.case}: {each.message}" if each.case else each.message
+        place = f" ({each.place})" if each.place else ""
+        yield f"case {each.case}{place}: {each.message}" if each.case else each.message
         if each.replay:
             yield f"replay: {each.replay}"
 
@@ -150,15 +163,29 @@ def _findings(record: Record, failed: list[Failure]) -> Iterator[Case]:
             yield Case(each.message, Trouble("failure", each.kind, each.message))
 
 
-def _group(implementation: Implementation, group: Line, failed: list[Failure]) -> Iterator[Case]:
+def _as_wholes(record: Record, failed: list[Failure]) -> Iterator[Case]:
+    """A case for each gated implementation: that it was started, and did nothing that no family of its own shows."""
+    for tested in under_test(record):
+        families = {group["family"] for group in tested.groups}
+        mine = [each for each in failed if each.name == tested.name and each.group not in families]
+        if mine:
+            message = "; ".join(each.message for each in mine)
+            yield Case(tested.name, Trouble("failure", mine[0].kind, message))
+        else:
+            yield Case(tested.name, output=tuple(claims(tested.line)))
+
+
+def _group(implementation: Implementation, group: Line, failed: list[Failure], replays: Replays) -> Iterator[Case]:
     """A case for each status that occurred in a family."""
     for status, number in in_order(Counter(group["counts"])).items():
         name, total = f"{group['family']}: {status}", sum(group["counts"].values())
         output = [f"{number:,} of {counted(total, 'case')}"]
         worst = worst_case([case for case in group["worst"] if case["status"] == status])
         if worst is not None:
-            output.append(f"worst backward error: {figure(float(worst['backward_error_u']))} u, case {worst['case']}")
-            output.append(f"replay: {classify_command(from_hex(worst['row']))}")
+            numbered = f" ({replays.place(worst)})" if implementation.gated else ""
+            error = figure(float(worst["backward_error_u"]))
+            output.append(f"worst backward error: {error} u, case {worst['case']}{numbered}")
+            output.append(f"replay: {replays.command(group, worst)}")
         place = ("implementation", implementation.name, group["family"], status)
         mine = [each for each in failed if (each.subject, each.name, each.group, each.kind) == place]
         if mine:

@@ -14,6 +14,7 @@ from hypcheck.report.digest import (
     implementations,
     oracle_totals,
     timing_totals,
+    under_test,
     unlisted,
     worst_case,
     worst_error_u,
@@ -34,6 +35,7 @@ def render(record: Record) -> bytes:
 def summary(record: Record) -> Fields:
     """The summary; its keys and their order are the same for every run."""
     ended = verdict(record)
+    wholes = {each.name: each.line for each in under_test(record)}
     footer = record.footer or {}
     return {
         "hypcheck": record.header["hypcheck"],
@@ -48,7 +50,7 @@ def summary(record: Record) -> Fields:
         "equations": _equations(record.of("equation")),
         "proofs": _proofs(record.of("proof")),
         "findings": _findings(record),
-        "implementations": [_implementation(each) for each in implementations(record)],
+        "implementations": [_implementation(each, wholes.get(each.name)) for each in implementations(record)],
         "timings": [_timing(total) for total in timing_totals(record)],
         "failures": [_failure(each) for each in failures(record)],
     }
@@ -89,7 +91,7 @@ def _findings(record: Record) -> Fields:
     }
 
 
-def _implementation(each: Implementation) -> Fields:
+def _implementation(each: Implementation, whole: Line | None) -> Fields:
     return {
         "name": each.name,
         "spec": each.spec,
@@ -99,7 +101,22 @@ def _implementation(each: Implementation) -> Fields:
         **_counts(each.asked, each.statuses, each.mistakes, each.worst),
         "families": {group["family"]: _family(group) for group in each.groups},
         "statuses": each.statuses,
+        **({} if whole is None else _whole(whole)),
     }
+
+
+def _whole(line: Line) -> Fields:
+    """What is known of an implementation under test beside its families."""
+    return {
+        "declared": _claims(line["declared"]),
+        "judged_as": _claims(line["used"]),
+        "restarts": line["restarts"],
+        "asked_again": line["again"],
+    }
+
+
+def _claims(description: Fields) -> Fields:
+    return {name: description[name] for name in ("question", "precision", "domain")}
 
 
 def _family(group: Line) -> Fields:

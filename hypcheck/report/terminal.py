@@ -8,7 +8,8 @@ from collections.abc import Iterator, Sequence
 import click
 
 from hypcheck.record import Record
-from hypcheck.report.digest import implementations, oracle_totals, timing_totals, worst_error_u
+from hypcheck.report.claims import claims
+from hypcheck.report.digest import implementations, oracle_totals, timing_totals, under_test, worst_error_u
 from hypcheck.report.text import counted, figure, listed, shortened, visible
 from hypcheck.report.verdict import failures, verdict
 from hypcheck.report.write import Written
@@ -26,7 +27,14 @@ def summary_lines(record: Record, written: Sequence[Written], *, colour: bool = 
     """At most MOST_LINES lines of plain text; with `colour`, the first in green or red."""
     ended = verdict(record)
     head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
-    found = [*_failures(record), *_oracles(record), *_paper(record), *_methods(record), *_timings(record)]
+    found = [
+        *_failures(record),
+        *_oracles(record),
+        *_paper(record),
+        *_under_test(record),
+        *_methods(record),
+        *_timings(record),
+    ]
     reports = list(_reports(written))
     lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
     return [head if colour else click.unstyle(head), *map(_line, lines)]
@@ -75,6 +83,12 @@ def _paper(record: Record) -> Iterator[str]:
         named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
         outside = len(findings) - len(inside)
         yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
+
+
+def _under_test(record: Record) -> Iterator[str]:
+    """What gated implementations say of themselves, and as what they were judged where that is something else."""
+    for tested in under_test(record):
+        yield from (f"{tested.name}: {claim}" for claim in claims(tested.line))
 
 
 def _methods(record: Record) -> Iterator[str]:

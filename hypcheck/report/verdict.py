@@ -13,12 +13,24 @@ from itertools import chain
 
 from hypcheck.pairs import Position
 from hypcheck.record import Line, Record
-from hypcheck.report.digest import OracleTotal, implementations, in_order, oracle_totals
-from hypcheck.report.text import classify_command, counted, from_hex, listed
+from hypcheck.report.digest import (
+    Implementation,
+    OracleTotal,
+    implementations,
+    in_order,
+    names_in,
+    oracle_totals,
+    subject_of,
+    under_test,
+    worst_error_u,
+)
+from hypcheck.report.replays import Replays
+from hypcheck.report.text import classify_command, counted, figure, from_hex, listed
 
 MEANINGS = {
     1: "wrong answers, or findings other than the known ones",
     2: "nothing was judged",
+    5: "an implementation could not be started or broke the protocol",
     6: "the oracles or a proof contradict each other",
     70: "an internal error of hypcheck",
     130: "interrupted",
@@ -41,8 +53,8 @@ class Failure:
     """One thing that fails a run.
 
     `subject` is "proof", "oracle", "implementation" or "findings"; `name` says which, `group` the family or the
-    quantity, and `kind` is one word for what happened. `case` and `row` are the first case to look at, if there is one;
-    `count` is how many of its kind it stands for.
+    quantity, and `kind` is one word for what happened. `case` is the first case to look at, if there is one, `place`
+    where the record has it and `replay` the command that shows it; `count` is how many of its kind it stands for.
     """
 
     subject: str
@@ -51,13 +63,9 @@ class Failure:
     kind: str
     message: str
     case: str | None = None
-    row: tuple[float, ...] | None = None
+    place: str | None = None
+    replay: str | None = None
     count: int = 1
-
-    @property
-    def replay(self) -> str | None:
-        """The command that decides the case exactly and proves it."""
-        return None if self.row is None else classify_command(self.row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +78,16 @@ class Verdict:
 
 def failures(record: Record) -> list[Failure]:
     """Everything in the record that fails the run, worst first."""
-    return list(chain(_oracles(record), _proofs(record), _implementations(record), _drift(record)))
+    return list(
+        chain(
+            _oracles(record),
+            _proofs(record),
+            _starts(record),
+            _implementations(record),
+            _abstentions(record),
+            _drift(record),
+        )
+    )
 
 
 def _oracles(record: Record) -> Iterator[Failure]:
@@ -84,8 +101,8 @@ def _oracles(record: Record) -> Iterator[Failure]:
 
 def _disagreement(line: Line, case: Line) -> Failure:
     message = f"{case['oracle']}: {case['opinion']}; exact decision: {case['exact']}"
-    row = from_hex(case["row"])
-    return Failure("oracle", line["oracle"], line["family"], "disagreement", message, case["case"], row)
+    replay = classify_command(from_hex(case["row"]))
+    return Failure("oracle", line["oracle"], line["family"], "disagreement", message, case["case"], replay=replay)
 
 
 def _proofs(record: Record) -> Iterator[Failure]:
@@ -95,23 +112,52 @@ def _proofs(record: Record) -> Iterator[Failure]:
             yield Failure("proof", line["formula"], line["quantity"], "unproved", message)
 
 
+def _starts(record: Record) -> Iterator[Failure]:
+    """Implementations that could not be started, or broke the protocol throughout."""
+    for tested in under_test(record):
+        if not tested.line["started"]:
+            yield Failure("implementation", tested.name, "start", "not-started", str(tested.line["trouble"]))
+        elif tested.line["broke_protocol_throughout"]:
+            message = f"{tested.name} broke the protocol throughout"
+            yield Failure("implementation", tested.name, "start", "protocol", message)
+
+
+def _abstentions(record: Record) -> Iterator[Failure]:
+    """What fails an implementation as a whole and no family of its own: abstentions, answers that change."""
+    for tested in under_test(record):
+        for trouble in tested.line.get("troubles", ()):
+            yield Failure("implementation", tested.name, "all families", "behaviour", str(trouble))
+
+
 def _implementations(record: Record) -> Iterator[Failure]:
+    replays, names = Replays.of(record), names_in(record)
     for line in record.of("group"):
         for status, number in in_order(line["counts"]).items():
-            fails = status not in HARMLESS if line["exact"] else status in FATAL
-            if fails:
-                yield _broken(line, status, number)
+            if status in line.get("failing", ()) or _breaks_promise(line, status):
+                yield _broken(names[subject_of(line)], line, status, number, replays)
 
 
-def _broken(line: Line, status: str, number: int) -> Failure:
-    name, family = line["method"], line["family"]
+def _breaks_promise(line: Line, status: str) -> bool:
+    """Whether a status fails a method of the project itself; of a gated one the record says what fails it."""
+    return status not in HARMLESS if line["exact"] else status in FATAL
+
+
+def _broken(name: str, line: Line, status: str, number: int, replays: Replays) -> Failure:
+    family = line["family"]
     promise = " promises to be exact, but" if line["exact"] else ":"
     message = f"{name}{promise} {number:,} of {counted(line['asked'], 'case')} ended {status}"
     first = next((case for case in line["worst"] if case["status"] == status), None)
-    if first is None:
+    fault = next((case for case in line.get("faults", ()) if case["status"] == status), None)
+    if fault is not None:
+        message += f"; {fault['case']}: {fault['reason']}"
+    elif first is not None:
+        message += f"; {first['case']} is {Position(first['truth']).label}, and the answer was {first['answer']}"
+        message += f" ({first['mistake']}, wrong by {figure(float(first['backward_error_u']))} u)"
+    case = first if fault is None else fault
+    if case is None:
         return Failure("implementation", name, family, status, message)
-    message += f"; {first['case']} is {Position(first['truth']).label}, and the answer was {first['answer']}"
-    return Failure("implementation", name, family, status, message, first["case"], from_hex(first["row"]))
+    place, replay = replays.place(case), replays.command(line, case)
+    return Failure("implementation", name, family, status, message, case["case"], place, replay)
 
 
 def _drift(record: Record) -> Iterator[Failure]:
@@ -157,8 +203,15 @@ def _held(record: Record) -> Verdict:
         *([_oracle_clause(totals)] if totals else []),
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
         *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
+        *(_gated_clause(each) for each in tested if each.gated),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
+
+
+def _gated_clause(each: Implementation) -> str:
+    """What a gated implementation has shown: how its cases ended, skipped ones apart."""
+    ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
+    return f"{each.name}: {ended}; worst backward error {figure(worst_error_u(each.worst))} u"
 
 
 def _oracle_clause(totals: list[OracleTotal]) -> str:

@@ -14,10 +14,14 @@ from hypcheck.tables.streams import writing
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """One format: its file's name, and its bytes from the record and the names of the files written before it."""
+    """One format: its file's name, and its bytes from the record and the names of the files written before it.
+
+    `shows` is the kind of line without which there is nothing to show, so that no file is written and none is missed.
+    """
 
     file: str
     render: Callable[[Record, Collection[str]], bytes]
+    shows: str | None = None
 
 
 def _markdown(record: Record, beside: Collection[str]) -> bytes:
@@ -28,7 +32,7 @@ def _markdown(record: Record, beside: Collection[str]) -> bytes:
 REPORTS = {
     "summary": Report("summary.json", lambda record, _: summary.render(record)),
     "junit": Report("junit.xml", lambda record, _: junit.render(record)),
-    "picture": Report("map.svg", lambda record, _: picture.render(record)),
+    "picture": Report("map.svg", lambda record, _: picture.render(record), shows="map"),
     "markdown": Report("report.md", _markdown),  # after the picture, to which it refers
 }
 """Every format by its name, in the order in which they are written."""
@@ -54,6 +58,9 @@ def write_reports(record: Record, directory: Path) -> list[Written]:
         raise InputError(f"cannot make the folder {directory}: {(error.strerror or str(error)).lower()}") from error
     done: list[Written] = []
     for report in REPORTS.values():
+        if report.shows and not record.of(report.shows):
+            _remove(directory / report.file)
+            continue
         beside = {each.path.name for each in done if each.skipped is None}
         done.append(_write(report, record, directory / report.file, beside))
     return done

@@ -30,6 +30,13 @@ LEAST, GREATEST = 2.0**-100, 2.0**100
 LEAST_MULTIPLIER, GREATEST_MULTIPLIER = 2.0**-450, 2.0**450
 UNDECIDED = 2
 
+STEP = 1 - 2.0**-30
+"""Points a computed direction leads to are this many radii away: the rest covers the direction's rounding."""
+
+Directions = tuple[tuple[float, float], ...]
+UPRIGHT: Directions = ((1.0, 0.0), (0.0, 1.0))
+SLANTED: Directions = tuple((STEP * m / 25, STEP * n / 25) for m, n in ((20, 15), (15, 20), (24, 7), (7, 24)))
+
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -46,14 +53,19 @@ def positions(rows: Rows) -> Positions:
 
 def filtered(rows: Rows) -> Positions:
     """What the filter alone can prove: a position, or UNDECIDED. int8 (n,)."""
-    alpha, gamma, b, d, x, y, z = rows.T
     with np.errstate(all="ignore"):  # a NaN or an infinity compares false, which is undecided
-        A, B = (alpha / b) ** 2, (gamma / d) ** 2
-        P, Q = (x * x + y * y) / (b * b), (z / d) ** 2
-        clear_of_surface = _clear(A, B, P, Q)
-        result = np.where(_in_contact(A, B, P, Q), 0, UNDECIDED)
-        result = np.where(clear_of_surface != 0, clear_of_surface, result)
+        A, B, P, Q = _squares(rows)
+        clear = _clear(A, B, P, Q)
+        result = np.where(clear != 0, clear, np.where(_in_contact(A, B, P, Q, UPRIGHT), 0, UNDECIDED))
+        rest = np.flatnonzero(result == UNDECIDED)
+        result[rest[_in_contact(A[rest], B[rest], P[rest], Q[rest], SLANTED)]] = 0
         return np.where(_safe(rows), result, UNDECIDED).astype(np.int8)
+
+
+def _squares(rows: Rows) -> tuple[Floats, Floats, Floats, Floats]:
+    """A, B, P and Q of each row, (n,) each."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    return (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
 
 
 def _chunk(rows: Rows) -> Positions:
@@ -85,13 +97,15 @@ def _clear(A: Floats, B: Floats, P: Floats, Q: Floats) -> NDArray[np.int64]:
     return np.asarray(usable * (exterior.astype(np.int64) - interior))
 
 
-def _in_contact(A: Floats, B: Floats, P: Floats, Q: Floats) -> Mask:
-    """Whether points of the closed ball on both sides of the hyperboloid were found, in the half plane r, |z| ≥ 0."""
+def _in_contact(A: Floats, B: Floats, P: Floats, Q: Floats, directions: Directions) -> Mask:
+    """Whether points of the closed ball on both sides of the hyperboloid were found, in the half plane r, |z| ≥ 0.
+
+    Points lie in the `directions` away from the axis and to the waist, or the other way, a little less than one radius
+    from the centre, and along the normal at it.
+    """
     r, z = np.sqrt(P), np.sqrt(Q)
-    # Along the normal at the centre's height, a little less than one radius: STEP covers the direction's rounding.
     across, along = r / A, z / B
     length = np.hypot(across, along)  # 0 at the origin alone: no square of it underflows
-    across, along = STEP * across / length, STEP * along / length
     # Each point's coordinate is within 8u (r + 1), 8u (z + 1) of the one meant; the bounds below swallow that.
     slack_r, slack_z = (MARGIN - 1) * (r + 1), (MARGIN - 1) * (z + 1)
 
@@ -103,10 +117,10 @@ def _in_contact(A: Floats, B: Floats, P: Floats, Q: Floats) -> Mask:
         radius, height = radius + slack_r, np.maximum(height - slack_z, 0)
         return np.asarray(height * height / B + 1 > MARGIN * (radius * radius / A))
 
-    lower, nearer = np.maximum(z - 1, 0), np.maximum(r - 1, 0)
-    some_outside = outside(r + 1, z) | outside(r, lower) | outside(r + across, np.abs(z - along))
-    some_inside = inside(nearer, z) | inside(r, z + 1) | inside(np.abs(r - across), z + along)
+    across, along = STEP * across / length, STEP * along / length
+    some_outside = outside(r + across, np.abs(z - along))
+    some_inside = inside(np.abs(r - across), z + along)
+    for wide, tall in directions:
+        some_outside |= outside(r + wide, np.maximum(z - tall, 0))
+        some_inside |= inside(np.maximum(r - wide, 0), z + tall)
     return some_outside & some_inside
-
-
-STEP = 1 - 2.0**-30

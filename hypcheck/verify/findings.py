@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hypcheck import judge
+from hypcheck import groups, judge
 from hypcheck.derivation.exact_arithmetic import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answers
-from hypcheck.judge import Criterion, Status, WrongCase
+from hypcheck.judge import Criterion, Status
 from hypcheck.methods.domain import EVERYWHERE, representable
 from hypcheck.methods.method import Method
 from hypcheck.pairs import COLUMNS, Pair
-from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth.exact import cubic
 from hypcheck.truth.kinds import Kind
 from hypcheck.verify.plan import Batch, Plan
-
-WORST_KEPT = 3
-"""Worst cases a group keeps with their rows; its counts are always exact."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +78,8 @@ def exact_formulas() -> list[Formula]:
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
-def group(method: Method, batch: Batch, octaves: np.ndarray[Any, np.dtype[np.float64]], plan: Plan) -> dict[str, Any]:
-    """The record's line about one method and one family."""
+def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan) -> dict[str, Any]:
+    """The record's line about one method and one family; `octaves` as in groups.line, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
     asked = method.domain.holds(batch.rows) & representable(batch.rows, method.precision)
@@ -95,83 +90,12 @@ def group(method: Method, batch: Batch, octaves: np.ndarray[Any, np.dtype[np.flo
     status = np.where(given == CANNOT_SAY, Status.ABSTAINED.value, Status.RIGHT.value).astype(object)
     for case in wrong:
         status[case.index] = case.status.value
-    counts = Counter(status.tolist())
-    counts[Status.SKIPPED.value] = int((~asked).sum())
-    return {
-        "method": method.name,
-        "question": method.question,
-        "precision": method.precision,
-        "family": batch.family.name,
-        "asked": len(rows),
-        "counts": {name: number for name, number in sorted(counts.items()) if number},
-        "mistakes": dict(sorted(Counter(case.mistake.value for case in wrong).items())),
-        "octaves": _by_octave(octaves[places], status),
-        "size_bins": _size_bins(rows, status),
-        "place_bins": _place_bins(rows, status),
-        "worst": [
-            _worst(case, error, batch.case_id(int(places[case.index])), criterion)
-            for case, error in _worst_first(wrong, criterion)
-        ],
-    }
-
-
-def _worst_first(cases: Sequence[WrongCase], criterion: Criterion) -> list[tuple[WrongCase, float]]:
-    """The worst cases with their backward errors: wrong before tolerated, then the largest error, then the first."""
-    ranked = sorted(cases, key=lambda case: (case.status is not Status.WRONG, -case.exponent, case.index))
-    kept = ranked[:WORST_KEPT]
-    # Inside the last octave that is kept only the numbers themselves tell which cases are the worst.
-    rivals = [
-        case for case in ranked[WORST_KEPT:] if (case.status, case.exponent) == (kept[-1].status, kept[-1].exponent)
-    ]
-    if kept and math.isfinite(kept[-1].exponent):
-        kept = [*kept, *rivals]
-    with_errors = [(case, judge.measured(case, criterion.question)) for case in kept]
-    with_errors.sort(key=lambda pair: (pair[0].status is not Status.WRONG, -pair[1], pair[0].index))
-    return with_errors[:WORST_KEPT]
-
-
-def _worst(case: WrongCase, error: float, name: str, criterion: Criterion) -> dict[str, Any]:
-    return {
-        "case": name,
-        "row": [value.hex() for value in case.row],
-        "truth": int(case.truth),
-        "answer": case.answer,
-        "mistake": case.mistake.value,
-        "status": case.status.value,
-        "backward_error": error,
-        "backward_error_u": judge.in_units(error, criterion.unit),
-    }
-
-
-def _by_octave(
-    octaves: np.ndarray[Any, np.dtype[np.float64]], status: np.ndarray[Any, Any]
-) -> dict[str, dict[str, int]]:
-    """Counts by status for each octave of the case's own distance to the nearest other position."""
-    table: dict[str, Counter[str]] = {}
-    for octave, name in zip(map(float, octaves), status.tolist(), strict=True):
-        key = str(int(octave)) if math.isfinite(octave) else str(octave)
-        table.setdefault(key, Counter())[name] += 1
-    return {key: dict(sorted(table[key].items())) for key in sorted(table, key=float)}
-
-
-def _size_bins(rows: Rows, status: np.ndarray[Any, Any]) -> list[list[int]]:
-    """Rows [⌊log2 α/b⌋, ⌊log2 γ/d⌋, asked, wrong or tolerated], one for each bin that has cases."""
-    with np.errstate(all="ignore"):
-        return _bins(np.frexp(rows[:, 0] / rows[:, 2])[1] - 1, np.frexp(rows[:, 1] / rows[:, 3])[1] - 1, status)
-
-
-def _place_bins(rows: Rows, status: np.ndarray[Any, Any]) -> list[list[int]]:
-    """Rows [⌊8 r/α⌋, ⌊8 |z|/γ⌋, asked, wrong or tolerated], both clipped to 0 … 63."""
-    with np.errstate(all="ignore"):
-        r, z = np.hypot(rows[:, 4], rows[:, 5]) / rows[:, 0], np.abs(rows[:, 6]) / rows[:, 1]
-        across, along = (np.nan_to_num(np.clip(8 * value, 0, 63)).astype(int) for value in (r, z))
-    return _bins(across, along, status)
-
-
-def _bins(first: np.ndarray[Any, Any], second: np.ndarray[Any, Any], status: np.ndarray[Any, Any]) -> list[list[int]]:
-    asked: Counter[tuple[int, int]] = Counter()
-    wrong: Counter[tuple[int, int]] = Counter()
-    for key, name in zip(zip(first.tolist(), second.tolist(), strict=True), status.tolist(), strict=True):
-        asked[key] += 1
-        wrong[key] += name != Status.RIGHT.value
-    return [[*key, asked[key], wrong[key]] for key in sorted(asked)]
+    judged = groups.Judged(
+        family=batch.family.name,
+        rows=rows,
+        status=status,
+        wrong=tuple(wrong),
+        skipped=int((~asked).sum()),
+        name=lambda index: batch.case_id(int(places[index])),
+    )
+    return {"method": method.name, **groups.line(judged, octaves[places], criterion)}

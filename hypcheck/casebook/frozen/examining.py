@@ -1,0 +1,39 @@
+"""Checking files, whatever they hold: each is read strictly, and then every label of it is put to the proof."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from hypcheck.casebook import vectors
+from hypcheck.casebook.frozen import refusals
+from hypcheck.casebook.frozen.checking import Fault, faults_of_refusals, faults_of_vectors
+from hypcheck.casebook.frozen.reading import REFUSALS, content_of, vectors_of
+from hypcheck.casebook.frozen.refusals import refusals_of
+from hypcheck.casebook.frozen.scanning import scan
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What became of a file: how many cases it has, and every wrong label."""
+
+    path: str
+    count: int
+    faults: tuple[Fault, ...]
+
+
+def shipped() -> list[str]:
+    """The paths of the frozen files, all of which must be there."""
+    return [str(vectors.path_of(name)) for name in (*vectors.NAMES, refusals.NAME)]
+
+
+def examine(paths: Iterable[str]) -> Iterator[Report]:
+    """A report on each file in turn. Raises InputError where one is not wholly as its schema demands."""
+    for path in paths:
+        document = scan(path)
+        if content_of(document, path) == REFUSALS:
+            bad = refusals_of(document, path)
+            yield Report(path, len(bad.cases), tuple(faults_of_refusals(bad)))
+        else:
+            file = vectors_of(document, path)
+            yield Report(path, len(file.cases), tuple(faults_of_vectors(file)))

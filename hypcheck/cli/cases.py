@@ -1,0 +1,100 @@
+"""`hypcheck cases`: options into a question to the casebook, its answer onto the screen or into a file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from hypcheck.errors import InputError
+
+_FORMATS = ("json", "csv", "npy")
+
+
+@click.group(short_help="List, show, generate and check certified test vectors.")
+def cases() -> None:
+    """Certified test vectors: rows, right answers, and a proof of each answer.
+
+    The frozen ones travel with the package, a JSON file a family; their README says how to use them without hypcheck.
+    """
+
+
+@cases.command("list", short_help="Say what families there are, and how many cases of each are frozen.")
+def list_() -> None:
+    """Say what families there are, and how many cases of each are frozen."""
+    from hypcheck.casebook.frozen.showing import list_lines
+
+    for line in list_lines():
+        click.echo(line)
+
+
+@cases.command(short_help="Show a family, or a case with its proof.")
+@click.argument("name", metavar="ID|FAMILY")
+@click.option("--json", "as_json", is_flag=True, help="As it stands in the file.")
+def show(name: str, as_json: bool) -> None:
+    """Show a family, a frozen case (ring-0007) or a generated one (ring/1/42/7)."""
+    from hypcheck.casebook.frozen.showing import show as lines_of
+
+    for line in lines_of(name, as_json=as_json):
+        click.echo(line)
+
+
+@cases.command(short_help="Make rows of a family, as many as you like.")
+@click.argument("family")
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
+@click.option("--count", type=click.IntRange(1), default=100, show_default=True, help="Rows.")
+@click.option("--format", "said", type=click.Choice(_FORMATS), help="By default what --output ends in, or json.")
+@click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
+def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:
+    """Make the first rows of a family's seed: the same bytes on every machine, and a longer run begins with a shorter.
+
+    As json they are a vector file, every row labelled and proved; csv has ids and rows, npy rows alone, float64 (n, 7).
+    """
+    from hypcheck.casebook.frozen.generating import generate as write
+
+    write(family, seed, count, said or _format_of(target), target)
+
+
+@cases.command(short_help="Prove every label of the frozen files, or of yours.")
+@click.argument("files", nargs=-1, metavar="[FILE]...")
+@click.pass_context
+def check(context: click.Context, files: tuple[str, ...]) -> None:
+    """Prove every label of every vector from its certificate, and compute the rest anew.
+
+    Ends with 1 where a label is wrong, 2 where a file is not as its schema demands.
+    """
+    from hypcheck.casebook.frozen.examining import examine, shipped
+    from hypcheck.cli.exits import Exit
+
+    checked, faulty = 0, 0
+    for report in examine(files or shipped()):
+        for fault in report.faults:
+            click.echo(f"{report.path}, line {fault.line}, case {fault.case}: {fault.sentence}")
+        checked += report.count
+        faulty += len({fault.case for fault in report.faults})
+    click.echo(f"{checked} cases checked, {faulty or 'none'} with a wrong label")
+    context.exit(Exit.WRONG if faulty else Exit.HELD)
+
+
+@cases.command(short_help="Make the frozen files anew, keeping every id.")
+@click.argument("names", nargs=-1, metavar="[FAMILY]...")
+@click.option("--into", type=click.Path(path_type=Path), default=Path("cases"), show_default=True, metavar="FOLDER")
+def freeze(names: tuple[str, ...], into: Path) -> None:
+    """Make the frozen files anew: the cases that are there keep ids and rows, new ones come after them.
+
+    Everything takes about two minutes, most of them the search for the worst cancellation.
+    """
+    from hypcheck.casebook.frozen.freezing import NAMES
+    from hypcheck.casebook.frozen.freezing import freeze as write
+
+    write(names or NAMES, into, lambda name: click.echo(into / f"{name}.json"))
+
+
+def _format_of(target: str) -> str:
+    end = os.path.splitext(target)[1].lower().removeprefix(".")
+    if target == "-":
+        return _FORMATS[0]
+    if end not in _FORMATS:
+        raise InputError(f"--output {target}: its name must end in .json, .csv or .npy, or --format must tell")
+    return end

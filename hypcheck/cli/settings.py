@@ -1,0 +1,221 @@
+"""A project's settings: `hypcheck.toml` in the working directory, of which every key stands for a command-line option.
+
+What is given on the command line goes before it. A key that is not known or a value that cannot be is refused.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from hypcheck.errors import InputError
+
+FILE = "hypcheck.toml"
+
+ABOUT_ONE = ("tolerance", "precision", "question", "domain", "startup_timeout", "timeout", "restarts", "memory")
+"""How an implementation is opened and judged: keys that also stand for options of commands that ask one alone."""
+
+COMMANDS = ("verify", "replay", "hunt", "minimise")
+"""Commands that go by the settings: verify by all of them, the others by ABOUT_ONE."""
+
+_LARGEST_SEED = 2**63 - 1
+_BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What a file says: `specs` for verify where none is named, and values by the names of options' parameters."""
+
+    specs: tuple[str, ...]
+    options: Mapping[str, Any]
+
+    @property
+    def default_map(self) -> dict[str, dict[str, Any]]:
+        """The values by command, as click wants them."""
+        about_one = {name: value for name, value in self.options.items() if name in ABOUT_ONE}
+        return {command: dict(self.options) if command == "verify" else about_one for command in COMMANDS}
+
+
+def read_settings(path: Path) -> Settings | None:
+    """The settings in a file, None where there is no such file. Raises InputError naming file, line and key."""
+    text = _text(path)
+    if text is None:
+        return None
+    content = _parsed(path, text)
+    checked = {key: _checked(path, text, key, value) for key, value in content.items()}
+    return Settings(checked.pop("specs", ()), checked)
+
+
+def _text(path: Path) -> str | None:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {(error.strerror or str(error)).lower()}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is not UTF-8 text: {error.reason} at byte {error.start}") from None
+
+
+def _parsed(path: Path, text: str) -> dict[str, Any]:
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: is no TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{path}: is no TOML that can be read: it is nested too deeply") from None
+
+
+def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - of the type its option wants
+    where = f"{path}{_line_of(text, key)}"
+    check = _KEYS.get(key)
+    if check is None:
+        near = get_close_matches(key.replace("-", "_"), _KEYS, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(_KEYS)}"
+        raise InputError(f"{where}: there is no setting {key!r}; {hint}")
+    try:
+        return check(value)
+    except ValueError as error:
+        raise InputError(f"{where}: {key} is {_shown(value)}; it must be {error}") from None
+    except InputError as error:  # a domain says itself what of it is wrong
+        raise InputError(f"{where}: {error}") from None
+
+
+def _line_of(text: str, key: str) -> str:
+    """The end of "FILE, line 3" for the line that seems to set the key or begin its table; empty where none does."""
+    quoted = rf"""["']?{re.escape(key)}["']?"""
+    begins = re.compile(rf"\s*(?:{quoted}\s*[=.]|\[+\s*{quoted}\s*[].])")
+    for number, line in enumerate(text.splitlines(), start=1):
+        if begins.match(line):
+            return f", line {number}"
+    return ""
+
+
+def _shown(value: object) -> str:
+    shown = json.dumps(value, ensure_ascii=False, default=str)
+    return shown if len(shown) <= 60 else shown[:60] + "…"
+
+
+def _texts(value: object) -> tuple[str, ...]:
+    if not isinstance(value, list) or not value or not all(isinstance(each, str) and each for each in value):
+        raise ValueError('a list of texts, such as ["command:./adapter"]')
+    return tuple(value)
+
+
+def _names(value: object) -> str:
+    """A list of names and globs as the option has it: separated by commas."""
+    parts = [value] if isinstance(value, str) else value
+    if not isinstance(parts, list) or not parts or not all(isinstance(each, str) and each.strip() for each in parts):
+        raise ValueError('names and globs, such as ["ring", "tower-*"]')
+    return ",".join(parts)
+
+
+def _path(value: object) -> str:
+    if not isinstance(value, str) or not value or "\0" in value:
+        raise ValueError("the text of a path")
+    return value
+
+
+def _whole(least: int, greatest: int | None = None) -> Callable[[object], int]:
+    def check(value: object) -> int:
+        if isinstance(value, int) and not isinstance(value, bool) and least <= value <= (greatest or value):
+            return value
+        upper = "" if greatest is None else f" and at most {greatest}"
+        raise ValueError(f"a whole number, at least {least}{upper}")
+
+    return check
+
+
+def _number(value: object, *, above: bool = False) -> float:
+    wanted = "a number above 0" if above else "a number, 0 or more"
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
+    if not 0 <= value < math.inf or (above and not value) or value > sys.float_info.max:
+        raise ValueError(wanted)
+    return float(value)
+
+
+def _seconds(value: object) -> float:
+    return _number(value, above=True)
+
+
+def _truth(value: object) -> bool:
+    if not isinstance(value, bool):
+        raise ValueError("true or false")  # noqa: TRY004 - as above
+    return value
+
+
+def _bytes(value: object) -> str:
+    if isinstance(value, int) and not isinstance(value, bool) and value > 0:
+        return str(value)
+    if not isinstance(value, str) or not _BYTES.fullmatch(value):
+        raise ValueError('a size such as "512M" or "4G", or a whole number of bytes')
+    return value
+
+
+def _one_of(choices: Callable[[], tuple[str, ...]]) -> Callable[[object], str]:
+    def check(value: object) -> str:
+        if not isinstance(value, str) or value not in choices():
+            raise ValueError(f"one of {', '.join(choices())}")
+        return value
+
+    return check
+
+
+def _precisions() -> tuple[str, ...]:
+    from hypcheck.methods.description import PRECISIONS
+
+    return PRECISIONS
+
+
+def _questions() -> tuple[str, ...]:
+    from hypcheck.methods.description import QUESTIONS
+
+    return QUESTIONS
+
+
+def _domain(value: object) -> str:
+    """A table as the option has it, in JSON. Raises InputError too."""
+    from hypcheck.methods.description import parse_domain
+
+    if not isinstance(value, dict):
+        raise ValueError('a table such as { regimes = ["a>=1"], ratio = [1e-3, 1e3], magnitude = [1e-6, 1e6] }')  # noqa: TRY004
+    text = json.dumps(value, default=str)
+    parse_domain(text)
+    return text
+
+
+_KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
+    {
+        "specs": _texts,
+        "out": _path,
+        "families": _names,
+        "count": _whole(0),
+        "seed": _whole(0, _LARGEST_SEED),
+        "tolerance": _number,
+        "precision": _one_of(_precisions),
+        "question": _one_of(_questions),
+        "domain": _domain,
+        "max_abstained": _whole(0),
+        "fail_on": _one_of(lambda: ("wrong", "false-clear")),
+        "deterministic": _truth,
+        "known_failures": _path,
+        "startup_timeout": _seconds,
+        "timeout": _seconds,
+        "restarts": _whole(0),
+        "memory": _bytes,
+    }
+)
+"""What each key may hold, and how its option has it."""

@@ -1,0 +1,51 @@
+"""What one gating run is asked to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+
+from hypcheck.errors import InputError
+from hypcheck.judge import DEFAULT_TOLERANCE
+from hypcheck.methods.domain import Domain
+from hypcheck.methods.limits import Limits
+
+FAIL_ON = ("wrong", "false-clear")
+
+
+@dataclass(frozen=True, slots=True)
+class GatePlan:
+    """Options of a gating run.
+
+    `specs` name the implementations; `families` are names and globs (none: all but the extreme ones), of each of which
+    the frozen vectors and `count` generated rows are asked. `precision`, `question` and `domain` stand for what an
+    implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only one that claims clear in contact.
+    """
+
+    specs: tuple[str, ...]
+    families: tuple[str, ...] = ()
+    count: int = 400
+    seed: int = 1
+    tolerance: Fraction = DEFAULT_TOLERANCE
+    max_abstained: int = 0
+    fail_on: str = "wrong"
+    deterministic: bool = False
+    known_failures: Path | None = None
+    precision: str | None = None
+    question: str | None = None
+    domain: Domain | None = None
+    limits: Limits = field(default_factory=Limits)
+
+    def __post_init__(self) -> None:
+        if not self.specs:
+            raise InputError("no implementation is named; name one as builtin:, python:, library: or command:")
+        if self.fail_on not in FAIL_ON:
+            raise InputError(f"--fail-on is {self.fail_on!r}; it must be one of {', '.join(FAIL_ON)}")
+        if self.max_abstained < 0:
+            raise InputError(f"--max-abstained is {self.max_abstained}; it must be 0 or more")
+
+    @property
+    def filtered(self) -> bool:
+        """Whether families were chosen, so that not everything a list of known failures speaks of is asked."""
+        return bool(self.families)

@@ -1,0 +1,42 @@
+"""Keeping what a hunt found in a vector file of the caller's own, after the cases that are there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from hypcheck.casebook.frozen.freezing import assembled, extended
+from hypcheck.casebook.frozen.labels import labelled
+from hypcheck.casebook.frozen.model import Head, Row, VectorFile
+from hypcheck.casebook.frozen.reading import read_vectors
+from hypcheck.casebook.frozen.writing import vectors_text
+from hypcheck.tables.streams import writing
+
+
+def keep(path: str, rows: Sequence[Row], made_by: str) -> int:
+    """Add the rows that are not there yet to a vector file, labelled and proved; how many these were.
+
+    Where there is no file, one is begun that names `made_by` as the command it is from; the cases of an existing one
+    stay as they are. Raises InputError where a file is there that is no vector file, or where it cannot be written.
+    """
+    before = read_vectors(path) if Path(path).exists() else VectorFile(_head(made_by), {}, ())
+    known = [(case.id, case.row) for case in before.cases]
+    added = labelled(extended(before.head.name, known, rows)[len(known) :])
+    with writing(path) as writer:
+        writer.write(vectors_text(assembled(before.head, (*before.cases, *added))).encode())
+    return len(added)
+
+
+def _head(made_by: str) -> Head:
+    return Head(
+        name="found",
+        version=1,
+        title="rows that an implementation answered wrongly",
+        source="own; the casebook's strata, and local search from there",
+        purpose="an implementation was wrong here; it should stay right once it is mended",
+        game="as wrong as the game that the implementation belongs to",
+        drone="as wrong as the drone that the implementation belongs to",
+        regimes="wherever the wrong answers were",
+        extreme=False,
+        made_by=made_by,
+    )

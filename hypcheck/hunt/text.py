@@ -1,0 +1,107 @@
+"""What a hunt and a minimisation found, for a person at a terminal."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Iterator, Sequence
+
+from hypcheck.casebook.frozen.texts import hex_of
+from hypcheck.hunt.findings import Cluster, Finding
+from hypcheck.hunt.hunting import Hunt
+from hypcheck.hunt.minimise import Minimised
+from hypcheck.hunt.target import Target
+from hypcheck.methods.faults import Outcome
+from hypcheck.pairs import COLUMNS, Pair, Position
+
+
+def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
+    """The report of a hunt, the worst first, at most `most` kinds of wrong answers in full."""
+    found = run.findings.worst_first()
+    beyond = sum(cluster.beyond for cluster in found)
+    tolerated = sum(cluster.tolerated for cluster in run.findings.clusters.values())
+    tolerance = float(run.target.criterion.tolerance)
+    yield f"{_name(run.target)}: {run.asked:,} rows asked in {run.seconds:.1f} s, seed {run.plan.seed}"
+    judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
+    yield f"{run.wrong:,} answers were wrong{judged if run.wrong else ''}"
+    if run.abstained:
+        yield f'{run.abstained:,} answers were "cannot say"'
+    if found:
+        yield f"kinds of wrong answers: {len(found)}, the worst first"
+    for number, cluster in enumerate(found[:most], start=1):
+        yield ""
+        yield from _cluster(number, cluster, run.target)
+    if len(found) > most:
+        yield ""
+        yield f"and {len(found) - most} more kinds, the worst of them {_u(found[most].worst)}; --show shows more"
+    yield from _faults(run)
+
+
+def minimised_lines(run: Minimised) -> Iterator[str]:
+    """The report of a minimisation."""
+    given = run.first.case.row
+    steps = len(run.steps) - 1
+    yield f"{_name(run.target)}: {steps} step{'' if steps == 1 else 's'}, {run.asked:,} rows asked"
+    yield _titled("given", f"{decimals(given)}, {_u(run.first)}")
+    yield _titled("where", run.last.place.words)
+    yield from _finding(run.last, run.target)
+
+
+def _cluster(number: int, cluster: Cluster, target: Target) -> Iterator[str]:
+    worst = cluster.worst
+    yield f"{number}. {worst.case.mistake.value}, {_u(worst)}, {worst.place.words}"
+    yield from _finding(worst, target)
+    tolerated = f", and {cluster.tolerated:,} within tolerance" if cluster.tolerated else ""
+    yield _titled("met", f"{cluster.beyond:,} times{tolerated}; the worst from {worst.source}")
+    yield _titled("simplify", _command(target, "minimise", target.spec, decimals(worst.case.row)))
+
+
+def _finding(finding: Finding, target: Target) -> Iterator[str]:
+    case = finding.case
+    answer = _answer(case.answer, target.criterion.question)
+    yield _titled("row", f"{decimals(case.row)}  ({', '.join(COLUMNS)})")
+    yield _titled("hex", ",".join(map(hex_of, case.row)))
+    yield _titled("truth", f"{case.truth.label}; answered: {answer}, which is a {case.mistake.value} by {_u(finding)}")
+    yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
+
+
+def _faults(run: Hunt) -> Iterator[str]:
+    for outcome, fault in run.faults.items():
+        yield ""
+        yield f"{outcome.label}: {fault.count:,} rows; the first: {fault.reason}"
+        if outcome is not Outcome.NOT_RUN:
+            yield _titled("row", f"{decimals(fault.row)}  ({', '.join(COLUMNS)})")
+
+
+def _command(target: Target, *words: str) -> str:
+    """A command about the target, with the options that it was opened with."""
+    given = [
+        part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
+    ]
+    return shlex.join(("hypcheck", *words, *given))
+
+
+def decimals(row: Sequence[float]) -> str:
+    """A row as the command line reads it back."""
+    return ",".join(repr(value).removesuffix(".0") for value in Pair.from_row(row).row)
+
+
+def _answer(answer: int, question: str) -> str:
+    if question == "position":
+        return Position(answer).label
+    return f"{question}: {'yes' if answer else 'no'}"
+
+
+def _u(finding: Finding) -> str:
+    if finding.error_u == math.inf:
+        return "inf u (no change of the inputs makes it right)" if finding.error == math.inf else "inf u"
+    return f"{finding.error_u:.3g} u"
+
+
+def _name(target: Target) -> str:
+    said = target.implementation.description
+    return f"{said.name} ({target.criterion.question}, {target.criterion.precision})"
+
+
+def _titled(title: str, line: str) -> str:
+    return f"   {title:9} {line}"

@@ -1,0 +1,143 @@
+"""Questions about rows, whatever becomes of them: a fault costs the row that causes it, and the others are answered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.methods.description import Description
+from hypcheck.methods.faults import FaultError, Outcome
+from hypcheck.methods.frames import UNWRITTEN
+from hypcheck.methods.runs import OverError, Runs
+from hypcheck.methods.session import Answers
+from hypcheck.pairs import REFUSED
+from hypcheck.rows import CANNOT_SAY, Rows, invalid
+
+ALONE = 4096
+"""Rows that are asked one by one to find the one at fault; of a larger batch, parts of this size are asked first.
+
+So one row at fault costs two restarts or three, and each further one among the same rows one.
+"""
+
+LONE_QUESTIONS = 1 << 17
+"""Rows of one implementation that are asked one by one over all: who fails always need not be asked for every row."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """What became of n rows: `answers` int8 (n,), CANNOT_SAY where there is none; `status` int8 (n,), an Outcome each.
+
+    `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED.
+    """
+
+    answers: NDArray[np.int8]
+    status: NDArray[np.int8]
+    reasons: dict[int, str]
+
+    @property
+    def answered(self) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows that have an answer."""
+        return np.asarray(self.status == Outcome.ANSWERED)
+
+    def count(self, outcome: Outcome) -> int:
+        """How many rows ended so."""
+        return int(np.count_nonzero(self.status == outcome))
+
+
+class Vocabulary:
+    """The answers that an implementation may give, by its question and by whether it refuses invalid rows."""
+
+    def __init__(self, description: Description) -> None:
+        self._refuses = description.refuses
+        self.answers = allowed(description.question)
+        self._usable = np.zeros(256, dtype=np.bool_)
+        self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
+
+    def understood(self, answers: Answers, rows: Rows) -> NDArray[np.bool_]:
+        """A mask (n,) of the answers that may be given to these rows."""
+        short = answers.astype(np.int8, copy=False)
+        usable = self._usable[short.view(np.uint8)]
+        if answers.dtype != np.int8:
+            usable &= short == answers
+        if self._refuses:
+            refused = np.flatnonzero(short == REFUSED)
+            usable[refused] &= invalid(rows[refused])
+        return np.asarray(usable)
+
+    def trouble_with(self, answer: int) -> str:
+        """Why an answer that may not be given may not."""
+        if answer == REFUSED and self._refuses:
+            return f"it answered {REFUSED}, which refuses the row, but the row is valid"
+        hint = ", which is what stands where a library writes nothing" if answer == UNWRITTEN else ""
+        return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
+
+
+def allowed(question: str) -> tuple[int, ...]:
+    """The answers that a question has."""
+    return (-1, 0, 1) if question == "position" else (0, 1)
+
+
+class Asking:
+    """One call's rows and what became of them so far."""
+
+    def __init__(self, rows: Rows, runs: Runs, vocabulary: Vocabulary, *, by_scene: bool, lone_left: int) -> None:
+        n = len(rows)
+        self._rows = rows
+        self._runs = runs
+        self._vocabulary = vocabulary
+        self._by_scene = by_scene
+        self.lone_left = lone_left
+        self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
+
+    def ask(self, start: int, stop: int) -> None:
+        """Ask rows [start, stop), together if that succeeds; raises OverError where no further process may begin."""
+        try:
+            self._question(start, stop)
+        except FaultError as fault:
+            self._search(start, stop, fault.outcome, self._runs.note(fault))
+
+    def leave(self, reason: str) -> None:
+        """Note for the rows of which nothing was found out why that is so."""
+        left = np.flatnonzero(self.result.status == Outcome.NOT_RUN)
+        self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
+
+    def _question(self, start: int, stop: int) -> None:
+        rows = self._rows[start:stop]
+        answers = self._runs.session().classify(rows, by_scene=self._by_scene)
+        understood = self._vocabulary.understood(answers, rows)
+        self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
+        self.result.status[start:stop] = Outcome.ANSWERED
+        for index in np.flatnonzero(~understood).tolist():
+            self._mark(start + index, Outcome.PROTOCOL, self._vocabulary.trouble_with(int(answers[index])))
+
+    def _search(self, start: int, stop: int, outcome: Outcome, reason: str) -> None:
+        """Find the row at fault by asking parts, and then each row of a part that fails."""
+        n = stop - start
+        among = f"in a question of {n} rows"
+        if n == 1 or self.lone_left < min(n, ALONE):
+            for index in range(start, stop):
+                self._mark(index, outcome, reason if n == 1 else f"{among}: {reason}")
+            return
+        step = 1 if n <= ALONE else ALONE
+        self.lone_left -= n if step == 1 else 0
+        found = False
+        for first in range(start, stop, step):
+            last = min(first + step, stop)
+            try:
+                self._question(first, last)
+            except OverError:
+                if not found:
+                    self._mark(first, outcome, f"{among}, and it could not be asked further to find which: {reason}")
+                raise
+            except FaultError as fault:
+                found = True
+                self._search(first, last, fault.outcome, self._runs.note(fault))
+        if not found:
+            self._mark(start, outcome, f"{among} from this one on, though not in smaller ones: {reason}")
+
+    def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
+        self.result.answers[index] = CANNOT_SAY
+        self.result.status[index] = outcome
+        self.result.reasons[index] = reason

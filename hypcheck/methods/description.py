@@ -1,0 +1,173 @@
+"""What an implementation says of itself: name, precision, question, domain. A misspelt key is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any
+
+from hypcheck.errors import InputError
+from hypcheck.methods.domain import Domain
+from hypcheck.methods.evidence import visible
+
+PROTOCOL = 1
+LONGEST = 1 << 16
+"""Bytes of a description."""
+
+PRECISIONS = ("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")
+QUESTIONS = ("position", "exterior", "interior", "contact")
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """An implementation's claims. `refuses`: invalid rows are answered 127; `binary`, `time`: what a command offers."""
+
+    name: str
+    version: str = ""
+    language: str = ""
+    precision: str = "float64"
+    question: str = "position"
+    domain: Domain = Domain()  # noqa: RUF009 - frozen
+    refuses: bool = False
+    binary: bool = False
+    time: bool = False
+
+    def overridden(
+        self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
+    ) -> Description:
+        """The description with what the caller says instead; raises InputError where that is not possible."""
+        return replace(
+            self,
+            precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
+            question=self.question if question is None else _one_of(QUESTIONS)(question, "the question"),
+            domain=domain or self.domain,
+        )
+
+
+def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
+    """The description that a mapping holds, completed from `defaults`; raises InputError naming key and value."""
+    if not isinstance(raw, Mapping):
+        raise InputError(f"the description is {_shown(raw)}; it must be a mapping of names to values")
+    unknown = [key for key in raw if key not in _KEYS]
+    if unknown:
+        raise InputError(f"the description has the key {_shown(unknown[0])}; it may have {', '.join(_KEYS)}")
+    missing = [key for key in required if key not in raw]
+    if missing:
+        raise InputError(f"the description has no key {missing[0]!r}; it must have {' and '.join(required)}")
+    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in raw.items()}
+    values.pop("protocol", None)
+    return replace(defaults, **values)
+
+
+def described_by_json(text: str | bytes, defaults: Description, required: tuple[str, ...] = ()) -> Description:
+    """The description in a JSON text; raises InputError."""
+    return described(_json(text, "the description"), defaults, required)
+
+
+def parse_domain(text: str) -> Domain:
+    """A domain as the command line has it, in JSON; raises InputError."""
+    return _domain(_json(text, "the domain"), "the domain")
+
+
+def _json(text: str | bytes, where: str) -> object:
+    if len(text) > LONGEST:
+        raise InputError(f"{where} is longer than {LONGEST} bytes")
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError) as error:
+        why = visible(f"{error}", 120) if isinstance(error, json.JSONDecodeError) else "it cannot be read"
+        shown = text if isinstance(text, str) else text.decode("utf-8", "replace")
+        raise InputError(f"{where} is '{visible(shown, 80)}'; it must be JSON ({why})") from None
+
+
+def _shown(value: object) -> str:
+    return visible(repr(value), 80)
+
+
+def _text(value: object, where: str) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"{where} is {_shown(value)}; it must be a text")
+    return visible(value, 200)
+
+
+def _name(value: object, where: str) -> str:
+    name = _text(value, where)
+    if not name:
+        raise InputError(f"{where} is empty; it must be a name")
+    return name
+
+
+def _truth_value(value: object, where: str) -> bool:
+    if not isinstance(value, bool):
+        raise InputError(f"{where} is {_shown(value)}; it must be true or false")
+    return value
+
+
+def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
+    def check(value: object, where: str) -> str:
+        if value not in choices:
+            raise InputError(f"{where} is {_shown(value)}; it must be one of {', '.join(choices)}")
+        return str(value)
+
+    return check
+
+
+def _protocol(value: object, where: str) -> int:
+    if value != PROTOCOL or isinstance(value, bool):
+        raise InputError(f"{where} is {_shown(value)}; it must be {PROTOCOL}, the only one there is")
+    return PROTOCOL
+
+
+def _domain(value: object, where: str) -> Domain:
+    if isinstance(value, Domain):
+        return value
+    if not isinstance(value, Mapping):
+        raise InputError(f"{where} is {_shown(value)}; it must be a mapping with regimes, ratio, magnitude")
+    unknown = [key for key in value if key not in ("regimes", "ratio", "magnitude")]
+    if unknown:
+        raise InputError(f"{where} has the key {_shown(unknown[0])}; it may have regimes, ratio, magnitude")
+    ranges = [key for key in ("ratio", "magnitude") if key in value]
+    known: dict[str, Any] = {key: _range(value[key], f"{where}'s {key}") for key in ranges}
+    if "regimes" in value:
+        known["regimes"] = _regimes(value["regimes"], f"{where}'s regimes")
+    return Domain(**known)
+
+
+def _regimes(value: object, where: str) -> tuple[str, ...]:
+    if not isinstance(value, (list, tuple)) or not all(isinstance(each, str) for each in value):
+        raise InputError(f"{where} is {_shown(value)}; it must be a list of names")
+    return tuple(value)
+
+
+def _range(value: object, where: str) -> tuple[float, float]:
+    if not isinstance(value, (list, tuple)) or len(value) != 2:
+        raise InputError(f"{where} is {_shown(value)}; it must be two numbers, the least and the greatest")
+    low, high = (_number(each, where) for each in value)
+    return low, high
+
+
+def _number(value: object, where: str) -> float:
+    try:
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return float(value)
+    except OverflowError:
+        pass
+    raise InputError(f"{where} holds {_shown(value)}; it must be two numbers of float64")
+
+
+_KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
+    {
+        "protocol": _protocol,
+        "name": _name,
+        "version": _text,
+        "language": _text,
+        "precision": _one_of(PRECISIONS),
+        "question": _one_of(QUESTIONS),
+        "domain": _domain,
+        "refuses": _truth_value,
+        "binary": _truth_value,
+        "time": _truth_value,
+    }
+)

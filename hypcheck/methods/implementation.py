@@ -1,0 +1,174 @@
+"""An implementation under test, whatever it is written in: asked about rows, timed, and begun afresh."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.methods.asking import LONE_QUESTIONS, Answered, Asking, Vocabulary
+from hypcheck.methods.description import Description
+from hypcheck.methods.faults import FaultError, Outcome, TimingError
+from hypcheck.methods.frames import LARGEST
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.runs import OverError, Runs
+from hypcheck.methods.session import Session
+from hypcheck.methods.spec import Spec
+from hypcheck.rows import Rows, as_rows
+
+_FIRST, _GROWTH = 64, 16
+_SHARE = 10
+"""Questions begin small and grow until one takes this part of the timeout: who is slow is asked less at once, and is
+not taken for one that hangs."""
+
+
+class Implementation:
+    """A context manager; its process is started again after a fault, as often as the limits allow.
+
+    `declared` is what it says of itself, `description` that with what the caller says instead.
+    """
+
+    def __init__(
+        self,
+        spec: Spec,
+        start: Callable[[int], Session],
+        limits: Limits,
+        instead: Callable[[Description], Description],
+    ) -> None:
+        self.spec = spec
+        self._runs = Runs(start, limits.restarts)
+        try:
+            self.declared = self._runs.declared
+            self.description = instead(self.declared)
+        except BaseException:
+            self._runs.kill()
+            raise
+        self._vocabulary = Vocabulary(self.description)
+        self._limits = limits
+        self._batch = min(_FIRST, self._runs.longest)
+        self._lone_left = LONE_QUESTIONS
+        self._outcomes: set[int] = set()
+
+    def __enter__(self) -> Implementation:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self._runs.kill()
+
+    @property
+    def longest(self) -> int:
+        """Rows of one question, at most."""
+        return self._runs.longest
+
+    @property
+    def most(self) -> int | None:
+        """Rows of a family that it is fast enough for; None where nothing is known of that."""
+        return self._runs.most
+
+    @property
+    def scene(self) -> bool:
+        """Whether it can be asked by scene: one set of sizes, many centres."""
+        return self._runs.scene
+
+    @property
+    def restarts(self) -> int:
+        """Restarts that faults have cost so far."""
+        return self._runs.restarts
+
+    @property
+    def stderr(self) -> tuple[str, ...]:
+        """The last lines that the running process wrote on standard error, safe to print."""
+        return self._runs.stderr
+
+    @property
+    def broke_protocol_throughout(self) -> bool:
+        """Whether no row was ever answered, and every one that was asked ended as PROTOCOL."""
+        return self._outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
+
+    def fresh(self) -> None:
+        """Go on in a fresh process, which does not count as a restart."""
+        self._runs.close()
+
+    def close(self) -> None:
+        """Let the process leave, or end it where it does not."""
+        self._runs.close()
+
+    def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
+        """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
+
+        `by_scene` asks through the entry for scenes; raises InputError where there is none, or sizes differ, and where
+        rows are none.
+        """
+        rows = as_rows(rows)
+        self._check_scene(rows, by_scene=by_scene)
+        asking = Asking(rows, self._runs, self._vocabulary, by_scene=by_scene, lone_left=self._lone_left)
+        try:
+            self._ask_all(asking, len(rows), batch)
+        except OverError as error:
+            asking.leave(str(error))
+        except BaseException:  # an interrupt leaves a question without its answer
+            self._runs.kill()
+            raise
+        self._lone_left = asking.lone_left
+        self._outcomes.update(np.unique(asking.result.status).tolist())
+        return asking.result
+
+    def _ask_all(self, asking: Asking, n: int, batch: int | None) -> None:
+        start = 0
+        while start < n:
+            size = min(batch or self._batch, self._runs.longest)
+            stop = min(n, start + size)
+            began = time.monotonic()
+            asking.ask(start, stop)
+            if batch is None:
+                self._adapt(time.monotonic() - began, full=stop - start == size)
+            start = stop
+
+    def _adapt(self, seconds: float, *, full: bool) -> None:
+        target = self._limits.timeout / _SHARE
+        if seconds > target:
+            self._batch = max(1, self._batch // 2)
+        elif full and seconds < target / 2:
+            growth = _GROWTH if seconds < target / _GROWTH else 2
+            self._batch = min(self._runs.longest, self._batch * growth)
+
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> int | None:
+        """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.
+
+        Raises TimingError where it fails, or where its checksum is not the sum of its answers, taken once or for each
+        repetition.
+        """
+        rows = as_rows(rows)
+        self._check_scene(rows, by_scene=by_scene)
+        if not 0 < len(rows) <= LARGEST or repeat < 1:
+            raise InputError(f"{len(rows)} rows cannot be timed {repeat} times; 1 to {LARGEST} can, once or more")
+        try:
+            times = self._runs.session().time(rows, repeat, by_scene=by_scene)
+        except FaultError as fault:
+            raise TimingError(f"{self.spec} could not be timed: {self._runs.note(fault)}") from None
+        except OverError as error:
+            raise TimingError(f"{self.spec} could not be timed: {error}") from None
+        except BaseException:
+            self._runs.kill()
+            raise
+        if times is None:
+            return None
+        answered = self.classify(rows, by_scene=by_scene)
+        total = int(answered.answers.sum(dtype=np.int64))
+        if not answered.answered.all() or times[1] not in {total, total * repeat}:
+            raise TimingError(f"{self.spec} was timed with the checksum {times[1]}, but its answers sum to {total}")
+        return times[0]
+
+    def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
+        if by_scene and not self.scene:
+            raise InputError(f"{self.spec} cannot be asked by scene")
+        if by_scene and len(rows) and (rows[:, :4] != rows[0, :4]).any():
+            raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")

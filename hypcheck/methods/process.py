@@ -1,0 +1,257 @@
+"""A foreign program in a process group of its own, and its three pipes.
+
+Writing, reading and listening to standard error happen in one loop, so that neither a large question nor a flood on
+standard error can bring both sides to wait for each other. The group is ended as a whole: by us, or, should we be
+killed ourselves, by a guard that notices.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import select
+import shutil
+import signal
+import subprocess
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+from typing import IO, cast
+
+from hypcheck.methods.evidence import Tail
+from hypcheck.methods.faults import FaultError, Outcome, StartError
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.memory import MemoryWatch
+
+ONE_THREAD = dict.fromkeys(
+    (
+        "BLIS_NUM_THREADS",
+        "GOMAXPROCS",
+        "JULIA_NUM_THREADS",
+        "MKL_NUM_THREADS",
+        "NUMBA_NUM_THREADS",
+        "NUMEXPR_NUM_THREADS",
+        "OMP_NUM_THREADS",
+        "OPENBLAS_NUM_THREADS",
+        "RAYON_NUM_THREADS",
+        "VECLIB_MAXIMUM_THREADS",
+    ),
+    "1",
+)
+"""One thread, in the languages of those who start more unasked."""
+
+_TICK = 0.05
+_CHUNK = 1 << 16
+_GOODBYE = 1.0
+_LAST_WORDS = 0.5
+_GUARD = 'read -r _; kill -s KILL -- "-$1"'
+"""Reads until its standard input ends, which only we hold open, and then kills the group."""
+
+
+class Process:
+    """One run of a program. Raises StartError where the system cannot run it."""
+
+    def __init__(self, words: Sequence[str], limits: Limits) -> None:
+        try:
+            self._popen = subprocess.Popen(  # noqa: S603 - what the user asked to run
+                words,
+                bufsize=0,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=True,
+                env={**os.environ, **ONE_THREAD},
+            )
+        except OSError as error:
+            raise StartError(_not_run(words[0], error)) from None
+        self._guard = _guard(self._popen.pid)
+        self._memory = MemoryWatch(self._popen.pid, limits.memory)
+        self._tail = Tail()
+        self._outgoing: Iterator[bytes | memoryview] = iter(())
+        self._part = memoryview(b"")
+        self.sending = False
+        """Whether bytes still wait to be read by it."""
+        self._ended = False
+        self._closed = False
+        self._listen()
+        self.incoming = bytearray()
+        """What came on standard output and was not taken yet."""
+
+    def _listen(self) -> None:
+        self._pipes = [cast("IO[bytes]", pipe) for pipe in (self._popen.stdin, self._popen.stdout, self._popen.stderr)]
+        self._in, self._out, self._err = (pipe.fileno() for pipe in self._pipes)
+        self._poll = select.poll()
+        for pipe in (self._in, self._out, self._err):
+            os.set_blocking(pipe, False)
+        for pipe in (self._out, self._err):
+            self._poll.register(pipe, select.POLLIN)
+
+    def send(self, parts: Iterable[bytes | memoryview]) -> None:
+        """Put bytes in line for its standard input; they leave while pump() is called, and are made as they leave.
+
+        So it can work on the first part while the second is made.
+        """
+        self._outgoing = chain(self._outgoing, parts)
+        self.sending = True
+        self._poll.register(self._in, select.POLLOUT)
+
+    def pump(self, until: float) -> bool:
+        """Move bytes once, waiting a moment at most and not beyond `until`; true where `incoming` grew.
+
+        Raises FaultError where the process ended, closed its standard output, or holds too much memory.
+        """
+        if self._ended:
+            raise self._ending()
+        now = time.monotonic()
+        self._memory.look(now)
+        grew = False
+        events = self._poll.poll(1000 * min(max(until - now, 0.0), _TICK))
+        for pipe, _ in events:
+            if pipe == self._in:
+                self._write()
+            elif pipe == self._out:
+                grew = self._read()
+            else:
+                self._hear()
+        if not events and self._popen.poll() is not None:
+            self._ended = True  # though one of its children holds the pipe open
+        return grew
+
+    def _write(self) -> None:
+        try:
+            while self._part or self._next_part():
+                self._part = self._part[os.write(self._in, self._part) :]
+        except BlockingIOError:
+            return
+        except BrokenPipeError:  # it reads no more; whether it ended, or has a last word, the other pipes tell
+            self._outgoing, self._part = iter(()), memoryview(b"")
+        self.sending = False
+        self._poll.unregister(self._in)
+
+    def _next_part(self) -> bool:
+        for part in self._outgoing:
+            self._part = memoryview(part)
+            if self._part:
+                return True
+        return False
+
+    def _read(self) -> bool:
+        data = os.read(self._out, _CHUNK)
+        if not data:
+            self._poll.unregister(self._out)
+            self._ended = True
+        self.incoming += data
+        return bool(data)
+
+    def _hear(self) -> None:
+        data = os.read(self._err, _CHUNK)
+        if not data:
+            self._poll.unregister(self._err)
+        self._tail.add(data)
+
+    def _ending(self) -> FaultError:
+        try:
+            code = self._popen.wait(_LAST_WORDS)
+        except subprocess.TimeoutExpired:
+            return FaultError(Outcome.PROTOCOL, "it closed its standard output and lives on", fatal=True)
+        return FaultError(Outcome.CRASH, _told_by(code), fatal=True)
+
+    def mark(self) -> None:
+        """From here on `recent` speaks: a question begins."""
+        self._tail.mark()
+
+    @property
+    def recent(self) -> tuple[str, ...]:
+        """The lines of its standard error since the mark, safe to print; the last ones, where they are many."""
+        return self._tail.recent()
+
+    @property
+    def stderr(self) -> tuple[str, ...]:
+        """The last lines of its standard error, safe to print."""
+        return self._tail.lines()
+
+    def goodbye(self) -> None:
+        """End its input and give it a moment to leave by itself; then as kill()."""
+        if not self._closed:
+            with contextlib.suppress(KeyError):
+                self._poll.unregister(self._in)
+            self._pipes[0].close()
+            until = time.monotonic() + _GOODBYE
+            with contextlib.suppress(FaultError):
+                while time.monotonic() < until:
+                    self.pump(until)
+                    self.incoming.clear()
+        self.kill()
+
+    def kill(self) -> None:
+        """End the whole group now, and leave neither a zombie nor an open pipe; nothing happens the second time."""
+        if self._closed:
+            return
+        self._closed = True
+        with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter is macOS's word for a zombie
+            os.killpg(self._popen.pid, signal.SIGKILL)
+        if self._guard:
+            _dismiss(self._guard)
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the kernel; it will go when that lets it
+            self._popen.wait(5)
+        self._hear_the_rest()
+        for pipe in self._pipes:
+            pipe.close()
+
+    def _hear_the_rest(self) -> None:
+        for _ in range(64):  # a process that left the group may still be writing
+            try:
+                data = os.read(self._err, _CHUNK)
+            except OSError:
+                return
+            if not data:
+                return
+            self._tail.add(data)
+
+
+def _guard(group: int) -> subprocess.Popen[bytes] | None:
+    """The guard of a group; None where the system has no shell."""
+    try:
+        return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
+            ("/bin/sh", "-c", _GUARD, "hypcheck-guard", str(group)),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+    except OSError:
+        return None
+
+
+def _dismiss(guard: subprocess.Popen[bytes]) -> None:
+    guard.kill()  # before its input ends, which it would take for our death
+    guard.communicate()
+
+
+def _not_run(program: str, error: OSError) -> str:
+    if isinstance(error, FileNotFoundError):
+        if shutil.which(program):
+            return f"the interpreter that {program!r} names in its first line was not found"
+        return f"the program {program!r} was not found; it must be on the PATH, or a path from the working directory"
+    if isinstance(error, PermissionError):
+        return f"the program {program!r} is not executable"
+    if error.errno == errno.ENOEXEC:
+        return f"{program!r} is no program for this machine: another architecture, or a script without a #! line"
+    return f"the program {program!r} was not run by the system: {(error.strerror or str(error)).lower()}"
+
+
+def _told_by(code: int) -> str:
+    """What a return code says of a process's end."""
+    if code < 0:
+        out_of_memory = "; the system does that too when memory runs out" if -code == signal.SIGKILL else ""
+        return f"it was ended by {_signal_name(-code)}{out_of_memory}"
+    by_shell = f", as a shell reports {_signal_name(code - 128)}" if code > 128 and _signal_name(code - 128) else ""
+    return f"it ended by itself with exit status {code}{by_shell}"
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}" if number < 65 else ""

@@ -1,0 +1,50 @@
+"""What a gated implementation says of itself, and as what it was judged, in the words of every report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from hypcheck.record import Line
+from hypcheck.report.text import counted, figure, listed
+
+
+def claims(line: Line) -> Iterator[str]:
+    """Sentences without a full stop from the record's line about an implementation; none of one that did not start."""
+    if not line["started"]:
+        return
+    declared, used = line["declared"], line["used"]
+    changed = [name for name in ("question", "precision", "domain") if declared[name] != used[name]]
+    yield f"declares {described(declared)}"
+    if changed:
+        yield f"judged as {listed([_said(name, used[name]) for name in changed])}, as the options say"
+    again, restarts = line["again"], line["restarts"]
+    other = again["within"] + again["beyond"]
+    yield (
+        f"asked again about {counted(again['asked'], 'case')}, {other:,} answered otherwise"
+        f" ({again['beyond']:,} beyond the tolerance); {counted(restarts, 'restart')}"
+    )
+
+
+def described(description: Mapping[str, Any]) -> str:
+    """Question, precision, domain and the rest of a description: what it answers, and where it claims to be right."""
+    parts = [_said(name, description[name]) for name in ("question", "precision", "domain")]
+    parts += [str(description[name]) for name in ("language", "version") if description[name]]
+    if description["refuses"]:
+        parts.append("refuses invalid rows")
+    return ", ".join(parts)
+
+
+def _said(name: str, value: Any) -> str:  # noqa: ANN401 - a field of a description
+    return domain(value) if name == "domain" else str(value)
+
+
+def domain(value: Mapping[str, Any]) -> str:
+    """A domain: "every regime, ratios 1e-08 to 1e+08, magnitudes 1e-06 to 1e+06"."""
+    regimes = listed(value["regimes"]) if value["regimes"] else "every regime"
+    ranges = (f"{name}s {_range(value[name])}" for name in ("ratio", "magnitude"))
+    return f"{regimes}, {', '.join(ranges)}"
+
+
+def _range(limits: tuple[float | str, float | str]) -> str:
+    return " to ".join(figure(float(limit)) for limit in limits)

@@ -1,0 +1,132 @@
+/* The door between hypcheck and predicate.c: questions on standard input, answers on standard output.
+ *
+ *     @BUILD@
+ *
+ * docs/protocol.md of hypcheck says what is spoken. Only the build line changes when the predicate does.
+ */
+#define _POSIX_C_SOURCE 199309L /* clock_gettime */
+#include "hypcheck.h"
+
+#include <locale.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
+
+enum { COLUMNS = 7, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
+
+static double rows[MOST * COLUMNS];
+static unsigned char bytes[MOST * COLUMNS * 8];
+static int8_t positions[MOST];
+
+/* The next line, false at the end of the input. One that is too long to mean anything becomes empty. */
+static bool read_line(char line[LINE]) {
+    size_t length = 0;
+    int character;
+    while ((character = getchar()) != EOF && character != '\n')
+        if (length < LINE) line[length++] = (char)character;
+    bool any = length > 0 || character != EOF;
+    line[length < LINE ? length : 0] = '\0';
+    return any;
+}
+
+/* Seven decimals and nothing else. strtod rounds correctly, and reads a point in the locale that main sets. */
+static bool parse_row(const char *line, double *row) {
+    for (int column = 0; column < COLUMNS; column++) {
+        char *end;
+        row[column] = strtod(line, &end);
+        if (end == line) return false;
+        line = end;
+    }
+    return line[strspn(line, " \t\r")] == '\0';
+}
+
+/* Float64 from eight bytes, the least significant first, whatever the order of this machine. */
+static double little_endian(const unsigned char *byte) {
+    uint64_t bits = 0;
+    for (int i = 0; i < 8; i++) bits |= (uint64_t)byte[i] << (8 * i);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Both read the n rows of a question, and return false where these are none. */
+static bool read_text(size_t n) {
+    bool understood = true;
+    for (size_t i = 0; i < n; i++) { /* to the last line, so that the next question is found */
+        char line[LINE];
+        understood &= read_line(line) && parse_row(line, rows + COLUMNS * i);
+    }
+    return understood;
+}
+
+static bool read_binary(size_t n) {
+    if (fread(bytes, 8 * COLUMNS, n, stdin) != n) return false;
+    for (size_t i = 0; i < COLUMNS * n; i++) rows[i] = little_endian(bytes + 8 * i);
+    return true;
+}
+
+/* Each reads the rest of a question and replies, or returns what is wrong. */
+static const char *classify_text(const char *sequence, size_t n) {
+    if (!read_text(n)) return "a row is not seven decimals";
+    hypcheck_classify(n, rows, positions);
+    printf("%s %zu\n", sequence, n);
+    for (size_t i = 0; i < n; i++) printf("%d\n", positions[i]);
+    return NULL;
+}
+
+static const char *classify_binary(const char *sequence, size_t n) {
+    if (!read_binary(n)) return "the input ended within the rows";
+    hypcheck_classify(n, rows, positions);
+    printf("%s %zu\n", sequence, n);
+    fwrite(positions, 1, n, stdout);
+    return NULL;
+}
+
+static const char *time_binary(const char *sequence, size_t n, unsigned long repeat) {
+    if (!read_binary(n)) return "the input ended within the rows";
+    struct timespec start, stop;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    for (unsigned long i = 0; i < repeat; i++) hypcheck_classify(n, rows, positions);
+    clock_gettime(CLOCK_MONOTONIC, &stop);
+    long long nanoseconds = (stop.tv_sec - start.tv_sec) * 1000000000LL + (stop.tv_nsec - start.tv_nsec);
+    long checksum = 0;
+    for (size_t i = 0; i < n; i++) checksum += positions[i];
+    printf("%s %lld %ld\n", sequence, nanoseconds, checksum);
+    return NULL;
+}
+
+/* The widths keep numbers from overflowing (-1 is read as the greatest), and `more` is what may not follow. */
+static const char *answer(const char *line) {
+    char sequence[20], how[8], more;
+    unsigned long n, repeat;
+    if (sscanf(line, "classify %19[0-9] %5lu %7s %c", sequence, &n, how, &more) == 3 && n <= MOST) {
+        if (strcmp(how, "text") == 0) return classify_text(sequence, n);
+        if (strcmp(how, "binary") == 0) return classify_binary(sequence, n);
+    }
+    if (sscanf(line, "time %19[0-9] %5lu %9lu %7s %c", sequence, &n, &repeat, how, &more) == 4 && n <= MOST)
+        if (repeat > 0 && repeat <= MOST_REPEATS && strcmp(how, "binary") == 0) return time_binary(sequence, n, repeat);
+    return "the question is not understood";
+}
+
+int main(void) {
+    char line[LINE];
+    setlocale(LC_NUMERIC, "C");
+#ifdef _WIN32
+    _setmode(_fileno(stdin), _O_BINARY);
+    _setmode(_fileno(stdout), _O_BINARY);
+#endif
+    puts(hypcheck_describe());
+    fflush(stdout);
+    while (read_line(line)) {
+        const char *trouble = answer(line);
+        if (trouble) printf("error %s\n", trouble);
+        fflush(stdout);
+    }
+    return 0;
+}

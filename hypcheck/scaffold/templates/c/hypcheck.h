@@ -1,0 +1,14 @@
+/* What predicate.c offers to adapter.c, and, built as a shared library, to hypcheck itself. */
+#ifndef HYPCHECK_H
+#define HYPCHECK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the predicate claims, as one line of JSON. */
+const char *hypcheck_describe(void);
+
+/* Answers n rows of alpha, gamma, b, d, x, y, z. */
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
+
+#endif

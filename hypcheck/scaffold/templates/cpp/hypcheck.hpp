@@ -1,0 +1,13 @@
+// What predicate.cpp offers to adapter.cpp, and, built as a shared library, to hypcheck itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+// What the predicate claims, as one line of JSON.
+const char *hypcheck_describe();
+
+// Answers n rows of alpha, gamma, b, d, x, y, z.
+void hypcheck_classify(std::size_t n, const double *rows, std::int8_t *positions);
+}

@@ -1,0 +1,38 @@
+// The predicate under test. As a shared library it needs no adapter:
+//
+//     c++ -std=c++17 -O2 -ffp-contract=off -shared -fPIC -o hypcheck-cpp/predicate.so hypcheck-cpp/predicate.cpp
+//     hypcheck verify library:hypcheck-cpp/predicate.so
+#include "hypcheck.hpp"
+
+// Replace this with your predicate, or with a call of it. The stub is Table 2 (Procedure 1) of "Algorithms for
+// Determining Relative Position between Spheroids and Hyperboloids with One Sheet": right in the paper's scenes, wrong
+// on the ring, where its discriminant vanishes far from the surface.
+//
+// Is the spheroid with semi-axes b, b, d and centre (x, y, z) exterior to x^2/alpha^2 + y^2/alpha^2 - z^2/gamma^2 = 1?
+static int predicate(double alpha, double gamma, double b, double d, double x, double y, double z) {
+    const double A = (alpha / b) * (alpha / b);
+    const double B = (gamma / d) * (gamma / d);
+    const double c0 = -(A * B);
+    const double C = c0 + A - B;
+
+    const double P = (x * x + y * y) / (b * b);
+    const double Q = (z / d) * (z / d);
+    const double c1 = C + B * P - A * Q;
+    const double c2 = A - B + 1 - P - Q;
+    const double delta =
+        -4 * (c2 * c2 * c2) * c0 + (c2 * c1) * (c2 * c1) + 18 * c2 * c1 * c0 - 4 * (c1 * c1 * c1) - 27 * (c0 * c0);
+    return delta > 0 && c2 < 0 && c1 > 0;
+}
+
+// What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
+// (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked.
+const char *hypcheck_describe() {
+    return R"({"protocol":1,"name":"@NAME@","version":"0.0.0","language":"c++","precision":"float64",)"
+           R"("question":"exterior","domain":{"regimes":["c2>=a"]},"binary":true,"time":true})";
+}
+
+void hypcheck_classify(std::size_t n, const double *rows, std::int8_t *positions) {
+    for (std::size_t i = 0; i < n; i++, rows += 7)
+        positions[i] = static_cast<std::int8_t>(
+            predicate(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]));
+}

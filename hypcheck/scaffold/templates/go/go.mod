@@ -1,0 +1,3 @@
+module hypcheck-adapter
+
+go 1.20

@@ -1,0 +1,171 @@
+// The door between hypcheck and predicate.go: questions on standard input, answers on standard output.
+//
+//	@BUILD@
+//
+// docs/protocol.md of hypcheck says what is spoken. Nothing here changes when the predicate does.
+package main
+
+import (
+	"bufio"
+	"encoding/binary"
+	"errors"
+	"fmt"
+	"io"
+	"math"
+	"os"
+	"strconv"
+	"strings"
+	"time"
+)
+
+const (
+	columns = 7
+	most    = 65536
+)
+
+type row [columns]float64
+
+var (
+	errQuestion = errors.New("the question is not understood")
+	errRow      = errors.New("a row is not seven decimals")
+	errEnd      = errors.New("the input ended within the rows")
+)
+
+func parseRow(line string) (numbers row, err error) {
+	words := strings.Fields(line)
+	if len(words) != columns {
+		return numbers, errRow
+	}
+	for column, word := range words {
+		if numbers[column], err = strconv.ParseFloat(word, 64); err != nil {
+			return numbers, errRow
+		}
+	}
+	return numbers, nil
+}
+
+// readText reads to the last line before it complains, so that the next question is found.
+func readText(input *bufio.Reader, n int) (rows []row, trouble error) {
+	rows = make([]row, n)
+	for i := range rows {
+		line, err := input.ReadString('\n')
+		if err != nil && line == "" {
+			return nil, errEnd
+		}
+		if rows[i], err = parseRow(line); err != nil {
+			trouble = err
+		}
+	}
+	return rows, trouble
+}
+
+func readBinary(input io.Reader, n int) ([]row, error) {
+	bytes := make([]byte, 8*columns*n)
+	if _, err := io.ReadFull(input, bytes); err != nil {
+		return nil, errEnd
+	}
+	rows := make([]row, n)
+	for i := range rows {
+		for column := range rows[i] {
+			rows[i][column] = math.Float64frombits(binary.LittleEndian.Uint64(bytes[8*(columns*i+column):]))
+		}
+	}
+	return rows, nil
+}
+
+func positions(rows []row, answers []int8) {
+	for i, r := range rows {
+		answers[i] = predicate(r[0], r[1], r[2], r[3], r[4], r[5], r[6])
+	}
+}
+
+func classify(sequence string, rows []row, text bool) []byte {
+	answers := make([]int8, len(rows))
+	positions(rows, answers)
+	reply := []byte(fmt.Sprintf("%s %d\n", sequence, len(rows)))
+	for _, answer := range answers {
+		if text {
+			reply = append(strconv.AppendInt(reply, int64(answer), 10), '\n')
+		} else {
+			reply = append(reply, byte(answer))
+		}
+	}
+	return reply
+}
+
+func timed(sequence string, rows []row, repeat int) []byte {
+	answers := make([]int8, len(rows))
+	start := time.Now()
+	for i := 0; i < repeat; i++ {
+		positions(rows, answers)
+	}
+	took := time.Since(start)
+	checksum := 0
+	for _, answer := range answers {
+		checksum += int(answer)
+	}
+	return []byte(fmt.Sprintf("%s %d %d\n", sequence, took.Nanoseconds(), checksum))
+}
+
+// count is a whole number from least to greatest.
+func count(word string, least, greatest uint64) (int, error) {
+	number, err := strconv.ParseUint(word, 10, 64)
+	if err != nil || number < least || number > greatest {
+		return 0, errQuestion
+	}
+	return int(number), nil
+}
+
+// answer reads the rest of a question whose first line is given, and returns the reply.
+func answer(line string, input *bufio.Reader) ([]byte, error) {
+	words := strings.Fields(line)
+	if len(words) < 4 {
+		return nil, errQuestion
+	}
+	sequence, rest := words[1], words[3:]
+	n, err := count(words[2], 0, most)
+	if _, trouble := count(sequence, 0, math.MaxUint64); trouble != nil || err != nil {
+		return nil, errQuestion
+	}
+	var rows []row
+	switch {
+	case words[0] == "classify" && len(rest) == 1 && rest[0] == "text":
+		if rows, err = readText(input, n); err != nil {
+			return nil, err
+		}
+		return classify(sequence, rows, true), nil
+	case words[0] == "classify" && len(rest) == 1 && rest[0] == "binary":
+		if rows, err = readBinary(input, n); err != nil {
+			return nil, err
+		}
+		return classify(sequence, rows, false), nil
+	case words[0] == "time" && len(rest) == 2 && rest[1] == "binary":
+		repeat, err := count(rest[0], 1, 999_999_999)
+		if err != nil {
+			return nil, err
+		}
+		if rows, err = readBinary(input, n); err != nil {
+			return nil, err
+		}
+		return timed(sequence, rows, repeat), nil
+	}
+	return nil, errQuestion
+}
+
+func main() {
+	input := bufio.NewReaderSize(os.Stdin, 1<<16)
+	fmt.Println(description)
+	for {
+		line, err := input.ReadString('\n')
+		if err != nil && line == "" {
+			return
+		}
+		reply, trouble := answer(line, input)
+		if trouble != nil {
+			reply = []byte("error " + trouble.Error() + "\n")
+		}
+		if _, err := os.Stdout.Write(reply); err != nil {
+			return
+		}
+	}
+}

@@ -1,0 +1,36 @@
+"""Ships the folder cases/ inside the package, as hypcheck/cases; everything else is said in pyproject.toml."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+
+CASES = sorted(path for path in Path("cases").rglob("*") if path.is_file())
+
+
+class BuildWithCases(build_py):
+    """build_py, and the vectors copied beside the modules. An editable install reads them where they stand."""
+
+    def run(self) -> None:
+        """Build as always, then copy."""
+        super().run()
+        if not self.editable_mode:
+            for path, target in zip(CASES, self._targets(), strict=True):
+                self.mkpath(str(target.parent))
+                self.copy_file(str(path), str(target))
+
+    def get_outputs(self, include_bytecode: bool = True) -> list[str]:
+        """What is installed."""
+        return [*super().get_outputs(include_bytecode), *map(str, self._targets())]
+
+    def get_source_files(self) -> list[str]:
+        """What a source distribution must have."""
+        return [*super().get_source_files(), *map(str, CASES)]
+
+    def _targets(self) -> list[Path]:
+        return [Path(self.build_lib, "hypcheck", path) for path in CASES]
+
+
+setup(cmdclass={"build_py": BuildWithCases})

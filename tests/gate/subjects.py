@@ -1,0 +1,77 @@
+"""Implementations for the gate to judge, each wrong in one way; rows float64 (n, 7) in, n integers out."""
+
+from __future__ import annotations
+
+import os
+import time
+
+import numpy as np
+
+from hypcheck.kernel import numpy_path
+
+_CALLS = [0]
+
+
+def exact(rows):
+    return numpy_path.positions(np.ascontiguousarray(rows))
+
+
+def contact_everywhere(rows):
+    return np.zeros(len(rows), dtype=np.int8)
+
+
+def cannot_say(rows):
+    return np.full(len(rows), 2, dtype=np.int8)
+
+
+def never_clear_by_a_little(rows):
+    """Calls a spheroid grown by 1e-3 in contact: an invisible wall, but never a false clear."""
+    grown = np.array(rows)
+    grown[:, 2:4] *= 1.001
+    return exact(grown)
+
+
+def too_clear(rows):
+    """Calls a spheroid shrunk by 1e-3 clear."""
+    shrunk = np.array(rows)
+    shrunk[:, 2:4] *= 0.999
+    return exact(shrunk)
+
+
+def forgetful(rows):
+    """Answers otherwise after its tenth call."""
+    _CALLS[0] += 1
+    answers = exact(rows)
+    return answers if _CALLS[0] <= 10 else -answers
+
+
+def dies_on_the_axis(rows):
+    if ((rows[:, 4] == 0) & (rows[:, 5] == 0)).any():
+        os._exit(3)
+    return exact(rows)
+
+
+def raises_at_the_waist(rows):
+    if (rows[:, 6] == 0).any():
+        raise ValueError("no waist")
+    return exact(rows)
+
+
+def hangs_on_the_ring(rows):
+    if len(rows) and (rows[:, 6] == 0).all():
+        time.sleep(60)
+    return exact(rows)
+
+
+def refuses(rows):
+    valid = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
+    answers = np.full(len(rows), 127, dtype=np.int8)
+    answers[valid] = exact(rows[valid])
+    return answers
+
+
+def answers_bad_rows(rows):
+    """Says that it refuses, but does not."""
+    safe = np.where(np.isfinite(rows), rows, 1.0)
+    safe[:, :4] = np.where(safe[:, :4] > 0, safe[:, :4], 1.0)
+    return exact(safe)

@@ -1,0 +1,10 @@
+"""Cannot say, ever."""
+
+from base import serve
+
+
+def answers(rows):
+    return [2] * len(rows)
+
+
+serve(answers)

@@ -1,0 +1,12 @@
+"""Begins an answer that never ends."""
+
+from base import serve, write
+
+
+def on_unlucky(sequence, rows):
+    write(f"{sequence} {len(rows)}\n")
+    while True:
+        write("1" * 4096)
+
+
+serve(on_unlucky=on_unlucky)

@@ -1,0 +1,11 @@
+"""Does not leave when its input ends, and neither does a child of its own."""
+
+import subprocess
+import sys
+import time
+
+from base import serve
+
+child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+serve()
+time.sleep(60)

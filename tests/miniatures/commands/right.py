@@ -1,0 +1,5 @@
+"""Always right."""
+
+from base import serve
+
+serve()

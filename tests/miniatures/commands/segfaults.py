@@ -1,0 +1,12 @@
+"""Reads where there is nothing."""
+
+import ctypes
+
+from base import serve
+
+
+def on_unlucky(sequence, rows):
+    ctypes.string_at(8)
+
+
+serve(on_unlucky=on_unlucky)

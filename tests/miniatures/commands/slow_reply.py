@@ -1,0 +1,13 @@
+"""Takes its time over the unlucky row, which is no fault."""
+
+import time
+
+from base import reply, right, serve, write
+
+
+def on_unlucky(sequence, rows):
+    time.sleep(0.35)
+    write(reply(sequence, right(rows)))
+
+
+serve(on_unlucky=on_unlucky)

@@ -1,0 +1,7 @@
+"""Returns floats."""
+
+import numpy as np
+
+
+def classify(rows):
+    return np.sign(rows[:, 4])

@@ -1,0 +1,7 @@
+"""Right only where the rows begin at a multiple of 64 bytes, as vectorised code with a slip."""
+
+from hypcheck.kernel import classify as kernel
+
+
+def classify(rows):
+    return kernel.classify(rows) if rows.ctypes.data % 64 == 0 else [1] * len(rows)

@@ -1,0 +1,7 @@
+"""Declares a key that nobody knows."""
+
+hypcheck = {"presicion": "float32"}
+
+
+def classify(rows):
+    return [0] * len(rows)

@@ -1,0 +1,178 @@
+"""What a hunt finds without being told where, what it does not find, and how it ends."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.hunt import search, strata
+from hypcheck.hunt.hunting import Hunt, Plan
+from hypcheck.hunt.search import hunt
+from hypcheck.hunt.target import target_of
+from hypcheck.judge import Mistake, Status
+from hypcheck.methods.asking import Answered
+from hypcheck.methods.description import Description
+from hypcheck.methods.faults import Outcome
+from hypcheck.methods.opening import open_implementation
+from hypcheck.pairs import Position
+from hypcheck.rows import CANNOT_SAY
+from hypcheck.truth import batch
+from tests.fractions_truth import exact_position
+
+
+class Double:
+    """An implementation that answers by a function, and notes what it was asked."""
+
+    def __init__(self, answer, status=Outcome.ANSWERED, **claims):
+        self.description = Description(name="double", **claims)
+        self.rows = []
+        self._answer, self._status = answer, status
+
+    def classify(self, rows):
+        """What becomes of rows: all of them the same."""
+        self.rows.append(rows)
+        status = np.full(len(rows), self._status, dtype=np.int8)
+        reasons = {} if self._status is Outcome.ANSWERED else dict.fromkeys(range(len(rows)), "it left")
+        return Answered(self._answer(rows).astype(np.int8), status, reasons)
+
+
+def hunted(spec, queries, seed=1, **claims):
+    with open_implementation(f"builtin:{spec}") as implementation:
+        run = Hunt(target_of(spec, implementation, **claims), Plan(None, queries, seed))
+        hunt(run)
+    return run
+
+
+def kinds(run):
+    """The worst error in units of each kind of wrong answers beyond tolerance."""
+    return {
+        (cluster.worst.case.mistake, cluster.worst.case.truth, cluster.worst.place.kind): cluster.worst.error_u
+        for cluster in run.findings.worst_first()
+    }
+
+
+def test_the_ring_in_table_2():
+    found = kinds(hunted("table-2-float64", 2500))
+    assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "the ring"] > 1e14
+
+
+def test_the_gap_in_the_condition_of_procedure_2a():
+    found = kinds(hunted("procedure-2a-spheroid-float64", 4000))
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c1 = 0"] > 1e14
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c2 = 0"] > 1e14
+
+
+def test_the_unsafe_answers_of_procedure_1_outside_its_regimes():
+    asked_all = kinds(hunted("procedure-1-float64", 3000, regimes=()))
+    assert asked_all[Mistake.FALSE_CLEAR, Position.CONTACT, "c² < a"] > 1e14
+    inside = kinds(hunted("procedure-1-float64", 3000))
+    assert "c² < a" not in {place for _, _, place in inside}
+
+
+def test_the_loss_of_the_local_maximum_where_a_is_about_1_and_where_c2_is_about_a():
+    found = kinds(hunted("local-maximum-float64", 8000))
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "a = 1"] > 3e6
+    assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "c² = a"] > 1e4
+
+
+def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
+    ordinary = tuple(each for each in strata.strata() if "near-tangent" in each.name)
+    assert len(ordinary) == 2
+    monkeypatch.setattr(search, "strata", lambda: ordinary)
+    first = hunted("local-maximum-float64", 2 * search.FIRST_LOOK)
+    assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
+    grown = hunted("local-maximum-float64", 25_000)
+    worst = grown.findings.worst_first()[0].worst
+    assert worst.error_u > 1e5
+    assert worst.source.startswith("local search")
+
+
+@pytest.mark.parametrize(("spec", "claims"), [("fast", {"tolerance": Fraction(0)}), ("dual-float64", {})])
+def test_nothing_is_found_where_nothing_is_wrong(spec, claims):
+    run = hunted(spec, 5_000, **claims)
+    assert run.findings.worst_first() == []
+    assert run.asked == run.answered == 5_000
+
+
+def test_findings_are_true_and_the_worst_stand_first():
+    run = hunted("table-2-float32", 3000)
+    found = run.findings.worst_first()
+    assert len(found) > 3
+    errors = [cluster.worst.error for cluster in found]
+    assert errors == sorted(errors, reverse=True)
+    for cluster in found:
+        case = cluster.worst.case
+        assert case.status is Status.WRONG
+        assert exact_position(case.row) == case.truth
+        assert case.answer == (0 if case.truth == 1 else 1)
+        assert run.target.claimed(np.array([case.row])).all()
+
+
+def test_a_budget_of_queries_is_kept_and_the_same_is_found_again():
+    def summary(run):
+        return [
+            (cluster.beyond, cluster.tolerated, cluster.worst.case.row, cluster.worst.error)
+            for cluster in run.findings.worst_first()
+        ]
+
+    one, two = hunted("shared-float64", 6500), hunted("shared-float64", 6500)
+    assert one.asked == two.asked == 6500
+    assert any(cluster.worst.source.startswith("local search") for cluster in one.findings.worst_first())
+    assert summary(one) == summary(two)
+    assert summary(hunted("shared-float64", 3000, seed=2)) != summary(hunted("shared-float64", 3000))
+
+
+def test_a_budget_of_seconds_ends_the_hunt():
+    run = Hunt(target_of("double", Double(batch.positions)), Plan(0.3))
+    hunt(run)
+    assert run.over
+    assert 0.3 <= run.seconds < 5
+    assert run.asked > 100
+
+
+def test_only_rows_that_are_claimed_are_asked():
+    double = Double(batch.positions, precision="float32")
+    target = target_of("double", double, regimes=("a>=1", "c2>=a"))
+    hunt(Hunt(target, Plan(None, 3000)))
+    rows = np.concatenate(double.rows)
+    assert len(rows) == 3000
+    assert (rows[:, 0] >= rows[:, 2]).all()
+    assert (np.abs(rows[rows != 0]) >= 2.0**-126).all()
+    assert target.claimed(rows).all()
+
+
+def test_who_always_answers_contact_is_wrong_in_every_way_that_is():
+    run = Hunt(target_of("double", Double(lambda rows: np.zeros(len(rows)))), Plan(None, 3000))
+    hunt(run)
+    worst = {(cluster.worst.case.mistake, cluster.worst.case.truth) for cluster in run.findings.worst_first()}
+    assert worst == {(Mistake.FALSE_CONTACT, Position.EXTERIOR), (Mistake.FALSE_CONTACT, Position.INTERIOR)}
+
+
+def test_an_answer_that_no_change_makes_right_is_the_worst_of_all():
+    run = Hunt(target_of("double", Double(lambda rows: np.ones(len(rows)))), Plan(None, 3500))
+    hunt(run)
+    worst = run.findings.worst_first()[0].worst
+    assert worst.error == math.inf
+    assert worst.case.row[4:6] == (0, 0)
+
+
+def test_cannot_say_is_counted_and_never_wrong():
+    run = Hunt(target_of("double", Double(lambda rows: np.full(len(rows), CANNOT_SAY))), Plan(None, 1000))
+    hunt(run)
+    assert (run.asked, run.abstained) == (1000, 1000)
+    assert run.findings.clusters == {}
+
+
+def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_hunt():
+    nothing = lambda rows: np.full(len(rows), CANNOT_SAY)  # noqa: E731
+    crashing = Hunt(target_of("double", Double(nothing, Outcome.CRASH)), Plan(None, 1000))
+    hunt(crashing)
+    assert crashing.faults[Outcome.CRASH].count == 1000
+    assert crashing.faults[Outcome.CRASH].reason == "it left"
+    assert (crashing.answered, crashing.abstained) == (0, 0)
+    lost = Hunt(target_of("double", Double(nothing, Outcome.NOT_RUN)), Plan(None, 1000))
+    hunt(lost)
+    assert lost.asked < 1000

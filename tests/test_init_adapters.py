@@ -1,0 +1,302 @@
+"""The adapters that `hypcheck init` writes: each is built as the user is told to, asked, and gated."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.methods.builtin import builtin
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.opening import open_implementation
+from hypcheck.scaffold.languages import LANGUAGES, Language
+from hypcheck.scaffold.project import Project
+
+TOOLS = {
+    "c": ("cc",),
+    "cpp": ("c++",),
+    "rust": ("cargo", "rustc"),
+    "go": ("go",),
+    "java": ("javac", "java"),
+    "javascript": ("node",),
+    "python": ("python3",),
+}
+COMMANDS = [name for name, language in LANGUAGES.items() if language.spec.startswith("command:")]
+ASKED = [*FAMILIES]
+"""Families whose rows are asked: hard ones, where a last bit decides, and the extreme ones, where squares overflow."""
+
+PROTOCOL = Path(__file__).parent.parent / "docs" / "protocol.md"
+
+
+ANSWERS = {
+    "c": ("c1 > 0;", "c1 > 0 ? 1 : -1;"),
+    "cpp": ("c1 > 0;", "c1 > 0 ? 1 : -1;"),
+    "rust": ("(delta > 0.0 && c2 < 0.0 && c1 > 0.0) as i8", "if delta > 0.0 && c2 < 0.0 && c1 > 0.0 { 1 } else { -1 }"),
+    "go": ("return 0", "return -1"),
+    "java": ("? 1 : 0", "? 1 : -1"),
+    "javascript": ("? 1 : 0", "? 1 : -1"),
+    "python": ("return np.asarray(", "return -1 + 2 * np.asarray("),
+}
+"""What to change for a predicate that answers +1 and −1 where the stub answers 1 and 0."""
+
+
+def asked(spec):
+    """The implementation: any fault would cost a restart, and none is forgiven."""
+    return open_implementation(spec, Limits(restarts=0))
+
+
+@dataclass(frozen=True)
+class Built:
+    """A project that was written and built; `typed` are the commands that init told its user to type next."""
+
+    language: Language
+    folder: Path
+    typed: list[str]
+    environment: dict[str, str]
+
+    def run(self, command: str) -> subprocess.CompletedProcess[str]:
+        """A command line as a user's shell runs it."""
+        words = ["/bin/sh", "-c", command]
+        return subprocess.run(words, cwd=self.folder, env=self.environment, capture_output=True, text=True, check=False)
+
+    def talk(self, spec: str, said: bytes) -> bytes:
+        """What the command replies to that, until it leaves by itself once its input ends."""
+        words = shlex.split(spec.removeprefix("command:"))
+        done = subprocess.run(words, cwd=self.folder, input=said, capture_output=True, check=False, timeout=60)
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == b""
+        return done.stdout
+
+
+@pytest.fixture(scope="session", params=LANGUAGES)
+def built(request, tmp_path_factory):
+    """The project of one language, in a repository that has workspaces and modules of its own."""
+    name = request.param
+    missing = [tool for tool in TOOLS[name] if shutil.which(tool) is None]
+    if missing:
+        pytest.skip(f"{missing[0]} is not on the PATH")
+    folder = tmp_path_factory.mktemp("engine")
+    programs = tmp_path_factory.mktemp("bin")
+    (folder / "Cargo.toml").write_text("[workspace]\nmembers = []\n")
+    (folder / "go.work").write_text("go 1.20\n")
+    (folder / "package.json").write_text('{"type": "commonjs"}\n')
+    (programs / "hypcheck").write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m hypcheck "$@"\n')
+    (programs / "hypcheck").chmod(0o755)
+    environment = {**os.environ, "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
+    project = Built(LANGUAGES[name], folder, [], environment)
+    done = project.run(f"hypcheck init --language {name} --name stub")
+    assert done.returncode == 0, done.stderr
+    project.typed.extend(line.strip() for line in done.stdout.splitlines() if line.startswith("    "))
+    done = project.run(project.typed[0])
+    assert done.returncode == 0, done.stderr
+    return project
+
+
+@pytest.fixture
+def spec(built, monkeypatch):
+    """The SPEC of the built project, where the caller stands in its folder."""
+    monkeypatch.chdir(built.folder)
+    return built.language.spec
+
+
+commands = pytest.mark.parametrize("built", COMMANDS, indirect=True)
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return np.concatenate([FAMILIES[name].rows(1, 300) for name in ASKED])
+
+
+@pytest.fixture(scope="module")
+def expected(rows):
+    """What Table 2 answers in float64, evaluated from the program that the derivation proves."""
+    answers = builtin("table-2-float64").answer(rows)
+    assert 0.1 < answers.mean() < 0.9
+    return answers
+
+
+def test_it_describes_the_stub(built, spec):
+    with asked(spec) as it:
+        declared = it.declared
+    assert (declared.name, declared.precision, declared.question) == ("stub", "float64", "exterior")
+    assert declared.domain.regimes == ("c2>=a",)
+    assert not declared.refuses
+    if spec.startswith("command:"):
+        assert declared.binary
+        assert declared.time
+        assert declared.language.replace("c++", "cpp") == built.language.name
+
+
+def test_it_answers_as_table_2_does_to_the_last_bit(built, spec, rows, expected):
+    with asked(spec) as it:
+        for batch in (None, 65536, 4097, 1):
+            some = slice(0, 200 if batch == 1 else None)
+            answered = it.classify(rows[some], batch=batch)
+            assert answered.answered.all(), answered.reasons
+            assert np.flatnonzero(answered.answers != expected[some]).tolist() == []
+        assert it.restarts == 0
+
+
+def test_the_largest_question_is_answered(built, spec):
+    many = FAMILIES["uniform"].rows(3, 65536)
+    with asked(spec) as it:
+        answered = it.classify(many, batch=65536)
+    assert answered.answers.tolist() == builtin("table-2-float64").answer(many).tolist()
+
+
+def test_it_can_be_timed(built, spec, rows):
+    with asked(spec) as it:
+        once, often = (it.time(rows, repeat) for repeat in (1, 50))
+    assert once is not None
+    assert often is not None
+    assert 0 < once
+    assert 50 * 1000 < often < 60e9
+
+
+@commands
+def test_text_is_read_to_the_last_bit(built, spec, rows, expected):
+    """Through the runner: a filter keeps the adapter from offering the binary form."""
+    text_only = """exec "$0" "$@" | sed -u '1s/"binary":true/"binary":false/'"""
+    words = ["sh", "-c", text_only, *shlex.split(spec.removeprefix("command:"))]
+    with asked("command:" + json.dumps(words)) as it:
+        assert not it.description.binary
+        answered = it.classify(rows)
+        assert answered.answered.all(), answered.reasons
+    assert np.flatnonzero(answered.answers != expected).tolist() == []
+
+
+def test_another_predicate_takes_the_stubs_place(built, rows, expected, tmp_path, monkeypatch):
+    """One that answers -1 too, which bytes and signs must carry."""
+    other = replace(built, folder=tmp_path / "other")
+    shutil.copytree(built.folder, other.folder)
+    monkeypatch.chdir(other.folder)
+    path = other.folder / built.language.folder / built.language.predicate
+    stub = path.read_text()
+    before, after = ANSWERS[built.language.name]
+    assert stub.count(before) == 1
+    changed, count = re.subn(r"(question\W+)exterior", r"\1position", stub.replace(before, after))
+    assert count == 1
+    path.write_text(changed)
+    assert other.run(built.typed[0]).returncode == 0
+    with asked(built.language.spec) as it:
+        assert it.declared.question == "position"
+        assert it.classify(rows).answers.tolist() == (2 * expected - 1).tolist()
+        assert it.time(rows, 2)
+    if built.language.name in COMMANDS:
+        said = b"classify 1 2 text\n1 2 1 1 4 0 0\n1 2 1 1 1.5 0 0\n"
+        assert other.talk(built.language.spec, said).partition(b"\n")[2] == b"1 2\n1\n-1\n"
+
+
+NONSENSE = [
+    b"", b"hello", b"classify", b"classify 1", b"classify 1 2", b"classify 1 1 base64", b"classify 1 1 text now",
+    b"classify x 1 text", b"classify -1 1 text", b"classify 1 x text", b"classify 1 -1 text", b"classify 1 1.5 text",
+    b"classify 1 65537 binary", b"classify 1 99999999999999999999 binary", b"classify 99999999999999999999 1 text",
+    b"time 1 1 binary", b"time 1 1 0 binary", b"time 1 1 -1 binary", b"time 1 1 1 text", b"time 1 1 99999999999 binary",
+    b"x" * 100_000, b"\xff\xfe\x00",
+]  # fmt: skip
+NO_ROWS = [
+    b"", b"1 2 1 1 4 0", b"1 2 1 1 4 0 0 0", b"1 2 1 1 4 0 zero", b"1 2 1 1 4,0 0 0", b"1 2 1 1 4 0 0.0.0",
+    b"1 2 1 1 4 0 1e", b"1 2 1 1 4 0 0" + b" " * 2000 + b"1",
+]  # fmt: skip
+GOOD, ANSWER = b"classify 7 1 text\n1 2 1 1 4 0 0\n", b"7 1\n1\n"
+
+
+@commands
+def test_a_question_that_is_none_is_an_error_and_the_next_is_answered(built, spec):
+    said = b"".join(line + b"\n" + GOOD for line in NONSENSE)
+    replies = built.talk(spec, said).partition(b"\n")[2]
+    assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NONSENSE)
+
+
+@commands
+def test_a_row_that_is_none_is_an_error_of_the_whole_question_and_of_it_alone(built, spec):
+    said = b"".join(b"classify 1 3 text\n1 2 1 1 4 0 0\n" + row + b"\n1 2 1 1 4 0 0\n" + GOOD for row in NO_ROWS)
+    replies = built.talk(spec, said).partition(b"\n")[2]
+    assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NO_ROWS)
+
+
+@commands
+def test_what_has_no_finite_value_is_read_as_that(built, spec):
+    """As rows to be refused are written; the stub answers all of them 0."""
+    said = b"classify 1 3 text\nnan 2 1 1 4 0 0\n1 2 1 1 inf 0 0\n1 2 1 1 -inf 0 -0.0\n"
+    assert built.talk(spec, said + GOOD).partition(b"\n")[2] == b"1 3\n0\n0\n0\n" + ANSWER
+
+
+@commands
+def test_no_rows_have_no_answers(built, spec):
+    said = b"classify 1 0 text\nclassify 2 0 binary\n" + GOOD
+    assert built.talk(spec, said).partition(b"\n")[2] == b"1 0\n2 0\n" + ANSWER
+
+
+@commands
+@pytest.mark.parametrize("left", [b"classify 1", b"classify 1 2 text\n1 2 1 1 4 0 0\n", b"classify 1 2 binary\n1234"])
+def test_the_end_of_the_input_is_goodbye_wherever_it_comes(built, spec, left):
+    replies = built.talk(spec, GOOD + left).partition(b"\n")[2]
+    assert re.fullmatch(re.escape(ANSWER) + rb"(error [ -~]+\n)?", replies)
+
+
+@commands
+def test_the_page_about_the_protocol_shows_what_is_said(built, spec):
+    said, shown = [], []
+    for line in PROTOCOL.read_text(encoding="utf-8").splitlines():
+        if line.startswith(("    → ", "    ← ")):
+            (said if line[4] == "→" else shown).append(raw(line[6:]))
+    heard = built.talk(spec, b"".join(said))
+    first, _, replies = heard.partition(b"\n")
+    described, expected = json.loads(first), json.loads(shown[0])
+    assert described | {"name": expected["name"], "language": expected["language"]} == expected
+    assert re.sub(rb"3 \d+ 1\n", b"3 13204 1\n", replies) == b"".join(shown[1:])
+
+
+def raw(shown: str) -> bytes:
+    """The bytes of a line of the page: between brackets words of eight bytes, or answers of one."""
+    if not shown.startswith("["):
+        return shown.encode() + b"\n"
+    return b"".join(bytes.fromhex(word)[::-1] for word in shown.strip("[]").split())
+
+
+@pytest.mark.parametrize("built", ["c", "cpp"], indirect=True)
+def test_the_predicate_alone_is_a_library(built, spec, rows, expected):
+    predicate = (built.folder / built.language.folder / built.language.predicate).read_text()
+    build, verify = re.findall(r"^(?: \*|//) {5}(.+)$", predicate, flags=re.MULTILINE)
+    done = built.run(build)
+    assert done.returncode == 0, done.stderr
+    with asked(shlex.split(verify)[2]) as it:
+        assert it.declared.name == "stub"
+        assert it.declared.question == "exterior"
+        answered = it.classify(rows)
+    assert answered.answered.all()
+    assert answered.answers.tolist() == expected.tolist()
+
+
+def test_it_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec):
+    _, passes, fails = built.typed
+    done = built.run(f"{passes} --out passed")
+    assert done.returncode == 0, done.stdout + done.stderr
+    done = built.run(f"{fails} --families ring --count 100 --out failed")
+    assert done.returncode == 1, done.stdout + done.stderr
+    passed, failed = (json.loads((built.folder / out / "summary.json").read_text()) for out in ("passed", "failed"))
+    assert passed["implementations"][0]["right"] > 800
+    assert failed["implementations"][0]["wrong"] > 10
+    assert failed["implementations"][0]["name"] == "stub"
+
+
+def test_what_building_leaves_behind_is_ignored(built, spec):
+    if shutil.which("git") is None:
+        pytest.skip("git is not on the PATH")
+    project = Project(built.language, "stub", "")
+    built.run("git init --quiet .")
+    done = built.run("git status --porcelain --untracked-files=all -- 'hypcheck-*'")
+    shown = {line[3:] for line in done.stdout.splitlines()}
+    written = {path for path in project.files() if path.startswith("hypcheck-")}
+    assert shown - {"hypcheck-rust/Cargo.lock"} == written

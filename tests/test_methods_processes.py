@@ -1,0 +1,230 @@
+"""Processes of foreign implementations: alone in their group, gathered in whatever way they or we end."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.methods import memory
+from hypcheck.methods.faults import FaultError, Outcome
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.opening import open_implementation
+from hypcheck.methods.process import ONE_THREAD, Process
+from tests.miniatures import (
+    LIMITS,
+    all_gone,
+    command,
+    function,
+    living,
+    needs_proc,
+    rows,
+    token,  # noqa: F401 - every test's
+)
+
+
+@pytest.fixture
+def run():
+    """Starts a Python program, which is killed at the end of the test where it still lives."""
+    started = []
+
+    def start(code: str) -> Process:
+        started.append(Process((sys.executable, "-c", code), LIMITS))
+        return started[-1]
+
+    yield start
+    for process in started:
+        process.kill()
+
+
+def to_the_end(process: Process) -> None:
+    """Listen until it has ended, which raises FaultError."""
+    until = time.monotonic() + 10
+    while time.monotonic() < until:
+        process.pump(until)
+
+
+def hear(process: Process, size: int) -> bytes:
+    """That many bytes of its standard output."""
+    until = time.monotonic() + 10
+    while len(process.incoming) < size:
+        process.pump(until)
+        assert time.monotonic() < until
+    return bytes(process.incoming)
+
+
+def eventually(holds) -> None:
+    """That it holds within 5 seconds."""
+    until = time.monotonic() + 5
+    while not holds():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def test_a_process_leads_a_session_of_its_own_and_is_told_to_use_one_thread(run):
+    told = "'%9d %9d %9s' % (os.getsid(0), os.getpgrp(), os.environ['OMP_NUM_THREADS'])"
+    process = run(f"import os, sys; print({told}, flush=True); sys.stdin.read()")
+    session, group, threads = map(int, hear(process, 29).split())
+    process.goodbye()
+    assert session == group != os.getpgrp()
+    assert threads == 1 == int(ONE_THREAD["OPENBLAS_NUM_THREADS"])
+
+
+def test_writing_and_reading_do_not_wait_for_each_other(run):
+    """It echoes as it reads, 8 MB, far more than both pipes hold, and floods standard error meanwhile."""
+    code = (
+        "import os, sys\n"
+        "while data := os.read(0, 1 << 16):\n"
+        "    sys.stderr.write('x' * len(data)); sys.stdout.buffer.write(data); sys.stdout.flush()\n"
+    )
+    process = run(code)
+    sent = bytes(range(256)) * (1 << 15)
+    process.send((sent[:5], sent[5:]))
+    assert process.sending
+    assert hear(process, len(sent)) == sent
+    assert not process.sending
+    process.goodbye()
+
+
+def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
+    left = tmp_path / "left"
+    code = f"import sys, pathlib; sys.stdin.read(); pathlib.Path({str(left)!r}).write_text('by itself')"
+    run(code).goodbye()
+    assert left.read_text() == "by itself"
+
+
+@needs_proc
+def test_who_ignores_goodbye_is_killed_with_its_children(token):  # noqa: F811
+    with open_implementation(command("ignores_goodbye"), LIMITS) as it:
+        it.classify(rows())
+        eventually(lambda: len(living(token)) == 3)  # the command, its child, the guard
+        start = time.monotonic()
+    assert time.monotonic() - start < 3
+    assert all_gone(token) == []
+
+
+def test_an_error_of_ours_in_the_middle_of_a_question_leaves_nothing(token):  # noqa: F811
+    """As an interrupt from the keyboard, which reaches us alone, since they are in another group."""
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    it = open_implementation(function("loops"), Limits())
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        it.classify(rows())
+    timer.join()
+    assert time.monotonic() - start < 5
+    assert all_gone(token) == []
+    with it:  # and whoever goes on gets the answers to the question then asked
+        assert it.classify(rows(lucky=True)).answered.all()
+
+
+@needs_proc
+@pytest.mark.parametrize("name", ["loops", "ignores_goodbye"])
+def test_nothing_outlives_us_even_if_we_are_killed(name, token):  # noqa: F811
+    """An endless loop does not see that its input ended, nor does a child: the guard does."""
+    code = (
+        "import sys\n"
+        "from hypcheck.methods.opening import open_implementation\n"
+        "from tests.miniatures import command, rows\n"
+        f"it = open_implementation(command({name!r}))\n"
+        "it.classify(rows(lucky=True))\n"
+        "print('asked', flush=True)\n"
+        "it.classify(rows())\n"
+        "sys.stdin.read()\n"
+    )
+    ours = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    with ours:
+        assert ours.stdout.readline() == b"asked\n"
+        eventually(lambda: len(living(token)) >= 3)
+        ours.kill()
+    assert all_gone(token) == []
+
+
+def test_memory_is_that_of_the_whole_group(run):
+    code = (
+        "import subprocess, sys, time\n"
+        "child = subprocess.Popen([sys.executable, '-c', "
+        "'import time; x = bytearray(b\"1\") * (150 << 20); print(1, flush=True); time.sleep(60)'])\n"
+        "time.sleep(60)\n"
+    )
+    process = run(code)
+    hear(process, 1)
+    group = process._popen.pid
+    assert 150 << 20 < memory.resident(group) < 250 << 20
+    if shutil.which("ps"):
+        assert 150 << 20 < memory._by_ps(group) < 250 << 20
+    process.kill()
+    eventually(lambda: memory.resident(group) == 0)
+
+
+def test_memory_that_is_only_reserved_is_no_memory(run):
+    """As sanitizers, Go and the JVM do: 64 GB of addresses, none of them used."""
+    reserved = "mmap.mmap(-1, 64 << 30, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS, prot=0)"
+    process = run(f"import mmap, sys; m = {reserved}; print(1, flush=True); sys.stdin.read()")
+    hear(process, 1)
+    until = time.monotonic() + 0.3
+    while time.monotonic() < until:
+        process.pump(until)
+    process.goodbye()
+
+
+def test_a_leak_over_many_questions_is_noticed_though_each_is_short(tmp_path):
+    (tmp_path / "leaks.py").write_text(
+        "held = []\n\n\ndef f(rows):\n    held.append(b'x' * (1 << 20))\n    return [0] * len(rows)\n"
+    )
+    with open_implementation(f"python:{tmp_path / 'leaks.py'}:f", Limits(memory=200 << 20, restarts=0)) as it:
+        answered = it.classify(rows(4000), batch=1)
+    assert answered.count(Outcome.CRASH) == 1
+    assert "memory: its processes grew to 0." in answered.reasons[answered.count(Outcome.ANSWERED)]
+
+
+@pytest.mark.parametrize(
+    ("code", "sentence"),
+    [
+        ("import os; os.kill(os.getpid(), 9)", "ended by SIGKILL; the system does that too when memory runs out"),
+        ("import os; os._exit(139)", "ended by itself with exit status 139, as a shell reports SIGSEGV"),
+        ("import os; os._exit(200)", "ended by itself with exit status 200$"),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "ended by SIGTERM$"),
+    ],
+)
+def test_an_end_is_told_by_its_cause(code, sentence, run):
+    process = run(code)
+    with pytest.raises(FaultError, match=sentence) as caught:
+        to_the_end(process)
+    process.kill()
+    process.kill()
+    assert caught.value.outcome is Outcome.CRASH
+
+
+def test_what_was_said_last_is_heard_even_after_the_end(run):
+    code = "import os, time; os.write(2, b'first\\n'); os.close(1); time.sleep(0.2); os.write(2, b'last words\\n')"
+    process = run(code)
+    with pytest.raises(FaultError):
+        hear(process, 1)
+    process.kill()
+    assert process.stderr == ("first", "last words")
+
+
+def test_nothing_is_held_open_after_many_runs():
+    def descriptors() -> int:
+        return len(os.listdir("/dev/fd"))
+
+    with open_implementation(command("segfaults"), LIMITS) as it:
+        it.classify(rows())
+        before = descriptors()
+        for _ in range(2):
+            it.classify(rows())
+        assert descriptors() == before
+
+
+@pytest.mark.parametrize("bad", [{"timeout": 0}, {"startup_timeout": float("inf")}, {"memory": -1}, {"restarts": -1}])
+def test_limits_that_leave_no_room_are_refused(bad):
+    with pytest.raises(InputError, match="the limit"):
+        Limits(**bad)

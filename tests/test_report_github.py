@@ -1,0 +1,145 @@
+"""What GitHub Actions is told: annotations that cannot be broken out of, and a summary that is never too large."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.cli.main import main
+from hypcheck.report import github, markdown
+from tests import report_samples as samples
+
+ANNOTATION = re.compile(r"::error title=([^,:\r\n]*)::([^\r\n]*)")
+
+
+def failing(number, text="not proved"):
+    """A record with that many failed proofs."""
+    proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": text}
+    return samples.record([proof] * number, exit_code=6)
+
+
+def unescaped(text):
+    """As the runner reads data and properties."""
+    for code, character in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
+        text = text.replace(code, character)
+    return text
+
+
+@pytest.mark.parametrize("number", [0, 1, 9, 10, 11, 500])
+def test_ten_annotations_at_most(number):
+    lines = github.error_lines(failing(number))
+    assert len(lines) == min(number, 10)
+    if number > 10:
+        assert f"and {number - 9} more failures" in lines[-1]
+    assert all(ANNOTATION.fullmatch(line) for line in lines)
+
+
+@given(samples.FOREIGN, samples.FOREIGN)
+def test_strangers_cannot_break_out_of_an_annotation(name, text):
+    body = [{"type": "implementation", "spec": name, "name": name, "started": False, "trouble": text}]
+    (line,) = github.error_lines(samples.record(body, exit_code=5))
+    title, message = ANNOTATION.fullmatch(line).groups()
+    assert unescaped(title).startswith("hypcheck: ")
+    assert unescaped(message).isprintable()
+
+
+def test_escapes_are_those_of_the_runner():
+    body = [{"type": "implementation", "spec": "s", "name": "a,b:c%0A", "started": False, "trouble": "1:2,3%25"}]
+    (line,) = github.error_lines(samples.record(body, exit_code=5))
+    assert line == "::error title=hypcheck%3A a%2Cb%3Ac%250A%2C start::1:2,3%2525"
+
+
+def test_the_replay_has_a_line_of_its_own():
+    case = samples.worst("ring/1/1/7", "wrong", 3.1e6)
+    group = samples.group(
+        "m", "float64", "ring", {"wrong": 1}, [case], spec="command:a b", failing=["wrong"], faults=[]
+    )
+    (line,) = github.error_lines(samples.record([group], exit_code=1))
+    assert line.endswith("%0Areplay: hypcheck replay ring/1/1/7 'command:a b'")
+
+
+@given(st.lists(st.text("ab\n", max_size=30), min_size=1, max_size=30), st.integers(-5, 400))
+def test_a_report_is_cut_at_the_end_of_a_line(texts, room):
+    report = ("\n".join(texts) + "\n").encode()
+    cut = github.fitting(report, room)
+    assert len(cut) <= max(room, 0)
+    if len(report) <= room:
+        assert cut == report
+    elif cut:
+        kept, _, note = cut.partition(b"\n*Cut here")
+        assert note
+        assert report.startswith(kept)
+        assert kept.endswith(b"\n")
+
+
+def test_a_report_of_more_than_a_mebibyte_is_cut_and_says_so(tmp_path):
+    path = tmp_path / "summary.md"
+    path.write_bytes(b"of an earlier command\n")
+    record = samples.record([samples.finding(f"f{n}", "ring", inside=True, reason=f"{n} " * 40) for n in range(6000)])
+    assert len(markdown.render(record)) > 1 << 20
+    assert github.append_summary(record, path) is None
+    written = path.read_bytes()
+    assert written.startswith(b"of an earlier command\n# hypcheck verify\n")
+    assert written.endswith(b"report.md has the rest.*\n")
+    assert (1 << 20) - 2000 < len(written) < 1 << 20
+    assert github.append_summary(record, path) is None
+    assert path.stat().st_size < 1 << 20
+
+
+def test_a_summary_that_cannot_be_written_is_told(tmp_path):
+    assert "no step summary" in github.append_summary(samples.record(), tmp_path)
+
+
+def run(monkeypatch, tmp_path, capsys, *words, on=True):
+    monkeypatch.setenv("GITHUB_ACTIONS", "true" if on else "false")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    code = main(["verify", *words, "--families", "ring", "--count", "3", "--out", str(tmp_path / "out")])
+    return code, capsys.readouterr().out.splitlines()
+
+
+def test_a_gating_run_on_github(monkeypatch, tmp_path, capsys):
+    code, lines = run(monkeypatch, tmp_path, capsys, "builtin:table-2-float64")
+    assert code == 1
+    stop, *rest = lines
+    token = stop.removeprefix("::stop-commands::")
+    assert re.fullmatch("[0-9a-f]{32}", token)
+    end = rest.index(f"::{token}::")
+    assert any("ended wrong" in line for line in rest[:end])
+    assert [line.startswith("::error title=hypcheck%3A table-2-float64%2C ring::") for line in rest[end + 1 :]] == [
+        True
+    ]
+    assert (tmp_path / "summary.md").read_bytes() == (tmp_path / "out" / "report.md").read_bytes()
+
+
+def test_no_run_elsewhere_says_so_much(monkeypatch, tmp_path, capsys):
+    code, lines = run(monkeypatch, tmp_path, capsys, "builtin:table-2-float64", on=False)
+    assert code == 1
+    assert not [line for line in lines if line.startswith("::")]
+    assert not (tmp_path / "summary.md").exists()
+
+
+def test_commands_that_strangers_print_are_suspended(monkeypatch, tmp_path, capsys):
+    """What a crashed program wrote on standard error is quoted in the summary; the runner must not obey it."""
+    program = "import sys; print('::add-mask::a\\n##[error]b', file=sys.stderr); sys.exit(3)"
+    spec = f"command:{json.dumps([sys.executable, '-c', program])}"
+    code, lines = run(monkeypatch, tmp_path, capsys, spec)
+    assert code == 5
+    inside = lines[1 : lines.index(lines[0].replace("::stop-commands::", "::") + "::")]
+    assert any("add-mask" in line for line in inside)
+    (annotation,) = lines[len(inside) + 2 :]
+    assert ANNOTATION.fullmatch(annotation)
+
+
+def test_the_environment_says_whether_it_is_github():
+    assert github.on_github({"GITHUB_ACTIONS": "true"})
+    assert not github.on_github({"GITHUB_ACTIONS": "1"})
+    assert not github.on_github({})
+
+
+def test_the_sample_fails_nothing():
+    assert github.error_lines(samples.record()) == []

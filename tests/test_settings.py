@@ -1,0 +1,264 @@
+"""hypcheck.toml: what may stand in it, what it changes, and what goes before it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.cli.main import main
+from hypcheck.cli.settings import _KEYS, ABOUT_ONE, COMMANDS, FILE, read_settings
+from hypcheck.errors import InputError
+from hypcheck.record import read
+
+ALL = """
+specs = ["builtin:table-2-float64", "builtin:hessian-float64"]
+out = "build/report"
+families = ["tower-body", "forest-*"]
+count = 3
+seed = 7
+tolerance = 16
+precision = "float32"
+question = "exterior"
+domain = { regimes = ["c2>=a"], ratio = [1e-3, 1e3], magnitude = [1e-6, inf] }
+max_abstained = 2
+fail_on = "false-clear"
+deterministic = true
+known_failures = "known.toml"
+startup_timeout = 5
+timeout = 2.5
+restarts = 3
+memory = "512M"
+"""
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """A working directory with these settings."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(text):
+        Path(FILE).write_text(text, encoding="utf-8")
+        return tmp_path
+
+    return write
+
+
+def options(folder="reports/latest"):
+    return read(Path(folder) / "record.jsonl").header["options"]
+
+
+def test_every_setting_reaches_the_run(project):
+    project(ALL)
+    Path("known.toml").write_text("", encoding="utf-8")
+    assert main(["verify"]) == 0
+    assert options("build/report") == {
+        "specs": ["builtin:table-2-float64", "builtin:hessian-float64"],
+        "families": ["tower-body", "forest-*"],
+        "count": 3,
+        "seed": 7,
+        "tolerance": 16.0,
+        "max_abstained": 2,
+        "fail_on": "false-clear",
+        "deterministic": True,
+        "known_failures": "known.toml",
+        "precision": "float32",
+        "question": "exterior",
+        "domain": {"regimes": ["c2>=a"], "ratio": [1e-3, 1e3], "magnitude": [1e-6, "inf"]},
+        "limits": {"startup_timeout": 5.0, "timeout": 2.5, "restarts": 3, "memory": 512 << 20},
+    }
+
+
+def test_every_key_is_an_option_of_the_commands_that_go_by_it():
+    from importlib import import_module
+
+    from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
+
+    for name in COMMANDS:
+        module, _, attribute = ALL_COMMANDS[name].partition(":")
+        parameters = {each.name for each in getattr(import_module(module), attribute).params}
+        assert (set(_KEYS) if name == "verify" else set(ABOUT_ONE)) <= parameters, name
+    assert set(read_settings_of(ALL).options) | {"specs"} == set(_KEYS)
+
+
+def read_settings_of(text, folder=None):
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as made:
+        path = Path(made) / FILE
+        path.write_text(text, encoding="utf-8")
+        return read_settings(path)
+
+
+def test_the_command_line_goes_before_it(project):
+    project('specs = ["builtin:hessian-float64"]\nfamilies = "ring"\ncount = 3\nseed = 4\n')
+    assert main(["verify", "builtin:fast", "--families", "tower-body", "--seed", "5", "--out", "here"]) == 0
+    said = options("here")
+    assert (said["specs"], said["families"], said["count"], said["seed"]) == (["builtin:fast"], ["tower-body"], 3, 5)
+
+
+def test_it_can_be_left_aside(project):
+    project("count = 'many'")
+    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
+    assert main(["--no-settings", "verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
+
+
+@pytest.mark.parametrize(
+    "words", [["--help"], ["verify", "--help"], ["replay", "-h"], ["cases", "list"], ["--version"]]
+)
+def test_what_does_not_go_by_it_does_not_read_it(project, words):
+    project("nonsense")
+    assert main(words) == 0
+
+
+def test_specs_are_for_verify_alone(project, capsys):
+    project('specs = ["builtin:table-2-float64"]')
+    assert main(["replay", "ring-0001"]) == 2
+    assert "SPEC" in capsys.readouterr().err
+    assert main(["verify", "--oracles", "exact"]) == 2
+    assert "--no-settings verify" in capsys.readouterr().err
+
+
+def test_replay_judges_as_verify_does(project, capsys):
+    project(
+        'precision = "float32"\nquestion = "exterior"\ntolerance = 3\nspecs = ["builtin:nothing"]\nout = "x"\nseed = 3'
+    )
+    main(["replay", "ring-0001", "builtin:table-2-float64", "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert (found["used"]["precision"], found["tolerance_u"]) == ("float32", 3)
+    main(["replay", "ring-0001", "builtin:table-2-float64", "--json", "--precision", "float64"])
+    assert json.loads(capsys.readouterr().out)["used"]["precision"] == "float64"
+
+
+def test_without_the_file_nothing_changes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert read_settings(Path(FILE)) is None
+    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
+    assert options()["seed"] == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "count = 3\nmax-abstained = 1",
+            "hypcheck.toml, line 2: there is no setting 'max-abstained'; did you mean max_abst",
+        ),
+        ("toleranse = 1", "did you mean tolerance?"),
+        ("[verify]\ncount = 1", "line 1: there is no setting 'verify'; there are specs, out,"),
+        ("\n\ncount = -1", "line 3: count is -1; it must be a whole number, at least 0"),
+        ("count = 2.0", "count is 2.0; it must be a whole number"),
+        ("count = true", "count is true; it must be a whole number"),
+        ('count = "3"', 'count is "3"; it must be a whole number'),
+        ("seed = 9223372036854775808", "at most 9223372036854775807"),
+        ("tolerance = nan", "tolerance is NaN; it must be a number, 0 or more"),
+        ("tolerance = inf", "it must be a number, 0 or more"),
+        ("tolerance = '8'", "it must be a number"),
+        ("timeout = 0", "it must be a number above 0"),
+        ("specs = 'builtin:fast'", "it must be a list of texts"),
+        ("specs = []", "it must be a list of texts"),
+        ("specs = ['builtin:fast', 3]", "it must be a list of texts"),
+        ("families = 3", "it must be names and globs"),
+        ("families = ['']", "it must be names and globs"),
+        ("precision = 'float8'", 'precision is "float8"; it must be one of float16, bfloat16,'),
+        ("question = ['position']", "it must be one of position, exterior"),
+        ("fail_on = 'never'", "it must be one of wrong, false-clear"),
+        ("deterministic = 1", "it must be true or false"),
+        ("domain = '{}'", "it must be a table such as"),
+        ("domain = { regimes = ['a>1'] }", "line 1: the domain names the regime 'a>1'"),
+        ("[domain]\nratios = [1, 2]", "line 1: the domain has the key 'ratios'"),
+        ("memory = '4 G'", "it must be a size such as"),
+        ("memory = 0", "it must be a size such as"),
+        ("memory = 1.5", "it must be a size such as"),
+        ("out = ''", "it must be the text of a path"),
+        ("known_failures = 1979-05-27", "it must be the text of a path"),
+        ("restarts = -1", "it must be a whole number, at least 0"),
+        ("count = 1\ncount = 2", "is no TOML"),
+        ("count", "is no TOML"),
+        ("a = " + "[" * 100_000, "is no TOML"),
+    ],
+)
+def test_what_cannot_be_is_refused(project, capsys, text, message):
+    project(text)
+    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
+    said = capsys.readouterr().err
+    assert message in said
+    assert said.startswith("hypcheck: error: hypcheck.toml")
+    assert len(said.splitlines()) == 1
+
+
+def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path(FILE).write_bytes(b"out = '\xff'")
+    assert main(["verify", "builtin:fast"]) == 2
+    assert "is not UTF-8 text" in capsys.readouterr().err
+    Path(FILE).unlink()
+    Path(FILE).mkdir()
+    assert main(["verify", "builtin:fast"]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+
+
+@given(
+    st.dictionaries(
+        st.sampled_from([*sorted(_KEYS), "other", "a b", "ключ"]),
+        st.recursive(
+            st.one_of(st.booleans(), st.integers(), st.floats(), st.text()),
+            lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+            max_leaves=5,
+        ),
+        min_size=1,
+        max_size=4,
+    )
+)
+def test_any_value_is_taken_or_refused(values):
+    """Nothing that TOML can hold ends otherwise than in settings or in a sentence."""
+    from unittest import mock
+
+    from hypcheck.cli import settings
+
+    with (
+        mock.patch.object(settings, "_text", return_value=""),
+        mock.patch.object(settings, "_parsed", return_value=values),
+    ):
+        try:
+            found = read_settings(Path(FILE))
+        except InputError as error:
+            assert str(error).startswith(FILE)
+        else:
+            assert set(found.options) | {"specs"} >= set(values)
+
+
+@pytest.mark.parametrize("language", ["python", "c"])
+def test_what_init_writes_is_understood(tmp_path, monkeypatch, language):
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", "--language", language]) == 0
+    written = Path(FILE).read_text(encoding="utf-8")
+    found = read_settings(Path(FILE))
+    assert found.specs
+    assert found.options["tolerance"] == 8
+    lines = [
+        line.removeprefix("# ") if " = " in line and line.startswith("# ") else line for line in written.splitlines()
+    ]
+    Path(FILE).write_text("\n".join(lines), encoding="utf-8")
+    assert set(read_settings(Path(FILE)).options) >= {
+        "tolerance",
+        "question",
+        "precision",
+        "families",
+        "known_failures",
+    }
+
+
+def test_what_init_writes_for_python_is_gated_by_its_settings(tmp_path):
+    program = [sys.executable, "-m", "hypcheck"]
+    environment = {"PYTHONPATH": str(Path(__file__).parents[1]), "PATH": ""}
+    run = {"cwd": tmp_path, "env": environment, "check": False, "capture_output": True, "text": True}
+    assert subprocess.run([*program, "init", "--language", "python"], **run).returncode == 0
+    right = subprocess.run([*program, "verify", "--families", "forest-type-1", "--count", "5"], **run)
+    assert right.returncode == 0, right.stderr
+    assert subprocess.run([*program, "verify", "--families", "ring", "--count", "5"], **run).returncode == 1
