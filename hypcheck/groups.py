@@ -39,7 +39,7 @@ class Judged:
 
 
 def line(judged: Judged, octaves: NDArray[np.float64], criterion: Criterion) -> dict[str, Any]:
-    """The fields of the line; `octaves` (n,) are the rows' own distances to the nearest other position."""
+    """The fields of the line; `octaves` are the first rows' own distances to the nearest other position."""
     counts = Counter(judged.status.tolist())
     counts[Status.SKIPPED.value] = judged.skipped
     return {
@@ -49,7 +49,7 @@ def line(judged: Judged, octaves: NDArray[np.float64], criterion: Criterion) -> 
         "asked": len(judged.rows),
         "counts": {name: number for name, number in sorted(counts.items()) if number},
         "mistakes": dict(sorted(Counter(case.mistake.value for case in judged.wrong).items())),
-        "octaves": _by_octave(octaves, judged.status),
+        "octaves": _by_octave(octaves, judged.status[: len(octaves)]),
         "size_bins": _size_bins(judged.rows, judged.status),
         "place_bins": _place_bins(judged.rows, judged.status),
         "worst": [
@@ -110,10 +110,10 @@ def _place_bins(rows: Rows, status: Statuses) -> list[list[int]]:
     return _bins(across, along, status)
 
 
-def _bins(first: Statuses, second: Statuses, status: Statuses) -> list[list[int]]:
-    asked: Counter[tuple[int, int]] = Counter()
-    wrong: Counter[tuple[int, int]] = Counter()
-    for key, name in zip(zip(first.tolist(), second.tolist(), strict=True), status.tolist(), strict=True):
-        asked[key] += 1
-        wrong[key] += name != Status.RIGHT.value
-    return [[*key, asked[key], wrong[key]] for key in sorted(asked)]
+def _bins(first: NDArray[Any], second: NDArray[Any], status: Statuses) -> list[list[int]]:
+    places, bin_of = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
+    bin_of = bin_of.reshape(-1)
+    asked = np.bincount(bin_of, minlength=len(places))
+    wrong = np.bincount(bin_of[status != Status.RIGHT.value], minlength=len(places))
+    table = np.column_stack([places, asked, wrong]).astype(int)
+    return [[int(number) for number in line] for line in table]

@@ -16,6 +16,7 @@ from hypcheck.hunt.minimise import minimise
 from hypcheck.hunt.simple import characters, complexity, rounded, simpler_than, simplest_below
 from hypcheck.hunt.target import target_of
 from hypcheck.judge import Status
+from hypcheck.methods.domain import Domain
 from hypcheck.methods.opening import open_implementation
 from hypcheck.pairs import Pair
 from hypcheck.truth.exact import decide
@@ -23,8 +24,8 @@ from hypcheck.truth.kinds import Kind
 from tests.fractions_truth import exact_position
 
 
-def minimised(spec, row, **claims):
-    with open_implementation(f"builtin:{spec}") as implementation:
+def minimised(spec, row, domain=None, **claims):
+    with open_implementation(f"builtin:{spec}", domain=domain) as implementation:
         return minimise(target_of(spec, implementation, **claims), Pair.from_row(row))
 
 
@@ -43,6 +44,7 @@ def check(run):
     assert (last.answer, last.mistake) == (first.answer, first.mistake)
     assert last.status is Status.WRONG
     assert run.last.place.cause == run.first.place.cause
+    assert run.target.claimed(np.array([last.row])).all()
     assert run.target.implementation.classify(np.array([last.row])).answers[0] == last.answer
     steps = [complexity(step.case.row) for step in run.steps]
     assert all(after < before for before, after in pairwise(steps))
@@ -56,6 +58,25 @@ def test_from_any_ring_case_to_a_ring_of_single_digits(refused_rings, place):
     total, longest, _ = complexity(run.last.case.row)
     assert total <= 7  # (1, 2, 1, 1, 2.5, 0, 0) has 7
     assert longest == 1
+
+
+def test_the_simplest_row_is_one_that_is_claimed():
+    """With α/b and γ/d in 5 … 1000 the ring (7, 7, 1, 1, 10, 0, 0) is about the simplest."""
+    run = minimised("table-2-float64", (7, 11, 1, 1, 8, 114 / 11, 0), Domain(ratio=(5.0, 1000.0)))
+    check(run)
+    alpha, gamma, b, d = run.last.case.row[:4]
+    assert alpha / b >= 5
+    assert gamma / d >= 5
+    assert complexity(run.last.case.row)[0] < complexity(run.first.case.row)[0]
+
+
+def test_the_simplest_row_is_still_wrong_beyond_tolerance():
+    sizes = (1.358995682045953, 0.05380053815595681, 1.2878085719496009, 0.052372349017701395)
+    row = (*sizes, -2.4977900109670843, -0.8755459253855836, -2.1774468648097007e-06)
+    assert minimised("table-2-float64", row).last.error_u < 5e9
+    run = minimised("table-2-float64", row, tolerance=5 * 10**9)
+    check(run)
+    assert run.last.error_u > 5e9
 
 
 def test_what_is_simplest_stays_as_it_is():

@@ -24,6 +24,8 @@ from hypcheck.pairs import Pair
         ((2, 5, 1, 1, 3, 0, 0), "exactly tangent", "exactly tangent (exterior-tangent-point), z = 0"),
         ((1 + 2**-30, 5, 1, 1, 0, 0, 0.5), "a = 1", "a ≈ 1 (a − 1 = 9.3e-10), r = 0"),
         ((4, 2 + 2**-20, 1, 1, 9, 0, 5), "c² = a", "c² ≈ a (c²/a − 1 = 9.5e-07)"),
+        # The ring's border with contact: no ring of its own.
+        ((4, 2 + 2**-20, 1, 1, 5 + 2**-36, 0, 0), "c² = a", "c² ≈ a (c²/a − 1 = 9.5e-07), z = 0"),
         ((3e6, 2e7, 1, 1, 4e6, 0, 5e7), "a long ratio", "a = 3.0e+06, c = 2.0e+07"),
         ((3, 4, 1, 1, 6, 0, 5), OPEN, OPEN),
     ],

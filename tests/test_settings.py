@@ -5,19 +5,23 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hypcheck.cli import settings
+from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
 from hypcheck.cli.main import main
 from hypcheck.cli.settings import _KEYS, ABOUT_ONE, COMMANDS, FILE, read_settings
 from hypcheck.errors import InputError
 from hypcheck.record import read
 
 ALL = """
-specs = ["builtin:table-2-float64", "builtin:hessian-float64"]
+specs = ["builtin:table-2-float64", "builtin:procedure-1-float64"]
 out = "build/report"
 families = ["tower-body", "forest-*"]
 count = 3
@@ -58,7 +62,7 @@ def test_every_setting_reaches_the_run(project):
     Path("known.toml").write_text("", encoding="utf-8")
     assert main(["verify"]) == 0
     assert options("build/report") == {
-        "specs": ["builtin:table-2-float64", "builtin:hessian-float64"],
+        "specs": ["builtin:table-2-float64", "builtin:procedure-1-float64"],
         "families": ["tower-body", "forest-*"],
         "count": 3,
         "seed": 7,
@@ -74,25 +78,13 @@ def test_every_setting_reaches_the_run(project):
     }
 
 
-def test_every_key_is_an_option_of_the_commands_that_go_by_it():
-    from importlib import import_module
-
-    from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
-
+def test_every_key_is_an_option_of_the_commands_that_go_by_it(project):
     for name in COMMANDS:
         module, _, attribute = ALL_COMMANDS[name].partition(":")
         parameters = {each.name for each in getattr(import_module(module), attribute).params}
         assert (set(_KEYS) if name == "verify" else set(ABOUT_ONE)) <= parameters, name
-    assert set(read_settings_of(ALL).options) | {"specs"} == set(_KEYS)
-
-
-def read_settings_of(text, folder=None):
-    import tempfile
-
-    with tempfile.TemporaryDirectory() as made:
-        path = Path(made) / FILE
-        path.write_text(text, encoding="utf-8")
-        return read_settings(path)
+    project(ALL)
+    assert set(read_settings(Path(FILE)).options) | {"specs"} == set(_KEYS)
 
 
 def test_the_command_line_goes_before_it(project):
@@ -133,6 +125,13 @@ def test_replay_judges_as_verify_does(project, capsys):
     assert (found["used"]["precision"], found["tolerance_u"]) == ("float32", 3)
     main(["replay", "ring-0001", "builtin:table-2-float64", "--json", "--precision", "float64"])
     assert json.loads(capsys.readouterr().out)["used"]["precision"] == "float64"
+
+
+def test_a_hunt_keeps_its_own_seed_and_place(project):
+    project(ALL)
+    found = read_settings(Path(FILE)).default_map
+    assert set(found["hunt"]) == set(found["minimise"]) == set(found["replay"]) == set(ABOUT_ONE)
+    assert set(found["verify"]) == set(_KEYS) - {"specs"}
 
 
 def test_without_the_file_nothing_changes(tmp_path, monkeypatch):
@@ -217,20 +216,16 @@ def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
 )
 def test_any_value_is_taken_or_refused(values):
     """Nothing that TOML can hold ends otherwise than in settings or in a sentence."""
-    from unittest import mock
-
-    from hypcheck.cli import settings
-
     with (
         mock.patch.object(settings, "_text", return_value=""),
         mock.patch.object(settings, "_parsed", return_value=values),
     ):
+        said, found = "", None
         try:
             found = read_settings(Path(FILE))
         except InputError as error:
-            assert str(error).startswith(FILE)
-        else:
-            assert set(found.options) | {"specs"} >= set(values)
+            said = str(error)
+    assert said.startswith(FILE) if found is None else set(found.options) | {"specs"} >= set(values)
 
 
 @pytest.mark.parametrize("language", ["python", "c"])
@@ -257,8 +252,9 @@ def test_what_init_writes_is_understood(tmp_path, monkeypatch, language):
 def test_what_init_writes_for_python_is_gated_by_its_settings(tmp_path):
     program = [sys.executable, "-m", "hypcheck"]
     environment = {"PYTHONPATH": str(Path(__file__).parents[1]), "PATH": ""}
-    run = {"cwd": tmp_path, "env": environment, "check": False, "capture_output": True, "text": True}
-    assert subprocess.run([*program, "init", "--language", "python"], **run).returncode == 0
-    right = subprocess.run([*program, "verify", "--families", "forest-type-1", "--count", "5"], **run)
+    run = {"cwd": tmp_path, "env": environment, "capture_output": True, "text": True}
+    subprocess.run([*program, "init", "--language", "python"], check=True, **run)
+    right = subprocess.run([*program, "verify", "--families", "forest-type-1", "--count", "5"], check=False, **run)
     assert right.returncode == 0, right.stderr
-    assert subprocess.run([*program, "verify", "--families", "ring", "--count", "5"], **run).returncode == 1
+    wrong = subprocess.run([*program, "verify", "--families", "ring", "--count", "5"], check=False, **run)
+    assert wrong.returncode == 1, wrong.stderr

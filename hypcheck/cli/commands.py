@@ -22,6 +22,9 @@ COMMANDS = {
 }
 """Name → module:attribute of the click command."""
 
+_WORDS = f"{__name__}.words"
+"""Where a context keeps what stands behind the command: who asks for help gets it, whatever the settings are."""
+
 
 class LazyGroup(click.Group):
     """A group whose commands are those of COMMANDS."""
@@ -44,7 +47,7 @@ class LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """As click does, with a better word about a command that is not there."""
-        name = args[0]
+        name, ctx.meta[_WORDS] = args[0], args[1:]
         if name in COMMANDS or name.startswith("-"):
             return super().resolve_command(ctx, args)
         near = get_close_matches(name, COMMANDS, n=1)
@@ -64,7 +67,7 @@ class LazyGroup(click.Group):
 @click.pass_context
 def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, and a judge of others."""
-    if no_settings or any(name in context.args for name in context.help_option_names):
+    if no_settings or any(name in context.meta.get(_WORDS, ()) for name in context.help_option_names):
         return
     from hypcheck.cli.settings import COMMANDS as SETTING
     from hypcheck.cli.settings import FILE, read_settings

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -103,9 +103,10 @@ def _gate(
         tallies.append(tally)
         asked.add(family.name)
         advance(1)
-    asked |= {entry.case for entry in listed if entry.case is not None} & _names(tallies)
+    named = {entry.case for entry in listed if entry.case is not None}
+    asked |= named & _names(tallies) if named else set()
     again = ask_again(implementation, sample, rules, plan.seed)
-    lines = [_line(tally, criterion) for tally in tallies]
+    lines = [_line(tally, criterion, plan) for tally in tallies]
     spec = implementation.spec.text
     if description.refuses:
         lines.append(_refusals(implementation, criterion))
@@ -116,7 +117,6 @@ def _gate(
             spec=spec,
             title=description.name,
             exact=False,
-            failing=_failing(line, plan),
             **line,
         )
     for sentence in no_longer_failing(listed, rules.used, asked):
@@ -130,7 +130,7 @@ def _names(tallies: Sequence[Tally]) -> set[str]:
     return {piece.name(int(place)) for tally in tallies for piece, places, _, _ in tally.parts for place in places}
 
 
-def _line(tally: Tally, criterion: Criterion) -> dict[str, Any]:
+def _line(tally: Tally, criterion: Criterion, plan: GatePlan) -> dict[str, Any]:
     """One line of the record of all parts of a family."""
     offsets = np.cumsum([0, *(len(part[1]) for part in tally.parts)]).tolist()
     rows = np.concatenate([piece.rows[places] for piece, places, _, _ in tally.parts] or [np.empty((0, 7))])
@@ -150,7 +150,10 @@ def _line(tally: Tally, criterion: Criterion) -> dict[str, Any]:
     kept = min(len(rows), OCTAVES_OF)
     octaves = judge.flip_octaves(rows[:kept])
     judged = groups.Judged(tally.family, rows, status, tuple(wrong), tally.skipped, name)
-    return {**groups.line(judged, octaves, criterion), "faults": tally.faults}
+    fields = groups.line(judged, octaves, criterion)
+    dangerous = any(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in wrong)
+    failing = _failing(fields["counts"], wrong_fails=plan.fail_on == "wrong" or dangerous)
+    return {**fields, "faults": tally.faults, "failing": failing}
 
 
 def _refusals(implementation: Implementation, criterion: Criterion) -> dict[str, Any]:
@@ -174,18 +177,15 @@ def _refusals(implementation: Implementation, criterion: Criterion) -> dict[str,
             )
     counts = {name: labels.count(name) for name in sorted(set(labels))}
     empty: dict[str, Any] = {"mistakes": {}, "octaves": {}, "size_bins": [], "place_bins": [], "worst": []}
+    failing = {"failing": _failing(counts, wrong_fails=True)}
     told = {"question": criterion.question, "precision": criterion.precision, "family": refusals.NAME}
-    return {**told, "asked": len(labels), "counts": counts, **empty, "faults": faults[:FAULTS_KEPT]}
+    return {**told, "asked": len(labels), "counts": counts, **empty, "faults": faults[:FAULTS_KEPT], **failing}
 
 
-def _failing(line: dict[str, Any], plan: GatePlan) -> list[str]:
+def _failing(counts: Mapping[str, int], *, wrong_fails: bool) -> list[str]:
     """The statuses of a family's cases that fail the run."""
-    counts = line["counts"]
-    failing = [status.value for status in FATAL if counts.get(status.value)]
-    false_clear = line["mistakes"].get(Mistake.FALSE_CLEAR.value, 0) or line["family"] == refusals.NAME
-    if counts.get(Status.WRONG.value) and (plan.fail_on == "wrong" or false_clear):
-        failing.insert(0, Status.WRONG.value)
-    return failing
+    grave = (Status.WRONG, *FATAL) if wrong_fails else FATAL
+    return [status.value for status in grave if counts.get(status.value)]
 
 
 def _conclude(
@@ -202,7 +202,7 @@ def _conclude(
     troubles = list(_troubles(name, lines, again, plan))
     if implementation.broke_protocol_throughout:
         outcome.not_started.append(f"{spec} broke the protocol throughout")
-    outcome.failed += [f"{name} on {line['family']}: {status}" for line in lines for status in _failing(line, plan)]
+    outcome.failed += [f"{name} on {line['family']}: {status}" for line in lines for status in line["failing"]]
     outcome.failed += troubles
     outcome.judged += sum(line["asked"] for line in lines)
     recorder.add(

@@ -8,15 +8,17 @@ the border, and a ladder of ever larger steps off it is asked: the farthest rung
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.casebook.draw import Draw, Integers
 from hypcheck.hunt.border import MOVERS, border_factors, columns_of, ladders
 from hypcheck.rows import Rows, invalid
+
+Row = tuple[float, ...]
 
 FIRST_STEP = 0.5
 LAST_STEP = 2.0**-44
@@ -37,19 +39,19 @@ _MOVES = [
 class Climber:
     """Where a search stands: the row, its backward error, and the step that is tried next."""
 
-    row: NDArray[np.float64]
+    row: Row
     error: float
     step: float = FIRST_STEP
 
     @property
     def resting(self) -> bool:
         """Whether nothing worse was found down to the last step, or nothing can be."""
-        return self.step < LAST_STEP or not 0 < self.error < np.inf
+        return self.step < LAST_STEP or not 0 < self.error < math.inf
 
-    def arrive(self, row: Sequence[float], error: float) -> None:
-        """Stand on the worst neighbour, if it is worse than this; else look nearer."""
+    def go_on(self, row: Row, error: float) -> None:
+        """Stand on the worst row that is known now, if it is worse than this one; else look nearer."""
         if error > self.error:
-            self.row, self.error = np.array(row), error
+            self.row, self.error = row, error
         else:
             self.step /= 2
 
@@ -86,7 +88,7 @@ def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
 
 def _around(climber: Climber) -> Rows:
     """The row itself, its neighbours one step away, and its images on the four surfaces."""
-    rows = np.repeat(climber.row[None], 1 + 2 * len(_MOVES) + 4, axis=0)
+    rows = np.repeat(np.array([climber.row]), 1 + 2 * len(_MOVES) + 4, axis=0)
     for number, columns in enumerate(_MOVES):
         rows[1 + 2 * number, columns] *= 1 + climber.step
         rows[2 + 2 * number, columns] /= 1 + climber.step

@@ -117,7 +117,6 @@ _WAYS: tuple[Ways, ...] = (
     _next_to(shrink.same_pair),
     _next_to(shrink.one_changed),
     lambda _, limit: simplest_below(limit),
-    _next_to(shrink.two_changed),
     _next_to(shrink.brought_back),
 )
 """Cheap ways first: each later one is tried only where those before it have nothing more to offer."""

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 
-import numpy as np
-
-from hypcheck import judge
 from hypcheck.casebook.draw import Draw
 from hypcheck.hunt.climb import Climber, neighbours
 from hypcheck.hunt.findings import Findings, Key, rank
 from hypcheck.hunt.hunting import Hunt, ask
 from hypcheck.hunt.strata import strata
-from hypcheck.judge import WrongCase
 from hypcheck.rows import Rows
 
 FIRST_LOOK = 128
@@ -21,10 +16,6 @@ FIRST_LOOK = 128
 
 TOGETHER = 4
 """Climbers at a time, each of a cluster of its own."""
-
-MEASURED = 8
-"""Neighbours of one climber whose backward errors are measured to their digits, out of those in the highest octave."""
-
 
 Progress = Callable[[Hunt], object]
 
@@ -67,37 +58,32 @@ def _take(run: Hunt, rows: Rows, source: str) -> None:
 
 
 def _climb(run: Hunt) -> Iterator[bool]:
-    """Local search around the worst of each cluster, a step of all climbers at a time; False where there are none."""
+    """Local search around the worst of each cluster, a step of some climbers at a time; False where there are none."""
     climbers: dict[Key, Climber] = {}
     number = 0
     while True:
         chosen = _climbers(run.findings, climbers)
         if chosen:
             number += 1
-            around = neighbours(Draw("hunt", run.plan.seed, number), list(chosen.values()))
+            around = neighbours(Draw("hunt", run.plan.seed, number), [climbers[key] for key in chosen])
             cases = ask(run, around.rows, around.ladders)
-            for place, (key, climber) in enumerate(chosen.items()):
+            for place, key in enumerate(chosen):
                 own = [case for case in cases if around.owners[case.index] == place]
                 run.findings.add(own, f"local search from {key[-1]}")
-                climber.arrive(*_worst(own, climber, run.findings.criterion.question))
+            for key in chosen:
+                worst = run.findings.clusters[key].worst
+                climbers[key].go_on(worst.case.row, worst.error)
         yield bool(chosen)
 
 
-def _climbers(findings: Findings, climbers: dict[Key, Climber]) -> dict[Key, Climber]:
-    """The climbers whose turn it is, each where its cluster's worst is: the longest step first, then the worst."""
+def _climbers(findings: Findings, climbers: dict[Key, Climber]) -> list[Key]:
+    """The climbers whose turn it is: the longest step first, then the worst.
+
+    A climber begins where its cluster's worst is, and begins anew where the strata have found a worse one.
+    """
     found = sorted(findings.clusters.items(), key=lambda item: rank(item[1].worst), reverse=True)
     for key, cluster in found:
         if key not in climbers or cluster.worst.error > climbers[key].error:
-            climbers[key] = Climber(np.array(cluster.worst.case.row), cluster.worst.error)
-    awake = sorted((key for key, _ in found if not climbers[key].resting), key=lambda key: -climbers[key].step)
-    return {key: climbers[key] for key in awake[:TOGETHER]}
-
-
-def _worst(cases: list[WrongCase], climber: Climber, question: str) -> tuple[tuple[float, ...], float]:
-    """The worst neighbour and its backward error; 0 where none can be worse than the climber's own row."""
-    highest = max((case.exponent for case in cases), default=-math.inf)
-    if highest < math.floor(math.log2(climber.error)):
-        return (), 0.0
-    rivals = [case for case in cases if case.exponent == highest][:MEASURED]
-    error, row = max((judge.measured(case, question), case.row) for case in rivals)
-    return row, error
+            climbers[key] = Climber(cluster.worst.case.row, cluster.worst.error)
+    awake = [key for key, _ in found if not climbers[key].resting]
+    return sorted(awake, key=lambda key: -climbers[key].step)[:TOGETHER]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from itertools import combinations, product
+from itertools import product
 
 import numpy as np
 
@@ -48,14 +48,6 @@ def one_changed(row: Row) -> Iterator[Row]:
     for column in range(7):
         for value in {*_simple_values(row, column), *rounded(row[column])}:
             yield _with(row, {column: value})
-
-
-def two_changed(row: Row) -> Iterator[Row]:
-    """Two numbers made simple at once."""
-    simple = [[*_simple_values(row, column), *list(rounded(row[column]))[:6]] for column in range(7)]
-    for one, other in combinations(range(7), 2):
-        for first, second in product(simple[one], simple[other]):
-            yield _with(row, {one: first, other: second})
 
 
 def brought_back(row: Row) -> Iterator[Row]:

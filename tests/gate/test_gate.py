@@ -205,3 +205,12 @@ def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
         "assert code == 0 and not loaded, (code, loaded)\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+
+
+def test_more_rows_than_distances_are_recorded_of(tmp_path):
+    code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
+    assert code == 0
+    (line,) = record.of("group")
+    assert line["asked"] == line["counts"]["right"] > 70000
+    assert sum(number for counts in line["octaves"].values() for number in counts.values()) == 2000
+    assert sum(cell[2] for cell in line["size_bins"]) == line["asked"]

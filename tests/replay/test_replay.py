@@ -103,7 +103,7 @@ def ring_where_table_2_errs():
     [("float16", "float16"), ("bfloat16", "float32"), ("exact", "float64"), ("binary128", "longdouble")],
 )
 def test_every_precision_has_a_format(capsys, precision, shown):
-    found = replayed(capsys, FREE, subject("exact"), "--precision", precision)
+    found = replayed(capsys, FREE, "builtin:fast", "--precision", precision)
     assert found["values"]["format"] == shown
     assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
 
@@ -134,10 +134,10 @@ def test_a_zero_keeps_its_sign(capsys):
 
 
 def test_a_row_outside_the_domain_is_judged_and_the_skip_is_told(capsys):
-    found = replayed(capsys, FREE, subject("exact"), "--domain", '{"magnitude": [1e-3, 4]}')
+    found = replayed(capsys, FREE, "builtin:fast", "--domain", '{"magnitude": [1e-3, 4]}')
     assert found["status"] == "right"
     assert "domain" in found["skipped"]
-    assert "float16" in replayed(capsys, "1,2,1,1,1e6,0,0", subject("exact"), "--precision", "float16")["skipped"]
+    assert "float16" in replayed(capsys, "1,2,1,1,1e6,0,0", "builtin:fast", "--precision", "float16")["skipped"]
 
 
 def test_rows_to_be_refused(capsys):
@@ -165,7 +165,7 @@ def test_cases_of_a_record_are_numbered(tmp_path, capsys):
     record = read(out / "record.jsonl")
     kept = recorded_cases(record)
     assert [each.number for each in kept] == list(range(1, len(kept) + 1))
-    for each in kept:
+    for each in kept[::4]:
         case = case_of(f"{out / 'record.jsonl'}:{each.number}")
         assert case.name == each.case["case"]
         assert case.row == case_of(case.name).row
