@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from enum import IntEnum
 
 from hypcheck.errors import InputError
@@ -53,7 +53,7 @@ class Pair:
     z: float
 
     def __post_init__(self) -> None:
-        for name, value in zip(COLUMNS, astuple(self), strict=True):
+        for name, value in zip(COLUMNS, self.row, strict=True):
             trouble = trouble_with(name, value)
             if trouble is not None:
                 raise InputError(trouble)

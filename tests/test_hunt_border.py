@@ -51,7 +51,7 @@ def test_ladders_lead_away_from_the_border_to_both_sides():
     rows = ROWS[:3]
     mask = border.columns_of(np.full(3, "radius"))
     rungs, numbers = border.ladders(rows, mask, border.border_factors(rows, mask, np.ones(3, dtype=bool)))
-    assert np.bincount(numbers).tolist() == [border.OCTAVES] * 6
+    assert np.bincount(numbers).tolist() == [len(border.RUNGS)] * 6
     for place, row in enumerate(rows.tolist()):
         out, back = rungs[numbers == 2 * place].tolist(), rungs[numbers == 2 * place + 1].tolist()
         radii = [math.hypot(each[4], each[5]) for each in (*reversed(back), *out)]

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from hypcheck.hunt import search, strata
+from hypcheck.casebook.draw import Draw
+from hypcheck.hunt import climb, findings, search, strata
+from hypcheck.hunt.climb import neighbours
 from hypcheck.hunt.hunting import Hunt, Plan
+from hypcheck.hunt.place import Place
 from hypcheck.hunt.search import hunt
 from hypcheck.hunt.target import target_of
-from hypcheck.judge import Mistake, Status
+from hypcheck.judge import Mistake, Status, flip_octaves
 from hypcheck.methods.asking import Answered
 from hypcheck.methods.description import Description
 from hypcheck.methods.faults import Outcome
@@ -86,8 +90,90 @@ def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatc
     assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
     grown = hunted("local-maximum-float64", 25_000)
     worst = grown.findings.worst_first()[0].worst
-    assert worst.error_u > 1e5
+    assert worst.error_u > 1e7
     assert worst.source.startswith("local search")
+
+
+def test_a_search_that_finds_nothing_worse_halves_its_step_and_comes_to_rest(monkeypatch):
+    """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone."""
+    ring, steps = np.array([1, 2, 1, 1, 2.5, 0, 0]), []
+    block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
+
+    def watched(draw, climbers):
+        steps.extend(climber.step for climber in climbers)
+        return neighbours(draw, climbers)
+
+    def answer(rows):
+        return np.where((rows == ring).all(axis=1), 0, batch.positions(rows))
+
+    monkeypatch.setattr(search, "strata", lambda: (strata.Stratum("one row", lambda seed, number: block),))
+    monkeypatch.setattr(search, "neighbours", watched)
+    monkeypatch.setattr(climb, "LAST_STEP", 2.0**-8)
+    run = Hunt(target_of("double", Double(answer)), Plan(None))
+    hunt_for(run, rounds=30)
+    assert steps == [2.0**-power for power in range(1, 9)]
+    (cluster,) = run.findings.worst_first()
+    assert cluster.worst.case.row == tuple(ring)
+
+
+def test_a_search_goes_on_from_the_worst_and_begins_anew_with_the_first_step(monkeypatch):
+    """Exterior rows are called contact: the farther off, the worse. All places count as one."""
+    clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
+    block, stood = np.array([clear, *[crossing] * 1000]), []
+
+    def watched(draw, climbers):
+        (climber,) = climbers
+        stood.append((climber.row, climber.error, climber.step))
+        return neighbours(draw, climbers)
+
+    monkeypatch.setattr(search, "strata", lambda: (strata.Stratum("one clear row", lambda seed, number: block),))
+    monkeypatch.setattr(search, "neighbours", watched)
+    monkeypatch.setattr(findings, "place_of", lambda pair: Place("anywhere", "anywhere", "any"))
+    hunt(Hunt(target_of("double", Double(lambda rows: np.minimum(batch.positions(rows), 0))), Plan(None, 16_000)))
+    assert stood[0][0] == clear
+    assert len({row for row, _, _ in stood}) > 2
+    for (row, error, step), (next_row, next_error, next_step) in pairwise(stood):
+        if next_row == row:
+            assert (next_error, next_step) == (error, step / 2)
+        else:
+            assert next_error > error
+            assert next_step == climb.FIRST_STEP
+
+
+def hunt_for(run, rounds):
+    """Hunt until progress was told that many times."""
+
+    class EnoughError(Exception):
+        pass
+
+    def progress(run):
+        nonlocal rounds
+        rounds -= 1
+        if not rounds:
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        hunt(run, progress)
+
+
+def test_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_lead_away_from_contact():
+    row = (3.0, 4.0, 1.5, 2.0, 7.0, 1.0, 5.0)
+    around = neighbours(Draw("test"), [climb.Climber(row, 1.0, 0.25)])
+    single = np.bincount(around.ladders)[around.ladders] == 1
+    factors = around.rows[single] / np.array(row)
+    stepped = np.isclose(factors[..., None], (1.25, 0.8), rtol=1e-15).any(axis=2)
+    one_length = (stepped | (factors == 1)).all(axis=1) & (stepped.sum(axis=1) == 1)
+    assert one_length.sum() == 10  # α, γ, b, d, z up and down; x and y go together
+    surfaces = around.rows[single][-4:]
+    assert (surfaces[0, 4:6] == 0).all()
+    assert surfaces[1, 6] == 0
+    assert surfaces[2, 0] == surfaces[2, 2]
+    assert (surfaces[3, 1] / surfaces[3, 3]) ** 2 == pytest.approx(surfaces[3, 0] / surfaces[3, 2], rel=1e-15)
+    for number in set(around.ladders[~single].tolist()):
+        rungs = flip_octaves(around.rows[around.ladders == number])
+        assert rungs[0] < -40
+        assert rungs[-1] > -20
+    assert set(around.owners.tolist()) == {0}
 
 
 @pytest.mark.parametrize(("spec", "claims"), [("fast", {"tolerance": Fraction(0)}), ("dual-float64", {})])

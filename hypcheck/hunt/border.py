@@ -29,7 +29,10 @@ REACH = 2.0**12
 """Factors from 1/REACH to REACH are looked at."""
 
 OCTAVES = 46
-"""A ladder's rungs are 1, 2, 4 … 2^(OCTAVES − 1) ulp of the factor away from the border."""
+"""Rows are put up to 2^(OCTAVES − 1) ulp of the factor away from the border."""
+
+RUNGS = 4 ** np.arange(OCTAVES // 2, dtype=np.int64)
+"""The rungs of a ladder, in ulp of the factor."""
 
 
 def columns_of(movers: NDArray[np.str_]) -> Mask:
@@ -93,8 +96,7 @@ def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
 
     Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs follow each other away from it.
     """
-    away = 2 ** np.arange(OCTAVES, dtype=np.int64)
-    owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * OCTAVES)
-    at = stepped(factors[owners], np.tile(np.concatenate([away, -away]), len(owners) // (2 * OCTAVES)))
-    side = np.arange(len(owners)) // OCTAVES % 2
-    return moved(rows[owners], mask[owners], at), 2 * owners + side
+    owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * len(RUNGS))
+    steps = np.tile(np.concatenate([RUNGS, -RUNGS]), len(owners) // (2 * len(RUNGS)))
+    side = np.arange(len(owners)) // len(RUNGS) % 2
+    return moved(rows[owners], mask[owners], stepped(factors[owners], steps)), 2 * owners + side

@@ -48,13 +48,6 @@ class Climber:
         """Whether nothing worse was found down to the last step, or nothing can be."""
         return self.step < LAST_STEP or not 0 < self.error < math.inf
 
-    def go_on(self, row: Row, error: float) -> None:
-        """Stand on the worst row that is known now, if it is worse than this one; else look nearer."""
-        if error > self.error:
-            self.row, self.error = row, error
-        else:
-            self.step /= 2
-
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:

@@ -49,7 +49,7 @@ class Fault:
 class Hunt:
     """A hunt as it goes on: what was found, how many rows were asked, and what became of those without an answer.
 
-    `piece` is how many rows are asked next.
+    `piece` is how many rows are asked next; `barren` says that a whole round of strata had no row that is claimed.
     """
 
     target: Target
@@ -62,6 +62,7 @@ class Hunt:
     wrong: int = 0
     faults: dict[Outcome, Fault] = field(default_factory=dict)
     piece: int = math.isqrt(PIECE)
+    barren: bool = False
 
     def __post_init__(self) -> None:
         self.findings = Findings(self.target.criterion)
@@ -80,8 +81,8 @@ class Hunt:
 
     @property
     def over(self) -> bool:
-        """Whether the budget is spent, or the implementation cannot be asked any more."""
-        return self.spent >= 1 or Outcome.NOT_RUN in self.faults
+        """Whether the budget is spent, there is nothing to ask, or the implementation cannot be asked any more."""
+        return self.spent >= 1 or self.barren or Outcome.NOT_RUN in self.faults
 
 
 def ask(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:

@@ -48,9 +48,11 @@ def _look(run: Hunt) -> Iterator[None]:
     number = 0
     while True:
         number += 1
+        before = run.asked
         for stratum in everywhere:
             _take(run, stratum.rows(run.plan.seed, number), stratum.name)
             yield
+        run.barren = run.asked == before
 
 
 def _take(run: Hunt, rows: Rows, source: str) -> None:
@@ -70,16 +72,14 @@ def _climb(run: Hunt) -> Iterator[bool]:
             for place, key in enumerate(chosen):
                 own = [case for case in cases if around.owners[case.index] == place]
                 run.findings.add(own, f"local search from {key[-1]}")
-            for key in chosen:
-                worst = run.findings.clusters[key].worst
-                climbers[key].go_on(worst.case.row, worst.error)
+                climbers[key].step /= 2
         yield bool(chosen)
 
 
 def _climbers(findings: Findings, climbers: dict[Key, Climber]) -> list[Key]:
     """The climbers whose turn it is: the longest step first, then the worst.
 
-    A climber begins where its cluster's worst is, and begins anew where the strata have found a worse one.
+    A climber stands where its cluster's worst is, and begins anew with the first step where that has become worse.
     """
     found = sorted(findings.clusters.items(), key=lambda item: rank(item[1].worst), reverse=True)
     for key, cluster in found:
