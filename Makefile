@@ -26,6 +26,9 @@ cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
 check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its certificate
 	$(BIN)/hypcheck cases check
 
+mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
+	$(BIN)/python -m tests.mutants --out docs/mutants.md
+
 lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .

@@ -1,0 +1,95 @@
+"""Gating one implementation by the command that everyone uses, and what it said."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+from hypcheck import judge
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.rows import Rows
+from tests.mutants.collection import Mutant
+from tests.mutants.expectation import Options
+
+HARMLESS = frozenset({"right", "tolerated", "skipped", "refused"})
+"""How a case may end without anybody minding."""
+
+VERDICTS = {0: "passed", 1: "rejected"}
+"""What an exit code says of the implementation; others say that it was not judged at all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ruling:
+    """What one run said: its exit code, how many cases of each family failed, and how many were judged in all."""
+
+    exit_code: int
+    killed_by: dict[str, int]
+    judged: int
+    said: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """In a word."""
+        return VERDICTS.get(self.exit_code, f"ended with {self.exit_code}")
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What became of a mutant: with what is asked of it, and without, where that must make the difference."""
+
+    mutant: Mutant
+    ruling: Ruling
+    without: Ruling | None = None
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the gate said what it must."""
+        expected = "passed" if self.mutant.expectation.right else "rejected"
+        return self.ruling.verdict == expected and (self.without is None or self.without.verdict == "passed")
+
+
+def gate(mutant: Mutant, options: Options = ()) -> Result:
+    """Gate a mutant with its claim, and with what is to be asked of it; `options` come on top."""
+    expectation = mutant.expectation
+    ruling = run(mutant.spec, (*expectation.claim, *expectation.asked, *options))
+    if expectation.right or expectation.luck or not expectation.asked:
+        return Result(mutant, ruling)
+    return Result(mutant, ruling, without=run(mutant.spec, (*expectation.claim, *options)))
+
+
+def run(spec: str, options: Options) -> Ruling:
+    """`hypcheck verify SPEC` with these options."""
+    said = io.StringIO()
+    remembering = patch.object(judge, "flip_octaves", _remembered)
+    with tempfile.TemporaryDirectory() as folder, redirect_stdout(said), redirect_stderr(said), remembering:
+        code = main(["verify", spec, "--out", folder, *options])
+        path = Path(folder) / "record.jsonl"
+        groups = read(path).of("group") if path.exists() else []
+    killed_by = {line["family"]: failed for line in groups if (failed := _failed(line))}
+    return Ruling(code, killed_by, sum(line["asked"] for line in groups), said.getvalue())
+
+
+_flip_octaves = judge.flip_octaves
+_octaves: dict[bytes, Any] = {}
+
+
+def _remembered(rows: Rows) -> Any:
+    """How near rows are to another position, kept from run to run.
+
+    It is a statistic of the rows in the record, no part of a ruling, and costs more than all the rest of a run.
+    """
+    key = sha256(rows.tobytes()).digest()
+    if key not in _octaves:
+        _octaves[key] = _flip_octaves(rows)
+    return _octaves[key]
+
+
+def _failed(line: dict[str, Any]) -> int:
+    return sum(number for status, number in line["counts"].items() if status not in HARMLESS)
