@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 .PHONY: help verify deep test lint cases check-cases mutants format clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
 	$(BIN)/hypcheck verify --out $(OUT)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.casebook import vectors
-from hypcheck.casebook.families import case_id
+from hypcheck.casebook.families import FAMILIES, case_id
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.rows import Positions, Rows
 from hypcheck.truth import batch
@@ -34,6 +34,14 @@ def pieces(family: Family, seed: int, count: int) -> Iterator[Piece]:
         yield Piece(family.name, frozen.rows, frozen.positions, frozen.ids.__getitem__)
     for start in range(0, count, PIECE):
         yield _generated(family, seed, start, min(count, start + PIECE))
+
+
+def found_by_search() -> Iterator[Piece]:
+    """The frozen vectors that no family generates: the worst cancellations, which a search has found."""
+    for name in vectors.NAMES:
+        if name not in FAMILIES:
+            frozen = vectors.frozen_rows(name)
+            yield Piece(name, frozen.rows, frozen.positions, frozen.ids.__getitem__)
 
 
 def _generated(family: Family, seed: int, start: int, stop: int) -> Piece:

@@ -14,7 +14,7 @@ from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
 from hypcheck.casebook.frozen import refusals
 from hypcheck.errors import NothingJudgedError
-from hypcheck.gate.cases import pieces
+from hypcheck.gate.cases import found_by_search, pieces
 from hypcheck.gate.known_failures import KnownFailure, no_longer_failing, read_known_failures
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.trial import FAULTS_KEPT, Again, Judge, Sample, Tally, ask, ask_again
@@ -103,6 +103,11 @@ def _gate(
         tallies.append(tally)
         asked.add(family.name)
         advance(1)
+    for piece in () if plan.filtered else found_by_search():
+        tally = Tally(piece.family)
+        ask(implementation, piece, rules, tally, sample)
+        tallies.append(tally)
+        asked.add(piece.family)
     named = {entry.case for entry in listed if entry.case is not None}
     asked |= named & _names(tallies) if named else set()
     again = ask_again(implementation, sample, rules, plan.seed)

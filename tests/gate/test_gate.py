@@ -207,6 +207,12 @@ def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
 
+def test_the_worst_cancellations_are_asked_where_nothing_else_was_chosen(tmp_path):
+    _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
+    asked = {line["family"]: line for line in record.of("group")}
+    assert asked["worst-cancellation"]["counts"]["wrong"] > 10
+
+
 def test_more_rows_than_distances_are_recorded_of(tmp_path):
     code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
     assert code == 0
