@@ -90,7 +90,7 @@ def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
 
 def _nearly_one(draw: Draw, n: int) -> Floats:
     """1, or 1 ± 2⁻⁵² … 2⁻³, by turns."""
-    return 1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3))
+    return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
 
 
 def _movers(surfaces: tuple[str, ...]) -> list[str]:

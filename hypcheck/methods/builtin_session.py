@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.methods.builtin import builtin
 from hypcheck.methods.description import Description
@@ -42,7 +43,7 @@ class BuiltinSession:
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int]:  # noqa: ARG002
         """Nanoseconds for `repeat` times the rows and the sum of the answers."""
-        answers = np.empty(0, dtype=np.int8)
+        answers: NDArray[np.int8] = np.empty(0, dtype=np.int8)
         start = time.perf_counter_ns()
         for _ in range(repeat):
             answers = self.method.answer(rows)
