@@ -3,7 +3,7 @@
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
 
-History of SCHEMA: 1.0.0, the first.
+History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import Any, TextIO
 from hypcheck.errors import InputError
 from hypcheck.version import VERSION
 
-SCHEMA = "1.0.0"
+SCHEMA = "1.1.0"
 
 Line = dict[str, Any]
 
@@ -51,7 +51,7 @@ class Recorder:
         self._header = plain(header(options, self._started))
         self._write(self._header)
 
-    def add(self, kind: str, **fields: Any) -> None:  # noqa: ANN401  a line holds whatever JSON can
+    def add(self, kind: str, /, **fields: Any) -> None:  # noqa: ANN401  a line holds whatever JSON can
         """Add one line of a kind."""
         line = plain({"type": kind, **fields})
         self._write(line)

@@ -22,7 +22,7 @@ def record():
 
 def test_it_is_a_whole_run_of_this_version_that_held(record):
     assert record.header["hypcheck"] == VERSION
-    assert record.header["schema"] == SCHEMA
+    assert record.header["schema"].partition(".")[0] == SCHEMA.partition(".")[0]
     assert record.footer["exit_code"] == 0
 
 

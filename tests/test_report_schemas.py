@@ -20,6 +20,7 @@ from hypcheck.verify import run
 from hypcheck.verify.plan import Plan
 from tests import report_samples as samples
 from tests.json_schema import violations
+from tests.report import bench_lines
 
 
 def schema(name):
@@ -41,8 +42,28 @@ PARTS = {
     "limits",
     "description",
     "bins",
+    "grid",
+    "ratio",
+    "ratios",
 }
 """Definitions that are no lines of their own."""
+
+OF_A_BENCHMARK = {
+    "method",
+    "workload",
+    "accuracy",
+    "speed",
+    "noise",
+    "memory",
+    "stability",
+    "places",
+    "convergence",
+    "bounding",
+    "cost",
+    "kernel",
+    "comparison",
+}
+"""Lines that `hypcheck bench` writes, since schema 1.1.0."""
 
 
 def of_summary(record):
@@ -55,7 +76,20 @@ def test_every_line_of_the_sample_fits():
     for line in map(json.loads, text.splitlines()):
         assert violations(line, RECORD, closed=True) == []
         kinds.add(line["type"])
-    assert kinds == set(RECORD["$defs"]) - PARTS - {"drift", "implementation"}
+    assert kinds == set(RECORD["$defs"]) - PARTS - {"drift", "implementation"} - OF_A_BENCHMARK
+
+
+def test_every_line_of_a_benchmark_fits():
+    found = bench_lines.bench_record().lines
+    for line in found:
+        assert violations(line, RECORD, closed=True) == []
+    assert {line["type"] for line in found} == OF_A_BENCHMARK
+
+
+def test_the_older_schema_is_part_of_the_newer():
+    older = schema("record-1.0.0.json")
+    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | {"grid", "ratio", "ratios"}
+    assert {name: RECORD["$defs"][name] for name in older["$defs"]} == older["$defs"]
 
 
 @pytest.fixture(scope="module")
