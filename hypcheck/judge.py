@@ -16,23 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
+from hypcheck.methods.questions import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.pairs import Lengths, Pair, Position
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.truth import exact, flip
 from hypcheck.truth.exact import Decision
 
-UNIT_ROUNDOFF = {
-    "float16": Fraction(1, 2**11),
-    "bfloat16": Fraction(1, 2**8),
-    "float32": Fraction(1, 2**24),
-    "float64": Fraction(1, 2**53),
-    "x87": Fraction(1, 2**64),
-    "binary128": Fraction(1, 2**113),
-    "exact": Fraction(0),
-}
-"""The unit u of each precision an implementation can declare: half the distance from 1 to the next number."""
-
-QUESTIONS = ("position", "exterior", "interior", "contact")
 DEFAULT_TOLERANCE = Fraction(8)
 """Units u of backward error that a run tolerates unless told otherwise."""
 
@@ -65,7 +54,7 @@ class Mistake(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """What an implementation is asked and how strictly: `question` of QUESTIONS, `precision` of UNIT_ROUNDOFF."""
+    """What an implementation is asked and how strictly: `question` of QUESTIONS, `precision` of PRECISIONS."""
 
     question: str = "position"
     precision: str = "float64"
@@ -74,8 +63,8 @@ class Criterion:
     def __post_init__(self) -> None:
         if self.question not in QUESTIONS:
             raise InputError(f"the question is {self.question!r}; it must be one of {', '.join(QUESTIONS)}")
-        if self.precision not in UNIT_ROUNDOFF:
-            raise InputError(f"the precision is {self.precision!r}; it must be one of {', '.join(UNIT_ROUNDOFF)}")
+        if self.precision not in PRECISIONS:
+            raise InputError(f"the precision is {self.precision!r}; it must be one of {', '.join(PRECISIONS)}")
         if self.tolerance < 0:
             raise InputError(f"the tolerance is {float(self.tolerance)}; it must be 0 or more")
 
@@ -106,11 +95,6 @@ def expected(positions: Positions, question: str) -> NDArray[np.int8]:
     if question == "position":
         return positions
     return np.asarray(positions == Position[question.upper()], dtype=np.int8)
-
-
-def allowed(question: str) -> tuple[int, ...]:
-    """The answers that a question has."""
-    return (-1, 0, 1) if question == "position" else (0, 1)
 
 
 def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criterion: Criterion) -> list[WrongCase]:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.report.junit import render
-from hypcheck.report.text import visible
+from hypcheck.visible import visible
 from tests import report_samples as samples
 from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 

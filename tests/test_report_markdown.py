@@ -10,7 +10,7 @@ from markdown_it import MarkdownIt
 
 from hypcheck.report import markup
 from hypcheck.report.markdown import render
-from hypcheck.report.text import visible
+from hypcheck.visible import visible
 from tests import report_samples as samples
 from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 

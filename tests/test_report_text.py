@@ -1,4 +1,4 @@
-"""Text and numbers as reports show them."""
+"""Numbers, lists and rows as reports show them."""
 
 from __future__ import annotations
 
@@ -9,28 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.report.text import classify_command, counted, figure, from_hex, listed, short_row, shortened, visible
+from hypcheck.report.text import classify_command, counted, figure, from_hex, listed, short_row
 from tests import report_samples as samples
-
-
-@given(samples.FOREIGN)
-def test_visible_text_is_printable_and_stays(foreign):
-    assert visible(foreign).isprintable()
-    assert visible(visible(foreign)) == visible(foreign)
-
-
-@pytest.mark.parametrize(
-    ("foreign", "shown"),
-    [
-        ("λ² − 1", "λ² − 1"),
-        ("a\nb\tc", "a\\nb\\tc"),
-        ("\x1b[31m\x00\x7f\x85", "\\x1b[31m\\x00\\x7f\\x85"),
-        ("\u202e\u2028\ufffe\ud800", "\\u202e\\u2028\\ufffe\\ud800"),
-        ("  a   b ", "a b"),
-    ],
-)
-def test_what_cannot_be_seen_is_written_out(foreign, shown):
-    assert visible(foreign) == shown
 
 
 @pytest.mark.parametrize(
@@ -62,9 +42,8 @@ def test_lists(items, text):
     assert listed(items) == text
 
 
-def test_counts_and_lengths():
+def test_counts():
     assert [counted(number, "case") for number in (0, 1, 5600)] == ["0 cases", "1 case", "5,600 cases"]
-    assert [shortened("abcdef", width) for width in (6, 5, 2)] == ["abcdef", "abcd…", "a…"]
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=7, max_size=7))

@@ -14,6 +14,7 @@ from enum import IntEnum
 import click
 
 from hypcheck.errors import HypcheckError
+from hypcheck.visible import visible
 
 
 class Exit(IntEnum):
@@ -94,12 +95,12 @@ def ending_of(error: BaseException) -> Ending:
 
 def _expected(error: BaseException) -> Ending:
     code = error.exit_code if isinstance(error, HypcheckError) else Exit.INTERNAL
-    return Ending(code, (f"hypcheck: error: {_one_line(str(error))}",))
+    return Ending(code, (f"hypcheck: error: {visible(error)}",))
 
 
 def _usage(error: BaseException) -> Ending:
     message = error.format_message() if isinstance(error, click.ClickException) else str(error)
-    message = _one_line(message).rstrip(".")
+    message = visible(message).rstrip(".")
     context = error.ctx if isinstance(error, click.UsageError) else None
     command = context.command_path if context else "hypcheck"
     return Ending(
@@ -113,9 +114,7 @@ def _usage(error: BaseException) -> Ending:
 
 def _system(error: BaseException) -> Ending:
     if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
-        return Ending(
-            Exit.USAGE, (f"hypcheck: error: cannot write: {_one_line(error.strerror or str(error)).lower()}",)
-        )
+        return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {visible(error.strerror or str(error)).lower()}",))
     return _internal(error)
 
 
@@ -123,17 +122,9 @@ _FULL_OR_BROKEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ERO
 
 
 def _internal(error: BaseException) -> Ending:
-    what = _one_line(f"{type(error).__name__}: {error}".rstrip(": "))
+    what = visible(f"{type(error).__name__}: {error}".rstrip(": "))
     ask = "this is a fault of hypcheck; please report it, with what `hypcheck --debug` and the same arguments print"
     return Ending(Exit.INTERNAL, (f"hypcheck: internal error: {what}", f"hypcheck: {ask}"))
-
-
-def _one_line(text: str) -> str:
-    """`text` on one line, without characters that a terminal would obey or an encoding refuse."""
-    characters = (
-        character if character.isprintable() else ascii(character)[1:-1] for character in " ".join(text.split())
-    )
-    return "".join(characters)
 
 
 _ENDINGS: tuple[tuple[type[BaseException], Callable[[BaseException], Ending]], ...] = (

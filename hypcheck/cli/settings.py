@@ -175,13 +175,13 @@ def _one_of(choices: Callable[[], tuple[str, ...]]) -> Callable[[object], str]:
 
 
 def _precisions() -> tuple[str, ...]:
-    from hypcheck.methods.description import PRECISIONS
+    from hypcheck.methods.questions import PRECISIONS
 
     return PRECISIONS
 
 
 def _questions() -> tuple[str, ...]:
-    from hypcheck.methods.description import QUESTIONS
+    from hypcheck.methods.questions import QUESTIONS
 
     return QUESTIONS
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from hypcheck.methods.description import Description
 from hypcheck.methods.faults import FaultError, Outcome
 from hypcheck.methods.frames import UNWRITTEN
+from hypcheck.methods.questions import allowed
 from hypcheck.methods.runs import OverError, Runs
 from hypcheck.methods.session import Answers
 from hypcheck.pairs import REFUSED
@@ -72,11 +73,6 @@ class Vocabulary:
             return f"it answered {REFUSED}, which refuses the row, but the row is valid"
         hint = ", which is what stands where a library writes nothing" if answer == UNWRITTEN else ""
         return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
-
-
-def allowed(question: str) -> tuple[int, ...]:
-    """The answers that a question has."""
-    return (-1, 0, 1) if question == "position" else (0, 1)
 
 
 class Asking:

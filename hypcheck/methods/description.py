@@ -10,14 +10,12 @@ from typing import Any
 
 from hypcheck.errors import InputError
 from hypcheck.methods.domain import Domain
-from hypcheck.methods.evidence import visible
+from hypcheck.methods.questions import PRECISIONS, QUESTIONS
+from hypcheck.visible import visible
 
 PROTOCOL = 1
 LONGEST = 1 << 16
 """Bytes of a description."""
-
-PRECISIONS = ("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")
-QUESTIONS = ("position", "exterior", "interior", "contact")
 
 
 @dataclass(frozen=True, slots=True)

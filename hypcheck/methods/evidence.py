@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from hypcheck.visible import visible
+
 KEPT = 16_384
 """Bytes of standard error that are kept: the last ones, since what a program says before it ends tells the most."""
 
 LINES, WIDTH = 3, 400
 """What a sentence quotes of them."""
-
-
-def visible(text: str, width: int = WIDTH) -> str:
-    r"""The text on one line of at most `width` characters, what cannot be seen written as its escape: \x1b, \u202e."""
-    shown = "".join(map(_visible_character, " ".join(text.split())))
-    return shown if len(shown) <= width else shown[: width - 1] + "…"
-
-
-def _visible_character(character: str) -> str:
-    return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
 
 
 def quoted(data: bytes | bytearray, width: int = 80) -> str:
@@ -55,9 +47,9 @@ class Tail:
 
 def last_words(lines: Sequence[str]) -> str:
     """The last lines of standard error as the end of a sentence; empty where there are none."""
-    return f"; stderr: {visible(' | '.join(lines[-LINES:]))}" if lines else ""
+    return f"; stderr: {visible(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
 
 
 def _lines(data: bytearray) -> tuple[str, ...]:
-    shown = (visible(line) for line in data.decode("utf-8", "replace").splitlines())
+    shown = (visible(line, WIDTH) for line in data.decode("utf-8", "replace").splitlines())
     return tuple(line for line in shown if line)

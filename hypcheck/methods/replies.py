@@ -6,10 +6,11 @@ import re
 
 import numpy as np
 
-from hypcheck.methods.evidence import quoted, visible
+from hypcheck.methods.evidence import WIDTH, quoted
 from hypcheck.methods.faults import FaultError, Outcome
 from hypcheck.methods.frames import integers
 from hypcheck.methods.session import Answers
+from hypcheck.visible import visible
 
 _HEAD = re.compile(rb"(\d{1,19}) (\d{1,19})\r?\n")
 _TIMES = re.compile(rb"(\d{1,19}) (\d{1,18}) ([+-]?\d{1,18})\r?\n")
@@ -45,7 +46,7 @@ class Reply:
                 raise broken(f"a line of its reply does not end within {_FIRST_LINE} bytes: {quoted(incoming)}")
             return 0
         if incoming.startswith((b"error ", b"error\n", b"error\r")):
-            self.error = visible(incoming[6:end].decode("utf-8", "replace")) or "(without a text)"
+            self.error = visible(incoming[6:end].decode("utf-8", "replace"), WIDTH) or "(without a text)"
             return end
         return self._after(incoming, end)
 

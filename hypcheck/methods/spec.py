@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from hypcheck.errors import InputError
-from hypcheck.methods.evidence import visible
+from hypcheck.visible import visible
 
 _LIBRARY = re.compile(r"\.(so(\.\d+)*|dylib|dll)$", re.IGNORECASE)
 

@@ -17,11 +17,12 @@ import numpy as np
 
 from hypcheck.methods import frames
 from hypcheck.methods.environment import RoundingMode
-from hypcheck.methods.evidence import visible
+from hypcheck.methods.evidence import WIDTH
 from hypcheck.methods.library import Library
 from hypcheck.methods.python_function import PythonFunction, told
 from hypcheck.methods.subject import Answers, ContractError, LoadError, Subject, room_at
 from hypcheck.rows import Rows
+from hypcheck.visible import visible
 
 KINDS: Mapping[str, Callable[..., Subject]] = MappingProxyType({"python": PythonFunction, "library": Library})
 
@@ -116,4 +117,4 @@ def _reply(subject: Subject, asked: bytes, repeat: int, rows: Rows) -> Reply:
 
 
 def _sentence(text: str) -> bytes:
-    return visible(text).encode()
+    return visible(text, WIDTH).encode()

@@ -12,8 +12,9 @@ from pathlib import Path
 
 from hypcheck.record import Record
 from hypcheck.report.markdown import render
-from hypcheck.report.text import counted, visible
+from hypcheck.report.text import counted
 from hypcheck.report.verdict import Failure, failures
+from hypcheck.visible import visible
 
 MOST_ANNOTATIONS = 10
 """Errors of one step that GitHub shows; the last of them speaks for those that are left out."""

@@ -7,7 +7,7 @@ from xml.etree import ElementTree as Xml
 
 from hypcheck.record import Record
 from hypcheck.report.suites import Case, Suite, suites
-from hypcheck.report.text import visible
+from hypcheck.visible import visible
 
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 """The elements that say why a case did not pass, and the attributes that count them."""

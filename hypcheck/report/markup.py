@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from hypcheck.report.text import visible
+from hypcheck.visible import visible
 
 _SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
 _ENTITIES = {"|": "&#124;", "<": "&lt;", ">": "&gt;", "&": "&amp;"}

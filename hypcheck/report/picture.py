@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Line, Record
-from hypcheck.report.text import listed, visible
+from hypcheck.report.text import listed
+from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

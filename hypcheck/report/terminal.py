@@ -10,9 +10,10 @@ import click
 from hypcheck.record import Record
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, oracle_totals, timing_totals, under_test, worst_error_u
-from hypcheck.report.text import counted, figure, listed, shortened, visible
+from hypcheck.report.text import counted, figure, listed
 from hypcheck.report.verdict import failures, verdict
 from hypcheck.report.write import Written
+from hypcheck.visible import shortened, visible
 
 MOST_LINES = 25
 

@@ -1,4 +1,4 @@
-"""Foreign text and numbers as a person reads them, with nothing in them that a terminal or a parser would obey."""
+"""Numbers, lists and rows as a person reads them."""
 
 from __future__ import annotations
 
@@ -6,21 +6,6 @@ import math
 from collections.abc import Sequence
 
 from hypcheck.pairs import COLUMNS
-
-
-def visible(text: object) -> str:
-    r"""The text on one line, every character that cannot be seen written as its escape: \n, \x1b, \u202e, \ud800.
-
-    That takes in control and direction marks, lone surrogates and what Unicode assigns to no character; spaces at the
-    ends and in runs are lost.
-    """
-    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in str(text))
-    return " ".join(shown.split())
-
-
-def shortened(text: str, width: int) -> str:
-    """The text, cut to `width` characters with an ellipsis where it is longer."""
-    return text if len(text) <= width else text[: width - 1].rstrip() + "…"
 
 
 def counted(number: int, noun: str) -> str:

@@ -11,6 +11,7 @@ from hypcheck.errors import InputError
 from hypcheck.judge import Criterion
 from hypcheck.methods.builtin import builtin, builtin_methods
 from hypcheck.methods.domain import representable
+from hypcheck.methods.questions import UNIT_ROUNDOFF, allowed
 from hypcheck.truth import batch
 
 
@@ -25,7 +26,7 @@ def test_a_method_answers_its_question_with_allowed_answers(name, rows):
     answers = method.answer(rows)
     assert answers.dtype == np.int8
     assert answers.shape == (len(rows),)
-    assert set(answers.tolist()) <= set(judge.allowed(method.question))
+    assert set(answers.tolist()) <= set(allowed(method.question))
 
 
 def test_the_exact_method_is_exact(rows):
@@ -39,7 +40,7 @@ def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
     asked = rows[method.domain.holds(rows) & representable(rows, precision)]
     cases = judge.wrong_cases(asked, batch.positions(asked), method.answer(asked), Criterion(precision=precision))
     assert cases  # at a tangency one side or the other is bound to be missed
-    unit = judge.UNIT_ROUNDOFF[precision]
+    unit = UNIT_ROUNDOFF[precision]
     assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1
 
 

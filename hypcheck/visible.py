@@ -1,0 +1,23 @@
+"""Text that others wrote, as a message, a report or a terminal may show it."""
+
+from __future__ import annotations
+
+
+def visible(text: object, width: int | None = None) -> str:
+    r"""The text on one line, at most `width` characters long, what cannot be seen written as its escape.
+
+    Blanks of every kind, ends of lines among them, become one space each run. Escaped (\x1b, \u202e, \ud800) are the
+    characters that a terminal, a parser or an encoding would not pass on: control and direction marks, lone surrogates
+    and what Unicode assigns to no character.
+    """
+    shown = "".join(map(_escaped, " ".join(str(text).split())))
+    return shown if width is None else shortened(shown, width)
+
+
+def shortened(text: str, width: int) -> str:
+    """The text, cut to `width` characters with an ellipsis where it is longer."""
+    return text if len(text) <= width else text[: width - 1].rstrip() + "…"
+
+
+def _escaped(character: str) -> str:
+    return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
