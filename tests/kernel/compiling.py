@@ -1,0 +1,27 @@
+"""C code compiled for a test, with the compiler that the machine has."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+COMPILER = shutil.which(os.environ.get("CC", "cc"))
+needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+
+STRICT = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror")
+
+
+def shared_library(folder: Path, source: str, *options: str) -> ctypes.CDLL:
+    """The library that the C source makes, loaded. Fails the test with what the compiler said."""
+    path = folder / "source.c"
+    path.write_text(source, encoding="utf-8")
+    library = folder / "library.so"
+    command = [str(COMPILER), *STRICT, "-O2", "-shared", "-fPIC", *options, str(path), "-lm", "-o", str(library)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return ctypes.CDLL(str(library))

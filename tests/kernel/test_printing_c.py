@@ -1,0 +1,137 @@
+"""C printed from a program: the same value to the bit, for every step of every formula, and refusals."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.evaluation import evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.listing import program_of
+from hypcheck.derivation.program import OPERATIONS
+from hypcheck.kernel.printing.c import c_statements
+from tests.kernel.compiling import needs_compiler, shared_library
+
+FORMATS = {"double": "float64", "float": "float32", "long double": "longdouble"}
+EVERYTHING = program_of(
+    "everything",
+    ("x", "y"),
+    """
+    s = x + y
+    d = x - -3
+    m = 2048 * y
+    q = x / y
+    four = - -4
+    a = abs d
+    r = sqrt a
+    gt = x > y
+    lt = x < y
+    ge = x >= y
+    le = x <= y
+    eq = x == y
+    ne = x != 0
+    both = gt and ge
+    either = lt or eq
+    neither = not either
+    number = neither ? q : four
+    truth = both ? ne : le
+    """,
+)
+PROGRAMS = {"everything": EVERYTHING, **{name: formula.program for name, formula in FORMULAS.items()}}
+
+
+def as_function(program, number):
+    """A C function that reads columns of inputs and writes columns of every step, truth values as 0 and 1."""
+    steps = tuple(step.name for step in program.steps)
+    inputs = [f"const {number} {name} = in[{k} * n + i];" for k, name in enumerate(program.inputs)]
+    results = [f"out[{k} * n + i] = ({number}){name};" for k, name in enumerate(steps)]
+    body = "\n".join([*inputs, *c_statements(program, steps, number=number), *results])
+    unused = "".join(f"(void){name};" for name in program.inputs)
+    return (
+        "#include <math.h>\n#include <stddef.h>\n"
+        f"void run(size_t n, const {number} *in, {number} *out) {{ for (size_t i = 0; i < n; i++) {{\n"
+        f"{body}\n{unused}}} }}\n"
+    )
+
+
+def columns(program, format_name):
+    """Inputs of many sizes and signs, and at the ends of the format."""
+    random = np.random.default_rng(len(program.steps))
+    shape = (len(program.inputs), 300)
+    values = np.ldexp(random.uniform(-1, 1, shape), random.integers(-20, 20, shape)).astype(format_name)
+    limits = np.finfo(np.dtype(format_name))
+    ends = [0.0, -0.0, 1.0, np.inf, -np.inf, np.nan, limits.tiny, limits.smallest_subnormal, limits.max]
+    values[:, :9], values[:, 20:29] = ends, np.abs(values[:, 20:29])
+    return np.ascontiguousarray(values)
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("number", "name"),
+    [*(("double", name) for name in PROGRAMS), ("float", "everything"), ("long double", "everything")],
+)
+def test_every_step_is_the_same_to_the_bit(number, name, tmp_path):
+    program = PROGRAMS[name]
+    inputs = columns(program, FORMATS[number])
+    library = shared_library(tmp_path, as_function(program, number), "-ffp-contract=off")
+    found = np.empty((len(program.steps), inputs.shape[1]), inputs.dtype)
+    library.run(
+        ctypes.c_size_t(inputs.shape[1]), ctypes.c_void_p(inputs.ctypes.data), ctypes.c_void_p(found.ctypes.data)
+    )
+    expected = evaluate(program, float_arithmetic(FORMATS[number]), dict(zip(program.inputs, inputs, strict=True)))
+    for step, row in zip((each.name for each in program.steps), found, strict=True):
+        right = np.broadcast_to(np.asarray(expected[step], dtype=inputs.dtype), row.shape)
+        alike = (row == right) & (np.signbit(row) == np.signbit(right)) | (np.isnan(row) & np.isnan(right))
+        assert alike.all(), step
+
+
+def test_a_statement_is_one_declaration_in_the_order_of_the_program():
+    assert c_statements(EVERYTHING, ("number", "truth", "r")) == (
+        "const double d = x - (-3.0);",
+        "const double q = x / y;",
+        "const double four = -(-4.0);",
+        "const double a = fabs(d);",
+        "const double r = sqrt(a);",
+        "const int gt = x > y;",
+        "const int lt = x < y;",
+        "const int ge = x >= y;",
+        "const int le = x <= y;",
+        "const int eq = x == y;",
+        "const int ne = x != 0.0;",
+        "const int both = gt & ge;",
+        "const int either = lt | eq;",
+        "const int neither = !either;",
+        "const double number = neither ? q : four;",
+        "const int truth = both ? ne : le;",
+    )
+
+
+def test_literals_and_functions_are_of_the_type():
+    assert c_statements(EVERYTHING, ("r",), number="float") == (
+        "const float d = x - (-3.0F);",
+        "const float a = fabsf(d);",
+        "const float r = sqrtf(a);",
+    )
+    assert c_statements(EVERYTHING, ("m",), number="long double") == ("const long double m = 2048.0L * y;",)
+
+
+def test_an_input_that_is_wanted_needs_no_statement():
+    assert c_statements(EVERYTHING, ("x",)) == ()
+
+
+def test_what_cannot_be_printed_is_refused():
+    with pytest.raises(ValueError, match="no C type of numbers 'half'; there are double, float, long double"):
+        c_statements(EVERYTHING, ("r",), number="half")
+    with pytest.raises(KeyError, match="has no nothing"):
+        c_statements(EVERYTHING, ("nothing",))
+    with pytest.raises(ValueError, match="step short: short is no name in the language"):
+        c_statements(program_of("p", ("x",), "short = x + 1"), ("short",))
+    with pytest.raises(ValueError, match="step y: double is no name"):
+        c_statements(program_of("p", ("double",), "y = double + 1"), ("y",))
+
+
+def test_every_operation_is_printed():
+    assert {step.operation for step in EVERYTHING.steps} == set(OPERATIONS)
