@@ -21,6 +21,8 @@ def violations(value, schema, root=None, path="$", *, closed=False):
     root = schema if root is None else root
 
     def inner(part, below, where):
+        if below is False:  # the schema of nothing
+            return [f"{where} must not be there"]
         return violations(part, below, root, where, closed=closed)
 
     found = []
@@ -30,14 +32,19 @@ def violations(value, schema, root=None, path="$", *, closed=False):
             if isinstance(value, speaks_of):
                 found += check(value, wanted, root, path, inner)
     if isinstance(value, dict):
-        named = schema.get("properties", {})
-        for name, part in value.items():
-            if name in named:
-                found += inner(part, named[name], f"{path}.{name}")
-            elif "additionalProperties" in schema:
-                found += inner(part, schema["additionalProperties"], f"{path}.{name}")
-            elif closed and named and "oneOf" not in schema:
-                found.append(f"{path}.{name} is not in the schema")
+        found += _of_properties(value, schema, path, inner, closed=closed)
+    return found
+
+
+def _of_properties(value, schema, path, inner, *, closed):
+    named, found = schema.get("properties", {}), []
+    for name, part in value.items():
+        if name in named:
+            found += inner(part, named[name], f"{path}.{name}")
+        elif "additionalProperties" in schema:
+            found += inner(part, schema["additionalProperties"], f"{path}.{name}")
+        elif closed and named and "oneOf" not in schema:
+            found.append(f"{path}.{name} is not in the schema")
     return found
 
 
@@ -89,6 +96,7 @@ KEYWORDS = {
     "minItems": (list, lambda v, w, root, path, inner: _says(len(v) >= w, f"{path} has fewer than {w} items")),
     "maxItems": (list, lambda v, w, root, path, inner: _says(len(v) <= w, f"{path} has more than {w} items")),
     "minimum": ((int, float), lambda v, w, root, path, inner: _says(v >= w, f"{path} is {v}, below {w}")),
+    "exclusiveMinimum": ((int, float), lambda v, w, root, path, inner: _says(v > w, f"{path} is {v}, not above {w}")),
     "pattern": (str, lambda v, w, root, path, inner: _says(re.search(w, v), f"{path} is {v!r}, not like {w}")),
 }
 """What each keyword speaks of, and its check; it says nothing about values of other types."""

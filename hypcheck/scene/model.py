@@ -1,0 +1,89 @@
+"""A scene: what stands, what moves, where, and what is asked. Plain values; reading.py makes them and refuses others.
+
+Lengths are in one unit of the caller's choice (metres in the scenes that are shipped), angles in degrees. A hyperboloid
+stands upright: `alpha`, `gamma` and `height` describe it in its own frame, and `center` puts it into the scene.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+QUESTIONS = ("position", "exterior", "interior", "contact")
+
+OUTSIDE_HEIGHT = "outside the modelled height"
+"""The answer about a mover whose centre is above or below the part of a hyperboloid that stands in the world."""
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The numbers from `low` to `high`, both included; one number where they are equal."""
+
+    low: float
+    high: float
+
+    @property
+    def fixed(self) -> bool:
+        """Whether it is a single number."""
+        return self.low == self.high
+
+    def holds(self, value: float) -> bool:
+        """Whether the number lies in it."""
+        return self.low <= value <= self.high
+
+
+@dataclass(frozen=True, slots=True)
+class Hyperboloid:
+    """x²/α² + y²/α² − z²/γ² = 1 about `center` (equation (1) of the paper), of its own `name`.
+
+    `height` is the range of z, from the centre's level, in which the surface stands in the world; None: everywhere.
+    """
+
+    name: str
+    alpha: float
+    gamma: float
+    center: Point = (0.0, 0.0, 0.0)
+    height: Span | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A smaller spheroid of semi-axes b, b, d within the mover's, at the mover's height.
+
+    Its centre is `arm` away from the mover's, `angle` degrees counterclockwise from the mover's heading.
+    """
+
+    b: float
+    d: float
+    arm: float
+    angle: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself."""
+
+    b: float
+    d: float
+    parts: tuple[Part, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """Where the mover's centre can be, in the scene's coordinates; None: anywhere."""
+
+    x: Span | None = None
+    y: Span | None = None
+    z: Span | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """One or more hyperboloids, a mover, the region it moves in, and the `question` (one of QUESTIONS) to answer."""
+
+    name: str
+    question: str
+    hyperboloids: tuple[Hyperboloid, ...]
+    mover: Mover
+    region: Region = Region()

@@ -1,0 +1,151 @@
+"""On which line of a TOML text each value stands: a reader of TOML tells what is there, but not where.
+
+The text is known to be valid TOML 1.0 (tomllib has read it), so this scanner only has to find its way, not to judge.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from bisect import bisect_right
+from collections.abc import Mapping
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+Path = tuple[str | int, ...]
+"""How to get to a value: keys of tables, and places in arrays counted from 0."""
+
+_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+_SPACE = re.compile(r"[ \t]*")
+_KEY = re.compile(r"""[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*'""")
+_SCALAR = re.compile(
+    r'''"""(?:[^\\]|\\.)*?"""(?:"{0,2})'''  # a text may end with two quotation marks of its own
+    r"""|'''.*?'''(?:'{0,2})"""
+    r"""|"(?:[^"\\]|\\.)*"|'[^']*'|[^,\]}#\n]+""",
+    re.DOTALL,
+)
+
+
+def lines_of(text: str) -> dict[Path, int]:
+    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path."""
+    return _Scanner(text).scan()
+
+
+def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
+    """The line of the value at the path, else of the innermost table or array around it that is known."""
+    while path and path not in lines:
+        path = path[:-1]
+    return lines.get(path)
+
+
+class _Scanner:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+        self._lines: dict[Path, int] = {}
+        self._counts: dict[Path, int] = {}
+        """How many tables each array of tables has so far."""
+        self._newlines = [match.start() for match in re.finditer("\n", text)]
+
+    def scan(self) -> dict[Path, int]:
+        table: Path = ()
+        self._skip(_BLANK)
+        while self._at < len(self._text):
+            if self._text[self._at] == "[":
+                table = self._header()
+            else:
+                self._pair(table)
+            self._skip(_BLANK)
+        return self._lines
+
+    def _header(self) -> Path:
+        """The table that [a.b] or [[a.b]] begins."""
+        line, several = self._line(), self._text.startswith("[[", self._at)
+        self._at += 2 if several else 1
+        keys = self._keys()
+        self._at += 2 if several else 1
+        table: Path = ()
+        for key in keys[:-1]:
+            table = self._inner(table, key)
+        if several:
+            array = (*table, keys[-1])
+            self._lines.setdefault(array, line)
+            self._counts[array] = self._counts.get(array, 0) + 1
+        table = self._inner(table, keys[-1])
+        self._lines[table] = line
+        return table
+
+    def _inner(self, table: Path, key: str) -> Path:
+        """The table of that key; of an array of tables, its last one."""
+        path: Path = (*table, key)
+        return (*path, self._counts[path] - 1) if path in self._counts else path
+
+    def _pair(self, table: Path) -> None:
+        """A key and its value; each table on the way of a dotted key begins where it is first named."""
+        line = self._line()
+        path = table
+        for key in self._keys():
+            path = (*path, key)
+            self._lines.setdefault(path, line)
+        self._at += 1  # the equals sign
+        self._skip(_SPACE)
+        self._value(path)
+
+    def _value(self, path: Path) -> None:
+        self._lines[path] = self._line()
+        opening = self._text[self._at]
+        if opening == "[":
+            self._sequence("]", path)
+        elif opening == "{":
+            self._sequence("}", path)
+        else:
+            self._skip(_SCALAR)
+
+    def _sequence(self, closing: str, path: Path) -> None:
+        """What stands between brackets, with commas between."""
+        place = 0
+        self._at += 1
+        self._skip(_BLANK)
+        while self._text[self._at] != closing:
+            if closing == "]":
+                self._value((*path, place))
+            else:
+                self._pair(path)
+            place += 1
+            self._skip(_BLANK)
+            if self._text[self._at] == ",":
+                self._at += 1
+                self._skip(_BLANK)
+        self._at += 1
+
+    def _keys(self) -> tuple[str, ...]:
+        """The parts of a dotted key; the scanner stands on what follows it then."""
+        keys = []
+        while True:
+            self._skip(_SPACE)
+            keys.append(_plain(self._take(_KEY)))
+            self._skip(_SPACE)
+            if self._text[self._at] != ".":
+                return tuple(keys)
+            self._at += 1
+
+    def _line(self) -> int:
+        return bisect_right(self._newlines, self._at - 1) + 1
+
+    def _take(self, pattern: re.Pattern[str]) -> str:
+        match = pattern.match(self._text, self._at)
+        if match is None:
+            raise AssertionError("a text that is no TOML was to be scanned")
+        self._at = match.end()
+        return match.group()
+
+    def _skip(self, pattern: re.Pattern[str]) -> None:
+        self._take(pattern)
+
+
+def _plain(key: str) -> str:
+    """A key without its quotation marks and escapes."""
+    return str(tomllib.loads(f"key = {key}")["key"]) if key[0] in "\"'" else key

@@ -1,0 +1,170 @@
+"""Reading a scene file: TOML, complete and strict. What is not known or cannot be is refused in one sentence.
+
+docs/scenes.md explains the keys; schemas/scene-1.0.0.json has them for editors and other programs.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from fractions import Fraction
+from importlib import resources
+from typing import Any
+
+from hypcheck.errors import InputError
+from hypcheck.scene import tables
+from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Part, Region, Scene
+from hypcheck.scene.tables import Source, Table
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+LARGEST_FILE = 64 << 20
+"""Bytes: half a million trees, one a line."""
+
+SUFFIX = ".toml"
+
+_SCENE = ("name", "question", "hyperboloid", "mover", "region")
+_HYPERBOLOID = ("name", "alpha", "gamma", "center", "height")
+_MOVER = ("b", "d", "part")
+_PART = ("b", "d", "arm", "angle")
+_REGION = ("x", "y", "z")
+
+
+def read_scene(name: str) -> Scene:
+    """The scene in a file, or the shipped scene of that name (see shipped_scenes). Raises InputError."""
+    return parse_scene(*_file(name))
+
+
+def shipped_scenes() -> tuple[str, ...]:
+    """The names of the scenes that come with the package, in alphabetical order."""
+    files = (path.name for path in resources.files("hypcheck.scene").joinpath("shipped").iterdir())
+    return tuple(sorted(file.removesuffix(SUFFIX) for file in files if file.endswith(SUFFIX)))
+
+
+def shipped_text(name: str) -> str:
+    """The TOML of a shipped scene."""
+    return resources.files("hypcheck.scene").joinpath("shipped", name + SUFFIX).read_text(encoding="utf-8")
+
+
+def parse_scene(text: str, source: str = "the scene") -> Scene:
+    """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
+    try:
+        return _scene(Table(Source(source, text), (), "the scene", _parsed(text, source), _SCENE))
+    except RecursionError:
+        raise InputError(f"{source}: is no TOML that can be read: it is nested too deeply") from None
+
+
+def _scene(top: Table) -> Scene:
+    name = top.required("name", tables.text)
+    question = top.optional("question", tables.one_of(*QUESTIONS), "position")
+    hyperboloids = _hyperboloids(top)
+    return Scene(name, question, hyperboloids, _mover(top), _region(top))
+
+
+def _file(name: str) -> tuple[str, str]:
+    """The text of the scene of that name and what messages call it."""
+    if not name.endswith(SUFFIX) and name in shipped_scenes():
+        return shipped_text(name), f"the shipped scene {name}"
+    try:
+        with open(name, "rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except FileNotFoundError:
+        raise InputError(
+            f"{name}: there is no such file; it must be one, or a shipped scene: {', '.join(shipped_scenes())}"
+        ) from None
+    except OSError as error:
+        raise InputError(f"{name}: cannot be read: {(error.strerror or str(error)).lower()}") from None
+    except ValueError as error:  # a NUL in the name
+        raise InputError(f"{name}: cannot be read: {error}") from None
+    if len(content) > LARGEST_FILE:
+        raise InputError(f"{name}: has more than {LARGEST_FILE >> 20} MiB; a scene must be smaller")
+    return _decoded(content, name), name
+
+
+def _decoded(content: bytes, name: str) -> str:
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            f"{name}, line {line}: is not UTF-8 text: {error.reason} at byte {error.start}; save it as UTF-8"
+        ) from None
+
+
+def _parsed(text: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{source}: is no TOML: {error}") from None
+    except ValueError:  # Python reads no integer of more than some thousand digits
+        raise InputError(f"{source}: has an integer with too many digits; a number must fit into float64") from None
+
+
+def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:
+    found: dict[str, int] = {}
+    result = []
+    for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID), start=1):
+        body = Hyperboloid(
+            name=table.optional("name", tables.text, f"hyperboloid {number}"),
+            alpha=table.required("alpha", tables.positive),
+            gamma=table.required("gamma", tables.positive),
+            center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
+            height=table.optional("height", tables.span, None),
+        )
+        first = found.setdefault(body.name, number)
+        if first != number:
+            same = tables.shown(body.name)
+            table.refuse(f"hyperboloid {number} is called {same} as hyperboloid {first} is; names must differ", "name")
+        result.append(body)
+    if not result:
+        top.refuse("the scene has no hyperboloid; it must have one [[hyperboloid]] at least", "hyperboloid")
+    return tuple(result)
+
+
+def _mover(top: Table) -> Mover:
+    table = top.table("mover", _MOVER)
+    if table is None:
+        top.refuse("the scene has no [mover]; it must have one, with b and d")
+    b, d = (table.required(name, tables.positive) for name in ("b", "d"))
+    return Mover(b, d, tuple(_parts(table, b, d)))
+
+
+def _parts(mover: Table, b: float, d: float) -> Iterable[Part]:
+    for number, table in enumerate(mover.tables("part", _PART), start=1):
+        part = Part(
+            b=table.required("b", tables.positive),
+            d=table.required("d", tables.positive),
+            arm=table.required("arm", tables.not_negative),
+            angle=table.optional("angle", tables.number, 0.0),
+        )
+        if not within(part, b, d):
+            table.refuse(
+                f"mover part {number} reaches beyond the mover (b = {b!r}, d = {d!r}); it must lie within it, "
+                "for it is asked only where the mover is not clear"
+            )
+        yield part
+
+
+def within(part: Part, b: float, d: float) -> bool:
+    """Whether the part lies in the closed spheroid of semi-axes b, b, d: exactly, over the given float64 values.
+
+    Divide lengths by b and d as Theorem 1 does: the mover is the unit ball, the part has semi-axes p, p, q and its
+    centre is e away. The square of the distance of its point at (e + p c, q s), c² + s² = 1, is
+    (p² − q²) c² + 2 e p c + e² + q². For p ≥ q it is convex in c and largest at c = 1; else at c = e p/(q² − p²), or at
+    1 where that is beyond. Turned about the part's own axis, a point is farthest in the plane of both axes.
+    """
+    p, e, q = Fraction(part.b) / Fraction(b), Fraction(part.arm) / Fraction(b), Fraction(part.d) / Fraction(d)
+    bend = q * q - p * p
+    if bend <= 0 or e * p >= bend:
+        return e + p <= 1
+    return e * e + q * q + (e * p) ** 2 / bend <= 1
+
+
+def _region(top: Table) -> Region:
+    table = top.table("region", _REGION)
+    if table is None:
+        return Region()
+    return Region(*(table.optional(name, tables.span_or_number, None) for name in _REGION))
