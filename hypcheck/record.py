@@ -3,7 +3,8 @@
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
 
-History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark.
+History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
+declared.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from hypcheck.casebook.families import FAMILIES, case_id, parse_case_id, row_of, select
+from hypcheck.casebook.families import FAMILIES, case_id, is_extreme, parse_case_id, row_of, select
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair
@@ -85,7 +85,7 @@ def test_a_family_is_described_in_full(family: Family) -> None:
             assert value, field.name
             assert not value.endswith("."), field.name
     assert FAMILIES[family.name] is family
-    assert family.extreme == family.name.startswith("extreme-")
+    assert family.extreme == is_extreme(family.name) == is_extreme(case_id(family, 1, 0))
 
 
 @every_family

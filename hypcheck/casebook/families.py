@@ -48,6 +48,11 @@ def select(patterns: Sequence[str] = ()) -> tuple[Family, ...]:
     return tuple(family for name, family in FAMILIES.items() if name in chosen)
 
 
+def is_extreme(name: str) -> bool:
+    """Whether a family of this name, or a case of this id, is of the extreme ones: their names all begin alike."""
+    return name.startswith(f"{EXTREME}-")
+
+
 def case_id(family: Family, seed: int, index: int) -> str:
     """The name of a generated case, the same for ever: family/generator-version/seed/index."""
     return f"{family.name}/{family.version}/{seed}/{index}"

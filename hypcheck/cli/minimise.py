@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import click
@@ -28,6 +29,7 @@ Ends with 1, for the answer is wrong; with 2 where it is not.
 @click.pass_context
 def minimise(context: click.Context, /, spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of SUBJECT
     """Simplify, and tell what came of it."""
+    from hypcheck.casebook.families import is_extreme
     from hypcheck.classification.answer import answer
     from hypcheck.classification.text import answer_as_text
     from hypcheck.hunt.minimise import minimise as simplify
@@ -35,9 +37,9 @@ def minimise(context: click.Context, /, spec: str, case: str, **subject: Any) ->
     from hypcheck.pairs import Pair
     from hypcheck.replay.case import case_of
 
-    pair = Pair.from_row(case_of(case).row)
+    given = case_of(case)
     with opened(spec, **subject) as target:
-        run = simplify(target, pair)
+        run = simplify(replace(target, extreme=is_extreme(given.name)), Pair.from_row(given.row))
     for line in minimised_lines(run):
         click.echo(line)
     click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(run.last.case.row)))}")

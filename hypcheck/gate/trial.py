@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import judge
+from hypcheck.casebook.families import is_extreme
 from hypcheck.gate.cases import Piece
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.judge import Criterion, Status, WrongCase
@@ -73,7 +74,8 @@ class Judge:
 def ask(implementation: Implementation, piece: Piece, rules: Judge, tally: Tally, sample: Sample) -> None:
     """Ask the cases of a piece that lie in the domain; add what came of them to the tally, and some to the sample."""
     criterion = rules.criterion
-    places = np.flatnonzero(rules.domain.holds(piece.rows) & representable(piece.rows, criterion.precision))
+    claimed = rules.domain.holds(piece.rows, extreme=is_extreme(piece.family))
+    places = np.flatnonzero(claimed & representable(piece.rows, criterion.precision))
     if implementation.most is not None:
         places = places[: implementation.most]
     tally.skipped += len(piece.rows) - len(places)

@@ -30,6 +30,7 @@ class Target:
     """An implementation with its SPEC, the criterion by which it is judged, and the domain in which it is asked.
 
     `options` are the command line's, as name and value, that stand for what it declares: reports repeat them.
+    `extreme`: it is asked at the ends of the float formats too, where it has not declared otherwise.
     """
 
     spec: str
@@ -37,11 +38,12 @@ class Target:
     criterion: Criterion
     domain: Domain
     options: tuple[tuple[str, str], ...] = ()
+    extreme: bool = False
 
     def claimed(self, rows: Rows) -> Mask:
         """A mask (n,) of the rows that the implementation claims to answer."""
         with np.errstate(all="ignore"):
-            return self.domain.holds(rows) & representable(rows, self.criterion.precision)
+            return self.domain.holds(rows, extreme=self.extreme) & representable(rows, self.criterion.precision)
 
 
 def target_of(

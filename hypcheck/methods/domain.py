@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
+from hypcheck.ranges import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, Range, within
 from hypcheck.rows import Rows
 
 REGIMES = ("a>=1", "c2>=a")
 """The paper's hypotheses: α/b ≥ 1, and (γ/d)² ≥ α/b."""
 
-NORMAL_RANGE: dict[str, tuple[float, float]] = {
+NORMAL_RANGE: dict[str, Range] = {
     "float16": (2.0**-14, 65504.0),
     "bfloat16": (2.0**-126, (2 - 2.0**-7) * 2.0**127),
     "float32": (2.0**-126, (2 - 2.0**-23) * 2.0**127),
@@ -29,37 +30,36 @@ Mask = NDArray[np.bool_]
 class Domain:
     """The rows a method speaks of: every regime named holds, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
 
-    Bounds are inclusive. The least magnitude is one of semi-axes: a coordinate may be as near to 0 as it likes, for a
-    centre close to the axis or to the waist is nothing out of the ordinary. Undeclared, the domain is every regime,
-    ratios from 1e-8 to 1e8 and magnitudes from 1e-6 to 1e6. Raises InputError where a regime is unknown or a range is
-    empty.
+    Bounds are inclusive, as ranges.within has them. None is a range that was not declared: the ordinary one, or, where
+    more is asked for, every one. Raises InputError where a regime is unknown or a range is empty.
     """
 
     regimes: tuple[str, ...] = ()
-    ratio: tuple[float, float] = (1e-8, 1e8)
-    magnitude: tuple[float, float] = (1e-6, 1e6)
+    ratio: Range | None = None
+    magnitude: Range | None = None
 
     def __post_init__(self) -> None:
         for regime in self.regimes:
             if regime not in REGIMES:
                 raise InputError(f"the domain names the regime {regime!r}; it must be one of {', '.join(REGIMES)}")
-        for name, (low, high) in (("ratio", self.ratio), ("magnitude", self.magnitude)):
-            if not 0 <= low <= high:
-                raise InputError(f"the domain's {name} is [{low}, {high}]; it must be two numbers with 0 ≤ low ≤ high")
+        for name, limits in (("ratio", self.ratio), ("magnitude", self.magnitude)):
+            if limits is not None and not 0 <= limits[0] <= limits[1]:
+                told = f"[{limits[0]}, {limits[1]}]"
+                raise InputError(f"the domain's {name} is {told}; it must be two numbers with 0 ≤ low ≤ high")
 
-    def holds(self, rows: Rows) -> Mask:
-        """A mask (n,) of the rows inside the domain."""
-        alpha, gamma, b, d = rows[:, :4].T
-        with np.errstate(over="ignore", under="ignore"):
-            inside = _between(alpha / b, self.ratio) & _between(gamma / d, self.ratio)
-        least, greatest = self.magnitude
-        inside &= (rows[:, :4] >= least).all(axis=1) & (np.abs(rows) <= greatest).all(axis=1)
+    def holds(self, rows: Rows, *, extreme: bool = False) -> Mask:
+        """A mask (n,) of the rows inside the domain.
+
+        `extreme`: they are of a family that is asked only when it is asked for, so what was not declared is unbounded.
+        """
+        ratio, magnitude = (UNBOUNDED, UNBOUNDED) if extreme else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
+        inside = within(rows, self.ratio or ratio, self.magnitude or magnitude)
         for regime in self.regimes:
             inside &= in_regime(rows, regime)
         return inside
 
 
-EVERYWHERE = Domain(ratio=(0.0, np.inf), magnitude=(0.0, np.inf))
+EVERYWHERE = Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
 
 
 def in_regime(rows: Rows, regime: str) -> Mask:
@@ -84,8 +84,5 @@ def representable(rows: Rows, precision: str) -> Mask:
     limits = NORMAL_RANGE.get(precision)
     if limits is None:
         return np.ones(len(rows), dtype=bool)
-    return np.asarray((_between(np.abs(rows), limits) | (rows == 0)).all(axis=1))
-
-
-def _between(values: NDArray[np.float64], limits: tuple[float, float]) -> Mask:
-    return np.asarray((values >= limits[0]) & (values <= limits[1]))
+    lengths = np.abs(rows)
+    return np.asarray((((lengths >= limits[0]) & (lengths <= limits[1])) | (rows == 0)).all(axis=1))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck import judge
+from hypcheck.casebook.families import is_extreme
 from hypcheck.classification.agreement import DisagreementError
 from hypcheck.errors import InputError
 from hypcheck.judge import Criterion, Mistake, Status
@@ -93,7 +94,7 @@ def replay(case: Case, implementation: Implementation, criterion: Criterion, for
     judgement = _judged(implementation, rows, truth, criterion)
     subject = Subject(implementation.spec, declared, used, _usable(judgement.answer))
     choice = choose(subject, case.row, truth.decision.position, formula)
-    return Replay(*told, truth, judgement, _skipped(used, rows, criterion), choice)
+    return Replay(*told, truth, judgement, _skipped(case, used, criterion), choice)
 
 
 def truth_of(pair: Pair) -> Truth:
@@ -155,8 +156,10 @@ def _refused(implementation: Implementation, rows: Rows) -> Judgement:
     return Judgement(Status.WRONG, answer, f"a row that is no pair must be refused with {REFUSED}")
 
 
-def _skipped(used: Description, rows: Rows, criterion: Criterion) -> str | None:
+def _skipped(case: Case, used: Description, criterion: Criterion) -> str | None:
     """Why a gating run would not ask the row; None where it would."""
+    rows = np.array([case.row])
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"
-    return None if used.domain.holds(rows)[0] else "the row lies outside the implementation's domain"
+    asked = used.domain.holds(rows, extreme=is_extreme(case.name))[0]
+    return None if asked else "the row lies outside the implementation's domain"

@@ -40,11 +40,11 @@ def _said(name: str, value: Any) -> str:  # noqa: ANN401 - a field of a descript
 
 
 def domain(value: Mapping[str, Any]) -> str:
-    """A domain: "every regime, ratios 1e-08 to 1e+08, magnitudes 1e-06 to 1e+06"."""
+    """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
     regimes = listed(value["regimes"]) if value["regimes"] else "every regime"
     ranges = (f"{name}s {_range(value[name])}" for name in ("ratio", "magnitude"))
     return f"{regimes}, {', '.join(ranges)}"
 
 
-def _range(limits: tuple[float | str, float | str]) -> str:
-    return " to ".join(figure(float(limit)) for limit in limits)
+def _range(limits: tuple[float | str, float | str] | None) -> str:
+    return "not declared" if limits is None else " to ".join(figure(float(limit)) for limit in limits)

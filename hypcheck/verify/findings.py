@@ -82,7 +82,7 @@ def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan
     """The record's line about one method and one family; `octaves` as in groups.line, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
-    asked = method.domain.holds(batch.rows) & representable(batch.rows, method.precision)
+    asked = method.domain.holds(batch.rows, extreme=batch.family.extreme) & representable(batch.rows, method.precision)
     places = np.flatnonzero(asked)[: method.most]
     rows = batch.rows[places]
     given = method.answer(rows)

@@ -40,6 +40,24 @@ def test_ranges_are_inclusive_and_the_least_one_is_of_semi_axes():
     assert Domain(magnitude=(0.5, 4.0)).holds(rows).tolist() == [True, False, False]
 
 
+LONG_RATIO = [1e6, 1.0, 1e-3, 1.0, 1.0, 0.0, 0.0]
+FAR = [1e7, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
+
+
+def test_what_is_not_declared_is_ordinary_and_without_bounds_where_more_is_asked_for():
+    rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
+    assert Domain().holds(rows).tolist() == [True, False, False]
+    assert Domain().holds(rows, extreme=True).all()
+
+
+def test_what_is_declared_bounds_the_extremes_too():
+    rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
+    assert Domain(ratio=(0.5, 1e8)).holds(rows, extreme=True).tolist() == [True, False, True]
+    assert Domain(magnitude=(0.1, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
+    assert Domain(ratio=(1e-8, 1e8), magnitude=(1e-6, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
+    assert Domain(regimes=("c2>=a",)).holds(rows, extreme=True).tolist() == [True, False, False]
+
+
 @pytest.mark.parametrize(
     ("value", "precision", "expected"),
     [

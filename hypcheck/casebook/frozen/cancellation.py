@@ -17,11 +17,12 @@ import numpy as np
 
 from hypcheck.casebook.draw import Draw, ldexp, stepped, to_bits
 from hypcheck.casebook.families import FAMILIES
-from hypcheck.casebook.frozen.flags import DEFEATED, TOLERANCE_U, outside_default_domain
+from hypcheck.casebook.frozen.flags import DEFEATED, TOLERANCE_U
 from hypcheck.casebook.frozen.formulas import exactly_right, in_range, leaves_range, wrong_answers
 from hypcheck.casebook.frozen.model import Head, Row, rows_of
 from hypcheck.derivation.float_arithmetic import unit_roundoff
 from hypcheck.pairs import Pair, Position
+from hypcheck.ranges import within
 from hypcheck.rows import Rows
 from hypcheck.truth import batch, exact, flip
 
@@ -113,7 +114,7 @@ def worst_row(search: Search) -> Found | None:
 def _worst(rows: Rows, search: Search, before: Sequence[Found]) -> list[Found]:
     """The BEAM worst of the rows and of those found before, no row twice."""
     overflow, underflow = leaves_range(search.formula, search.precision, rows)
-    rows = rows[in_range(rows, search.precision) & ~(outside_default_domain(rows) | overflow | underflow)]
+    rows = rows[in_range(rows, search.precision) & within(rows) & ~(overflow | underflow)]
     positions = batch.positions(rows)
     wanted = (positions == Position.CONTACT) == search.contact
     rows, truths = rows[wanted], [Position(position) for position in positions[wanted].tolist()]

@@ -16,6 +16,7 @@ from hypcheck.casebook.frozen.formulas import exactly_right, in_range, leaves_ra
 from hypcheck.casebook.frozen.model import FlagFacts, Row, rows_of
 from hypcheck.derivation.float_arithmetic import unit_roundoff
 from hypcheck.pairs import Pair, Position
+from hypcheck.ranges import within
 from hypcheck.rows import Rows
 from hypcheck.truth import flip
 from hypcheck.truth.exact import Decision, cubic
@@ -32,12 +33,6 @@ PRINTED = {"proposition-3-false": "table-2", "proposition-5-false": "procedure-2
 
 TOLERANCE_U = 8
 """Units u of backward error up to which a rounded answer counts as good."""
-
-RATIO, MAGNITUDE = (1e-8, 1e8), (1e-6, 1e6)
-"""Ratios α/b and γ/d and semi-axes on which an implementation is judged that declares no domain of its own.
-
-A coordinate may be as small as it likes, and as great as a semi-axis.
-"""
 
 _DOUBLE_ROOTS = {
     Kind.CROSSING_THROAT_NODE,
@@ -136,20 +131,10 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
     return {name for name, holds in held.items() if holds}
 
 
-def outside_default_domain(rows: Rows) -> Mask:
-    """A mask (n,) of the rows on which an implementation that declares no domain is not judged."""
-    alpha, gamma, b, d = rows[:, :4].T
-    with np.errstate(over="ignore", under="ignore"):
-        ratios = np.stack([alpha / b, gamma / d], axis=1)
-    inside = ((ratios >= RATIO[0]) & (ratios <= RATIO[1])).all(axis=1)
-    inside &= (rows[:, :4] >= MAGNITUDE[0]).all(axis=1) & (np.abs(rows) <= MAGNITUDE[1]).all(axis=1)
-    return np.asarray(~inside)
-
-
 def _of_numbers(rows: Rows) -> dict[str, Mask]:
     """The flags that the seven numbers show by themselves."""
     found = {
-        "extreme": outside_default_domain(rows),
+        "extreme": ~within(rows),
         "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
     }
     for name in FORMATS:
