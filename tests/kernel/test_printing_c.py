@@ -7,40 +7,13 @@ import ctypes
 import numpy as np
 import pytest
 
-from hypcheck.derivation.evaluation import evaluate
-from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.listing import program_of
 from hypcheck.derivation.program import OPERATIONS
 from hypcheck.kernel.printing.c import c_statements
 from tests.kernel.compiling import needs_compiler, shared_library
+from tests.kernel.printing_samples import EVERYTHING, PROGRAMS, assert_same_bits, columns
 
 FORMATS = {"double": "float64", "float": "float32", "long double": "longdouble"}
-EVERYTHING = program_of(
-    "everything",
-    ("x", "y"),
-    """
-    s = x + y
-    d = x - -3
-    m = 2048 * y
-    q = x / y
-    four = - -4
-    a = abs d
-    r = sqrt a
-    gt = x > y
-    lt = x < y
-    ge = x >= y
-    le = x <= y
-    eq = x == y
-    ne = x != 0
-    both = gt and ge
-    either = lt or eq
-    neither = not either
-    number = neither ? q : four
-    truth = both ? ne : le
-    """,
-)
-PROGRAMS = {"everything": EVERYTHING, **{name: formula.program for name, formula in FORMULAS.items()}}
 
 
 def as_function(program, number):
@@ -57,17 +30,6 @@ def as_function(program, number):
     )
 
 
-def columns(program, format_name):
-    """Inputs of many sizes and signs, and at the ends of the format."""
-    random = np.random.default_rng(len(program.steps))
-    shape = (len(program.inputs), 300)
-    values = np.ldexp(random.uniform(-1, 1, shape), random.integers(-20, 20, shape)).astype(format_name)
-    limits = np.finfo(np.dtype(format_name))
-    ends = [0.0, -0.0, 1.0, np.inf, -np.inf, np.nan, limits.tiny, limits.smallest_subnormal, limits.max]
-    values[:, :9], values[:, 20:29] = ends, np.abs(values[:, 20:29])
-    return np.ascontiguousarray(values)
-
-
 @needs_compiler
 @pytest.mark.parametrize(
     ("number", "name"),
@@ -81,11 +43,7 @@ def test_every_step_is_the_same_to_the_bit(number, name, tmp_path):
     library.run(
         ctypes.c_size_t(inputs.shape[1]), ctypes.c_void_p(inputs.ctypes.data), ctypes.c_void_p(found.ctypes.data)
     )
-    expected = evaluate(program, float_arithmetic(FORMATS[number]), dict(zip(program.inputs, inputs, strict=True)))
-    for step, row in zip((each.name for each in program.steps), found, strict=True):
-        right = np.broadcast_to(np.asarray(expected[step], dtype=inputs.dtype), row.shape)
-        alike = (row == right) & (np.signbit(row) == np.signbit(right)) | (np.isnan(row) & np.isnan(right))
-        assert alike.all(), step
+    assert_same_bits(program, FORMATS[number], inputs, found)
 
 
 def test_a_statement_is_one_declaration_in_the_order_of_the_program():

@@ -13,7 +13,7 @@ from __future__ import annotations
 from functools import cache
 
 from hypcheck.derivation.program import Program
-from hypcheck.kernel.printing.spelling import BITWISE, INFIX, Spelling, statements
+from hypcheck.kernel.printing.spelling import BITWISE, INFIX, Spelling, literal, statements
 
 SUFFIXES = {"double": "", "float": "f", "long double": "l"}
 """What ends the name of a function of math.h for each type of numbers, and, in upper case, a literal."""
@@ -39,11 +39,6 @@ def c_statements(program: Program, wanted: tuple[str, ...], *, number: str = "do
 @cache
 def _spelling(number: str) -> Spelling:
     suffix = SUFFIXES[number]
-
-    def constant(value: int) -> str:
-        literal = f"{abs(value)}.0{suffix.upper()}"
-        return f"(-{literal})" if value < 0 else literal
-
     return Spelling(
         operations={
             **INFIX,
@@ -56,6 +51,6 @@ def _spelling(number: str) -> Spelling:
         number=number,
         boolean="int",
         declaration="const {type} {name} = {value};",
-        constant=constant,
+        constant=literal(suffix.upper()),
         reserved=frozenset(_KEYWORDS.split()),
     )

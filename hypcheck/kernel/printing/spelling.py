@@ -48,6 +48,16 @@ class Spelling:
     reserved: frozenset[str] = frozenset(keyword.kwlist)
 
 
+def literal(suffix: str = "") -> Callable[[int], str]:
+    """A writer of integers as numbers with a decimal point and the suffix; what is negative stands in parentheses."""
+
+    def constant(value: int) -> str:
+        text = f"{abs(value)}.0{suffix}"
+        return f"(-{text})" if value < 0 else text
+
+    return constant
+
+
 def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) -> tuple[str, ...]:
     """One declaration for each step that the wanted names depend on, in the program's order.
 

@@ -1,0 +1,164 @@
+"""C++, Rust, JavaScript and Python printed from a program: the same value to the bit, for every step; and refusals."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.listing import program_of
+from hypcheck.kernel.printing.cpp import cpp_statements
+from hypcheck.kernel.printing.javascript import javascript_statements
+from hypcheck.kernel.printing.python import python_statements
+from hypcheck.kernel.printing.rust import rust_statements
+from tests.kernel.printing_samples import EVERYTHING, PROGRAMS, assert_same_bits, columns
+
+FORMATS = {"double": "float64", "f64": "float64", "number": "float64", "float": "float32", "f32": "float32"}
+CASES = [*((True, name) for name in PROGRAMS), (False, "everything")]
+
+
+def needs(tool):
+    return pytest.mark.skipif(shutil.which(tool) is None, reason=f"there is no {tool}")
+
+
+def names_of(program):
+    return tuple(step.name for step in program.steps)
+
+
+def by_library(command, path, source, inputs, count):
+    path.write_text(source, encoding="utf-8")
+    library = path.with_suffix(".so")
+    done = subprocess.run([*command, str(path), "-o", str(library)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    found = np.empty((count, inputs.shape[1]), inputs.dtype)
+    ctypes.CDLL(str(library)).run(
+        ctypes.c_size_t(inputs.shape[1]), ctypes.c_void_p(inputs.ctypes.data), ctypes.c_void_p(found.ctypes.data)
+    )
+    return found
+
+
+@needs("g++")
+@pytest.mark.parametrize(("wide", "name"), CASES)
+def test_cpp_is_the_same_to_the_bit(wide, name, tmp_path):
+    program, number = PROGRAMS[name], "double" if wide else "float"
+    inputs, steps = columns(program, FORMATS[number]), names_of(program)
+    body = "\n".join(
+        [
+            *(f"const {number} {each} = in[{k} * n + i]; (void){each};" for k, each in enumerate(program.inputs)),
+            *cpp_statements(program, steps, number=number),
+            *(f"out[{k} * n + i] = static_cast<{number}>({each});" for k, each in enumerate(steps)),
+        ]
+    )
+    source = (
+        f'#include <cmath>\n#include <cstddef>\nextern "C" void run(std::size_t n, const {number} *in, {number} *out) '
+        f"{{ for (std::size_t i = 0; i < n; i++) {{\n{body}\n}} }}\n"
+    )
+    command = ["g++", "-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
+    found = by_library([*command, "-ffp-contract=off"], tmp_path / "source.cpp", source, inputs, len(steps))
+    assert_same_bits(program, FORMATS[number], inputs, found)
+
+
+@needs("rustc")
+@pytest.mark.parametrize(("wide", "name"), [(True, "everything"), (True, "coefficients"), (False, "everything")])
+def test_rust_is_the_same_to_the_bit(wide, name, tmp_path):
+    program, number = PROGRAMS[name], "f64" if wide else "f32"
+    inputs, steps = columns(program, FORMATS[number]), names_of(program)
+    kinds = {line.split(":")[0].removeprefix("let "): ": bool =" in line for line in rust_lines(program, number)}
+    body = "\n".join(
+        [
+            *(f"let {each}: {number} = *input.add({k} * n + i);" for k, each in enumerate(program.inputs)),
+            *rust_lines(program, number),
+            *(
+                f"*output.add({k} * n + i) = {each}{f' as u8 as {number}' if kinds[each] else ''};"
+                for k, each in enumerate(steps)
+            ),
+        ]
+    )
+    source = (
+        "#![allow(non_snake_case)]\n#![deny(warnings)]\n#[no_mangle]\n"
+        f'pub unsafe extern "C" fn run(n: usize, input: *const {number}, output: *mut {number}) {{\n'
+        f"for i in 0..n {{\n{body}\n}} }}\n"
+    )
+    command = ["rustc", "--edition", "2021", "-O", "--crate-type", "cdylib"]
+    found = by_library(command, tmp_path / "source.rs", source, inputs, len(steps))
+    assert_same_bits(program, FORMATS[number], inputs, found)
+
+
+def rust_lines(program, number):
+    return rust_statements(program, names_of(program), number=number)
+
+
+@needs("node")
+@pytest.mark.parametrize(("wide", "name"), CASES)
+def test_javascript_is_the_same_to_the_bit(wide, name, tmp_path):
+    program, number = PROGRAMS[name], "number" if wide else "float32"
+    format_name = "float64" if wide else "float32"
+    inputs, steps = columns(program, format_name), names_of(program)
+    body = "\n".join(
+        [
+            *(f"const {each} = input[{k} * n + i];" for k, each in enumerate(program.inputs)),
+            *javascript_statements(program, steps, number=number),
+            *(f"output[{k} * n + i] = Number({each});" for k, each in enumerate(steps)),
+        ]
+    )
+    array = "Float64Array" if wide else "Float32Array"
+    source = (
+        '"use strict";\nconst { readFileSync, writeFileSync } = require("fs");\n'
+        f"const bytes = readFileSync('in');\nconst n = {inputs.shape[1]};\n"
+        f"const input = new {array}(bytes.buffer, bytes.byteOffset, bytes.length / {array}.BYTES_PER_ELEMENT);\n"
+        f"const output = new {array}({len(steps)} * n);\nfor (let i = 0; i < n; i++) {{\n{body}\n}}\n"
+        "writeFileSync('out', Buffer.from(output.buffer));\n"
+    )
+    (tmp_path / "run.js").write_text(source, encoding="utf-8")
+    (tmp_path / "in").write_bytes(inputs.tobytes())
+    done = subprocess.run(
+        [str(shutil.which("node")), "run.js"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    found = np.frombuffer((tmp_path / "out").read_bytes(), inputs.dtype).reshape(len(steps), -1)
+    assert_same_bits(program, format_name, inputs, found)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_python_is_the_same_to_the_bit(name):
+    program = PROGRAMS[name]
+    inputs, steps = columns(program, "float64"), names_of(program)
+    code = compile("\n".join(python_statements(program, steps)), name, "exec")
+    kept, found = [], []
+    for index, values in enumerate(inputs.T.tolist()):
+        scope = {"math": math, **dict(zip(program.inputs, values, strict=True))}
+        try:
+            exec(code, scope)  # noqa: S102 - what was printed just now
+        except (ZeroDivisionError, ValueError):
+            continue  # Python has no infinities and NaNs there
+        kept.append(index)
+        found.append([float(scope[each]) for each in steps])
+    assert len(kept) > 100
+    assert_same_bits(program, "float64", inputs[:, kept], np.array(found).T)
+
+
+def test_a_statement_in_each_language():
+    wanted = ("number", "r")
+    assert cpp_statements(EVERYTHING, wanted)[-1] == "const double number = neither ? q : four;"
+    assert rust_statements(EVERYTHING, wanted)[-1] == "let number: f64 = if neither { q } else { four };"
+    assert javascript_statements(EVERYTHING, wanted, number="float32")[0] == "const d = Math.fround(x - (-3.0));"
+    assert python_statements(EVERYTHING, wanted)[-1] == "number = q if neither else four"
+
+
+@pytest.mark.parametrize(
+    ("printer", "reserved"),
+    [(cpp_statements, "new"), (rust_statements, "loop"), (javascript_statements, "let"), (python_statements, "def")],
+)
+def test_a_reserved_name_is_refused(printer, reserved):
+    with pytest.raises(ValueError, match=f"step {reserved}: {reserved} is no name in the language"):
+        printer(program_of("p", ("x",), f"{reserved} = x + 1"), (reserved,))
+
+
+@pytest.mark.parametrize("printer", [cpp_statements, rust_statements, javascript_statements])
+def test_another_type_of_numbers_is_refused(printer):
+    with pytest.raises(ValueError, match="of numbers 'half'; there are"):
+        printer(EVERYTHING, ("r",), number="half")
