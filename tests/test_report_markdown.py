@@ -17,7 +17,7 @@ from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG,
 PARSER = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"])
 
 
-def report(*extra, exit_code=0, body=None, picture=None):
+def report(*extra, exit_code=0, body=None, picture=()):
     lines = [*(samples.lines() if body is None else body), *extra]
     return render(samples.record(lines, exit_code), picture).decode("utf-8")
 
@@ -154,7 +154,7 @@ def test_timings():
 
 
 def test_the_picture_is_linked_only_where_it_was_written():
-    assert "](map.svg)" in report(picture="map.svg")
+    assert "](map.svg)" in report(picture=("map.svg",))
     assert "](" not in report()
     assert "- the ring: `table-2-float32` is wrong at 4 of 9 grid points" in report()
 
@@ -210,7 +210,7 @@ def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
 @given(foreign=samples.FOREIGN)
 def test_foreign_text_breaks_no_table(old, foreign):
     changed = samples.rewritten(samples.lines(), old, foreign)
-    text = render(samples.record(changed), "map.svg").decode("utf-8")
+    text = render(samples.record(changed), ["map.svg"]).decode("utf-8")
     assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\ud800-\udfff]", text)
     for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         lines = table.splitlines()

@@ -25,7 +25,7 @@ def test_all_of_them(tmp_path):
         "summary.json": summary.render(record),
         "junit.xml": junit.render(record),
         "map.svg": picture.render(record),
-        "report.md": markdown.render(record, "map.svg"),
+        "report.md": markdown.render(record, ["map.svg"]),
     }
     assert b"](map.svg)" in contents["report.md"]
 

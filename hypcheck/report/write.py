@@ -24,16 +24,11 @@ class Report:
     shows: str | None = None
 
 
-def _markdown(record: Record, beside: Collection[str]) -> bytes:
-    file = REPORTS["picture"].file
-    return markdown.render(record, file if file in beside else None)
-
-
 REPORTS = {
     "summary": Report("summary.json", lambda record, _: summary.render(record)),
     "junit": Report("junit.xml", lambda record, _: junit.render(record)),
     "picture": Report("map.svg", lambda record, _: picture.render(record), shows="map"),
-    "markdown": Report("report.md", _markdown),  # after the picture, to which it refers
+    "markdown": Report("report.md", markdown.render),  # after the picture, to which it refers
 }
 """Every format by its name, in the order in which they are written."""
 

@@ -1,0 +1,56 @@
+"""What failed the run: every failure with its case and the command that shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hypcheck.record import Record
+from hypcheck.report.content.blocks import Bullets, Code, Column, Either, Section, Strong, Table, Text, bullets, table
+from hypcheck.report.text import counted
+from hypcheck.report.verdict import Failure, failures
+
+LISTED = 50
+"""Failures that a text shows one by one."""
+
+IN_TABLE = 1000
+"""Failures in the page's table; junit.xml and summary.json have all."""
+
+
+def sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing failed."""
+    found = failures(record)
+    if found:
+        yield Section("What failed", (Either(page=_table(found), text=_list(found)),))
+
+
+def _list(found: list[Failure]) -> Bullets:
+    items: list[Text] = []
+    for failure in found[:LISTED]:
+        place: Text = (" (", Code(failure.place), ")") if failure.place else ""
+        case: Text = (" Case ", Code(failure.case), place, ": ", Code(failure.replay or "")) if failure.case else ""
+        items.append((Strong((failure.subject, ", ", failure.group)), ": ", failure.message, ".", case))
+    return bullets([*items, *_rest(len(found) - LISTED)])
+
+
+def _table(found: list[Failure]) -> Table:
+    columns = ("what", "which", "where", "what happened", Column("cases", number=True), "look at it with")
+    rows = [
+        (
+            failure.subject,
+            Code(failure.name),
+            failure.group,
+            (failure.message, *((" (", Code(failure.place), ")") if failure.place else ())),
+            str(failure.count),
+            Code(failure.replay) if failure.replay else "",
+        )
+        for failure in found[:IN_TABLE]
+    ]
+    rest = [("", "", "", text, "", "") for text in _rest(len(found) - IN_TABLE)]
+    return table("failures", columns, [*rows, *rest])
+
+
+def _rest(left_out: int) -> list[Text]:
+    if left_out <= 0:
+        return []
+    files = (Code("junit.xml"), " and ", Code("summary.json"))
+    return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]

@@ -1,0 +1,38 @@
+"""A whole report: its title, its verdict, and its sections in the order in which they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from hypcheck.record import Record
+from hypcheck.report.content import failed, gated, maps, methods, oracles, paper, run, timings
+from hypcheck.report.content.blocks import Section
+from hypcheck.report.verdict import Verdict, verdict
+
+PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
+    failed.sections,
+    oracles.sections,
+    paper.sections,
+    gated.sections,
+    methods.sections,
+    maps.sections,
+    timings.sections,
+    run.sections,
+)
+"""What failed comes first, what was run last; each part has nothing to say where the record has none of its lines."""
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What every report for people shows."""
+
+    title: str
+    verdict: Verdict
+    sections: tuple[Section, ...]
+
+
+def content(record: Record) -> Content:
+    """The content of a record's report."""
+    sections = tuple(section for part in PARTS for section in part(record))
+    return Content(f"hypcheck {record.header['options'].get('command', 'verify')}", verdict(record), sections)
