@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, NoReturn, TextIO
 
 from hypcheck.errors import InputError
 from hypcheck.version import VERSION
@@ -113,7 +113,7 @@ def read(path: Path) -> Record:
 def _lines(stream: Iterable[str], path: Path) -> Iterator[Line]:
     for number, text in enumerate(stream, start=1):
         try:
-            line = json.loads(text)
+            line = json.loads(text, parse_constant=_refuse)
         except ValueError as error:
             if number > 1 and not text.endswith("\n"):
                 return  # the line that was being written when the run was interrupted
@@ -121,6 +121,10 @@ def _lines(stream: Iterable[str], path: Path) -> Iterator[Line]:
         if not isinstance(line, dict) or not isinstance(line.get("type"), str):
             raise InputError(f"{path}: line {number} is no object with a type")
         yield line
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no number of JSON; infinities are the strings inf and -inf")
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds

@@ -10,6 +10,7 @@ import pytest
 from hypcheck.casebook.families import select
 from hypcheck.record import SCHEMA, read
 from hypcheck.report import junit, markdown, summary
+from hypcheck.report.write import Around
 from hypcheck.version import VERSION
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reports" / "reference"
@@ -40,4 +41,4 @@ def test_every_family_went_through_the_oracles_in_large_numbers(record):
 def test_the_reports_are_those_of_the_record(record):
     assert json.loads((REFERENCE / "summary.json").read_bytes()) == json.loads(summary.render(record))
     assert (REFERENCE / "junit.xml").read_bytes() == junit.render(record)
-    assert (REFERENCE / "report.md").read_bytes() == markdown.render(record, ["map.svg"])
+    assert (REFERENCE / "report.md").read_bytes() == markdown.render(record, Around(["map.svg"]))

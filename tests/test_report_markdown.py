@@ -10,6 +10,7 @@ from markdown_it import MarkdownIt
 
 from hypcheck.report import markup
 from hypcheck.report.markdown import render
+from hypcheck.report.write import Around
 from hypcheck.visible import visible
 from tests import report_samples as samples
 from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
@@ -19,7 +20,7 @@ PARSER = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethroug
 
 def report(*extra, exit_code=0, body=None, picture=()):
     lines = [*(samples.lines() if body is None else body), *extra]
-    return render(samples.record(lines, exit_code), picture).decode("utf-8")
+    return render(samples.record(lines, exit_code), Around(picture)).decode("utf-8")
 
 
 def headings(text):
@@ -210,7 +211,7 @@ def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
 @given(foreign=samples.FOREIGN)
 def test_foreign_text_breaks_no_table(old, foreign):
     changed = samples.rewritten(samples.lines(), old, foreign)
-    text = render(samples.record(changed), ["map.svg"]).decode("utf-8")
+    text = render(samples.record(changed), Around(["map.svg"])).decode("utf-8")
     assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\ud800-\udfff]", text)
     for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         lines = table.splitlines()

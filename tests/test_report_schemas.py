@@ -16,10 +16,10 @@ from hypcheck.derivation.proofs import Proof
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
 from hypcheck.record import Recorder, read
 from hypcheck.report import summary
+from hypcheck.report.json_schema import violations
 from hypcheck.verify import run
 from hypcheck.verify.plan import Plan
 from tests import report_samples as samples
-from tests.json_schema import violations
 from tests.report import bench_lines
 
 

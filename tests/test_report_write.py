@@ -9,7 +9,7 @@ import pytest
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
 from hypcheck.report import junit, markdown, picture, summary
-from hypcheck.report.write import REPORTS, write_reports
+from hypcheck.report.write import REPORTS, Around, write_reports
 from tests import report_samples as samples
 
 FILES = {"summary.json", "junit.xml", "map.svg", "report.md"}
@@ -25,7 +25,7 @@ def test_all_of_them(tmp_path):
         "summary.json": summary.render(record),
         "junit.xml": junit.render(record),
         "map.svg": picture.render(record),
-        "report.md": markdown.render(record, ["map.svg"]),
+        "report.md": markdown.render(record, Around(["map.svg"])),
     }
     assert b"](map.svg)" in contents["report.md"]
 
@@ -35,7 +35,7 @@ def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
     for name, report in REPORTS.items():
-        assert report.render(read(path), ()) == report.render(record, ()), name
+        assert report.render(read(path)) == report.render(record), name
 
 
 def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
@@ -57,7 +57,7 @@ def test_wherever_it_was_interrupted(kept, tmp_path):
 
 
 def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
-    def unavailable(record):
+    def unavailable(record, around):
         raise UnavailableError("matplotlib is not here")
 
     write_reports(samples.record(), tmp_path)
@@ -84,7 +84,7 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
 def test_a_report_that_breaks_leaves_the_old_one(tmp_path, monkeypatch):
     (tmp_path / "summary.json").write_text("old", encoding="utf-8")
 
-    def broken(record):
+    def broken(record, around):
         raise RuntimeError("a defect")
 
     monkeypatch.setattr(summary, "render", broken)

@@ -18,6 +18,7 @@ COMMANDS = {
     "hunt": "hypcheck.cli.hunt:hunt",
     "minimise": "hypcheck.cli.minimise:minimise",
     "replay": "hypcheck.cli.replay:replay",
+    "report": "hypcheck.cli.report:report",
     "init": "hypcheck.cli.init:init",
 }
 """Name → module:attribute of the click command."""

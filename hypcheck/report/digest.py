@@ -96,7 +96,8 @@ class UnderTest:
 class TimingTotal:
     """Nanoseconds a row: the median of the rounds, the least and the greatest.
 
-    `ratio` is the median over the rounds of its time by the reference's in the same round; None without a reference.
+    `ratio` is the median over the rounds of its time by the reference's in the same round, `ratio_range` the least and
+    the greatest; None without a reference.
     """
 
     name: str
@@ -107,6 +108,7 @@ class TimingTotal:
     least_ns: float
     greatest_ns: float
     ratio: float | None
+    ratio_range: tuple[float, float] | None
 
 
 def in_order(counts: Counter[str]) -> dict[str, int]:
@@ -227,4 +229,5 @@ def _timing_total(line: Line, reference: list[float] | None) -> TimingTotal:
         least_ns=min(samples),
         greatest_ns=max(samples),
         ratio=statistics.median(ratios) if ratios else None,
+        ratio_range=(min(ratios), max(ratios)) if ratios else None,
     )

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 from hypcheck.record import Record
 from hypcheck.report.suites import Case, Suite, suites
 from hypcheck.visible import visible
 
+if TYPE_CHECKING:
+    from hypcheck.report.write import Around
+
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 """The elements that say why a case did not pass, and the attributes that count them."""
 
 
-def render(record: Record) -> bytes:
+def render(record: Record, _around: Around | None = None) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
     found = [suite for suite in suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
 
 from hypcheck.record import Record
 from hypcheck.report import markup
@@ -23,10 +24,14 @@ from hypcheck.report.content.blocks import (
 )
 from hypcheck.report.content.report import content
 
+if TYPE_CHECKING:
+    from hypcheck.report.write import Around
 
-def render(record: Record, beside: Collection[str] = ()) -> bytes:
-    """The report in UTF-8; `beside` are the names of the files beside it, to whose pictures it refers."""
-    whole = content(record)
+
+def render(record: Record, around: Around | None = None) -> bytes:
+    """The report in UTF-8, which refers to the pictures among the files beside it."""
+    beside = around.beside if around else ()
+    whole = content(record, around.against if around else None)
     lines = [f"# {text(whole.title)}", "", f"**{text(whole.verdict.sentence)}**", ""]
     for section in whole.sections:
         lines += _section(section, beside)

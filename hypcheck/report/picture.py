@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from hypcheck.report.write import Around
+
 REGIONS = {"e": ("exterior", "#d7e9f7"), "c": ("contact", "#737373"), "i": ("interior", "#ecc767")}
 """The letters of a map line, their names and colours: told apart by lightness alone, so also without colour."""
 
@@ -39,7 +41,7 @@ STYLE = {
 """What differs from matplotlib's defaults; nobody's own settings are used."""
 
 
-def render(record: Record) -> bytes:
+def render(record: Record, _around: Around | None = None) -> bytes:
     """The picture as SVG. Raises UnavailableError where the record has no map or matplotlib is missing."""
     lines = record.of("map")
     if not lines:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hypcheck.record import Line, Record, plain
 from hypcheck.report.digest import (
@@ -21,12 +21,15 @@ from hypcheck.report.digest import (
 )
 from hypcheck.report.verdict import Failure, failures, verdict
 
+if TYPE_CHECKING:
+    from hypcheck.report.write import Around
+
 SCHEMA = "1.0.0"
 
 Fields = dict[str, Any]
 
 
-def render(record: Record) -> bytes:
+def render(record: Record, _around: Around | None = None) -> bytes:
     """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
     text = json.dumps(plain(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")

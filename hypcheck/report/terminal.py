@@ -4,32 +4,57 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import click
 
 from hypcheck.record import Record
+from hypcheck.report.changes import (
+    FASTER,
+    SLOWER,
+    accuracy_changes,
+    conditions,
+    in_one_alone,
+    ratio_changes,
+    status_changes,
+)
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, oracle_totals, timing_totals, under_test, worst_error_u
 from hypcheck.report.text import counted, figure, listed
 from hypcheck.report.verdict import failures, verdict
-from hypcheck.report.write import Written
 from hypcheck.visible import shortened, visible
+
+if TYPE_CHECKING:
+    from hypcheck.report.write import Around, Written
 
 MOST_LINES = 25
 
 MOST_FAILURES = 8
 """Failures shown one by one; report.md has more of them and junit.xml all."""
 
+MOST_CONDITIONS = 3
+"""Differences between two runs, other than what came of them, that are shown one by one."""
+
 WIDTH = 160
 """Characters a line; longer ones are cut, the verdict apart."""
 
 
-def summary_lines(record: Record, written: Sequence[Written], *, colour: bool = False) -> list[str]:
+def render(record: Record, around: Around | None = None) -> bytes:
+    """The lines as a file has them."""
+    return "".join(
+        f"{line}\n" for line in summary_lines(record, (), against=around.against if around else None)
+    ).encode("utf-8", "replace")
+
+
+def summary_lines(
+    record: Record, written: Sequence[Written], *, against: Record | None = None, colour: bool = False
+) -> list[str]:
     """At most MOST_LINES lines of plain text; with `colour`, the first in green or red."""
     ended = verdict(record)
     head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
         *_failures(record),
+        *([] if against is None else _changes(record, against)),
         *_oracles(record),
         *_paper(record),
         *_under_test(record),
@@ -52,6 +77,27 @@ def _failures(record: Record) -> Iterator[str]:
         yield f"  ✗ {each.case}: {each.message}" if each.case else f"  ✗ {each.message}"
     if len(found) > MOST_FAILURES:
         yield f"  ✗ … and {counted(len(found) - MOST_FAILURES, 'more failure')}"
+
+
+def _changes(record: Record, against: Record) -> Iterator[str]:
+    """What is not as it was in another record, the most important of each kind by name."""
+    yield f"against the run of {against.header['started']}, which ended: {verdict(against).sentence}"
+    statuses, ratios = status_changes(against, record), ratio_changes(against, record)
+    accuracies = accuracy_changes(against, record)
+    worse = [f"{change.implementation} on {change.family}" for change in statuses if change.worse]
+    yield f"  statuses: {counted(len(statuses), 'family of a method', 'families of methods')} changed" + (
+        f", worse: {listed(worse)}" if worse else ""
+    )
+    if accuracies:
+        yield f"  errors: {listed([f'{change.method} on {change.workload}' for change in accuracies])} changed"
+    for verdict_ in (SLOWER, FASTER):
+        named = [f"{each.method} ({each.workload}, {each.mode})" for each in ratios if each.verdict == verdict_]
+        if named:
+            yield f"  {verdict_}, by ratio: {listed(named)}"
+    others = [*conditions(against, record), *in_one_alone(against, record)]
+    yield from (f"  {each}" for each in others[:MOST_CONDITIONS])
+    if len(others) > MOST_CONDITIONS:
+        yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
 
 
 def _oracles(record: Record) -> Iterator[str]:

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from hypcheck.pairs import COLUMNS
 
 
-def counted(number: int, noun: str) -> str:
-    """A number with its noun: "1 case", "5,600 cases"."""
-    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+def counted(number: int, noun: str, many: str | None = None) -> str:
+    """A number with its noun: "1 case", "5,600 cases"; `many` is the plural that is not the noun with an s."""
+    return f"{number:,} {noun if number == 1 else many or f'{noun}s'}"
 
 
 def listed(items: Sequence[str], last: str = "and") -> str:

@@ -1,34 +1,60 @@
-"""The reports of a record, by name, and how they are written: each beside its place, then into it."""
+"""The reports of a record, by name, and how they are written: each beside its place, then into it.
+
+A format's module is imported when a report of it is made.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hypcheck.errors import InputError, UnavailableError
-from hypcheck.record import Record
-from hypcheck.report import junit, markdown, picture, summary
 from hypcheck.tables.streams import writing
+
+if TYPE_CHECKING:
+    from hypcheck.record import Record
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What a report is made with beside its record: the names of the files that stand beside it, and another record.
+
+    The other is what the report says the changes against; formats for programs leave it aside.
+    """
+
+    beside: Collection[str] = ()
+    against: Record | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """One format: its file's name, and its bytes from the record and the names of the files written before it.
+    """One format: its file's name, and the module whose `render` makes its bytes from a record and what is around it.
 
-    `shows` is the kind of line without which there is nothing to show, so that no file is written and none is missed.
+    `shows` is the kind of line without which there is nothing to show, so that no file is written and none is missed;
+    `compares` says whether it shows changes against another record; one that is not `kept` is made on demand alone.
     """
 
     file: str
-    render: Callable[[Record, Collection[str]], bytes]
+    module: str
     shows: str | None = None
+    compares: bool = False
+    kept: bool = True
+
+    def render(self, record: Record, around: Around | None = None) -> bytes:
+        """The report. Raises UnavailableError where it cannot be made here."""
+        made = import_module(f"hypcheck.report.{self.module}").render(record, around or Around())
+        return bytes(made)
 
 
 REPORTS = {
-    "summary": Report("summary.json", lambda record, _: summary.render(record)),
-    "junit": Report("junit.xml", lambda record, _: junit.render(record)),
-    "picture": Report("map.svg", lambda record, _: picture.render(record), shows="map"),
-    "markdown": Report("report.md", markdown.render),  # after the picture, to which it refers
+    "terminal": Report("report.txt", "terminal", compares=True, kept=False),
+    "json": Report("summary.json", "summary"),
+    "junit": Report("junit.xml", "junit"),
+    "map": Report("map.svg", "picture", shows="map"),
+    "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
 }
 """Every format by its name, in the order in which they are written."""
 
@@ -41,8 +67,15 @@ class Written:
     skipped: str | None = None
 
 
-def write_reports(record: Record, directory: Path) -> list[Written]:
-    """Every report into a directory, which is made where it is not there.
+def kept() -> list[str]:
+    """The formats that every run writes."""
+    return [name for name, report in REPORTS.items() if report.kept]
+
+
+def write_reports(
+    record: Record, directory: Path, formats: Sequence[str] | None = None, against: Record | None = None
+) -> list[Written]:
+    """Reports of the formats (by default those that every run writes) into a directory, made where it is not there.
 
     A format that cannot be made here is skipped, and its file of an earlier run removed: it would show another run.
     Raises InputError where a file cannot be written; what stood in its place then still does.
@@ -52,18 +85,19 @@ def write_reports(record: Record, directory: Path) -> list[Written]:
     except OSError as error:
         raise InputError(f"cannot make the folder {directory}: {(error.strerror or str(error)).lower()}") from error
     done: list[Written] = []
-    for report in REPORTS.values():
+    for name in [name for name in REPORTS if name in (kept() if formats is None else formats)]:
+        report = REPORTS[name]
         if report.shows and not record.of(report.shows):
             _remove(directory / report.file)
             continue
         beside = {each.path.name for each in done if each.skipped is None}
-        done.append(_write(report, record, directory / report.file, beside))
+        done.append(_write(report, record, directory / report.file, Around(beside, against)))
     return done
 
 
-def _write(report: Report, record: Record, path: Path, beside: Collection[str]) -> Written:
+def _write(report: Report, record: Record, path: Path, around: Around) -> Written:
     try:
-        content = report.render(record, beside)
+        content = report.render(record, around)
     except UnavailableError as error:
         _remove(path)
         return Written(path, str(error))

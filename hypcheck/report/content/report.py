@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from hypcheck.record import Record
-from hypcheck.report.content import failed, gated, maps, methods, oracles, paper, run, timings
+from hypcheck.report.content import changed, failed, gated, maps, methods, oracles, paper, run, timings
 from hypcheck.report.content.blocks import Section
 from hypcheck.report.verdict import Verdict, verdict
 
@@ -32,7 +32,10 @@ class Content:
     sections: tuple[Section, ...]
 
 
-def content(record: Record) -> Content:
-    """The content of a record's report."""
-    sections = tuple(section for part in PARTS for section in part(record))
-    return Content(f"hypcheck {record.header['options'].get('command', 'verify')}", verdict(record), sections)
+def content(record: Record, against: Record | None = None) -> Content:
+    """The content of a record's report; with another record, what changed against it stands behind what failed."""
+    sections = [section for part in PARTS for section in part(record)]
+    if against is not None:
+        failing = sum(1 for _ in failed.sections(record))
+        sections[failing:failing] = changed.sections(record, against)
+    return Content(f"hypcheck {record.header['options'].get('command', 'verify')}", verdict(record), tuple(sections))

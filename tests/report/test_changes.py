@@ -1,0 +1,145 @@
+"""What changed between two records: statuses, errors and ratios, and never two machines' times."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import pytest
+
+from hypcheck.report import markdown, terminal
+from hypcheck.report.changes import (
+    FASTER,
+    SLOWER,
+    UNCLEAR,
+    accuracy_changes,
+    conditions,
+    in_one_alone,
+    ratio_changes,
+    status_changes,
+)
+from hypcheck.report.write import Around
+from tests import report_samples as samples
+from tests.report import bench_lines
+
+
+def changed(body, kind, change, **named):
+    """The lines with the first of a kind and of these values updated."""
+    copy = json.loads(json.dumps(body))
+    line = next(line for line in copy if line["type"] == kind and all(line[k] == v for k, v in named.items()))
+    line.update(change)
+    return copy
+
+
+BEFORE = samples.record()
+WORSE = samples.record(
+    changed(
+        samples.lines(),
+        "group",
+        {"counts": {"right": 17, "wrong": 3}, "worst": [samples.worst("tower-body/1/1/5", "wrong", 40.0)]},
+        method="table-2-float32",
+        family="tower-body",
+    )
+)
+BENCH = bench_lines.bench_record()
+
+
+def test_nothing_changes_from_a_record_to_itself():
+    for record in (BEFORE, BENCH):
+        assert status_changes(record, record) == []
+        assert accuracy_changes(record, record) == []
+        assert {change.verdict for change in ratio_changes(record, record)} <= {UNCLEAR}
+        assert [*conditions(record, record), *in_one_alone(record, record)] == []
+    assert "No case ended otherwise." in markdown.render(BEFORE, Around(against=BEFORE)).decode()
+
+
+def test_a_family_that_got_worse_and_one_that_got_better():
+    (worse,) = status_changes(BEFORE, WORSE)
+    assert (worse.implementation, worse.family, worse.worse) == ("table-2-float32", "tower-body", True)
+    assert (worse.worst_before_u, worse.worst_after_u) == (2.5, 40.0)
+    (better,) = status_changes(WORSE, BEFORE)
+    assert not better.worse
+
+
+def test_worse_is_a_greater_share_and_not_a_greater_number():
+    many = changed(
+        samples.lines(),
+        "group",
+        {"counts": {"right": 90, "wrong": 8, "tolerated": 2}},
+        method="table-2-float32",
+        family="ring",
+    )
+    (change,) = status_changes(BEFORE, samples.record(many))  # 10 of 19 before, 10 of 100 now
+    assert not change.worse
+
+
+@pytest.mark.parametrize(
+    ("interval", "verdict"),
+    [([0.2, 0.3], FASTER), ([0.9, 1.2], SLOWER), ([0.5, 0.9], UNCLEAR), (None, UNCLEAR)],
+)
+def test_ratios_differ_where_their_intervals_are_apart(interval, verdict):
+    body = [bench_lines.speed("m", "uniform", "batch", 60.0, 100.0)]  # 0.576 to 0.624
+    after = changed(body, "speed", {"ratio_ci95": interval})
+    (change,) = ratio_changes(samples.record(body), samples.record(after))
+    assert change.verdict == verdict
+
+
+def test_times_alone_are_no_change():
+    """A machine that is ten times as slow has other times and the same ratios."""
+    slow = json.loads(json.dumps(bench_lines.lines()))
+    for line in slow:
+        if line["type"] == "speed":
+            line["median_ns"] *= 10
+            line["samples_ns"] = [[10 * sample for sample in process] for process in line["samples_ns"]]
+    other = samples.record(slow)
+    assert {change.verdict for change in ratio_changes(BENCH, other)} == {UNCLEAR}
+    section = (
+        markdown.render(other, Around(against=BENCH)).decode().partition("## What changed")[2].partition("\n## ")[0]
+    )
+    assert " ns" not in section
+
+
+def test_errors_of_a_benchmark():
+    after = changed(bench_lines.lines(), "accuracy", {"wrong": 7, "reliable_above": 0.25}, method="dual-numpy-float32")
+    (change,) = accuracy_changes(BENCH, samples.record(after))
+    assert (change.method, change.workload, change.after[0], change.reliable_after) == (
+        "dual-numpy-float32",
+        "uniform",
+        7,
+        0.25,
+    )
+
+
+def test_what_else_is_not_the_same_is_said():
+    header = json.loads(json.dumps(BEFORE.header))
+    header["machine"]["processor"] = "another"
+    header["options"]["seed"] = 2
+    header["hypcheck"] = "9.9.9"
+    other = dataclasses.replace(BEFORE, header=header, footer=None)
+    said = list(conditions(BEFORE, other))
+    assert any(each.startswith("another machine: processor") for each in said)
+    assert "option seed 1, now 2" in said
+    assert any("now 9.9.9" in each for each in said)
+    assert any("truncated" in each for each in said)
+
+
+def test_what_one_record_lacks_is_named_and_not_compared():
+    fewer = [line for line in samples.lines() if line.get("method") != "table-2-float64"]
+    fewer = [line for line in fewer if (line.get("method"), line.get("family")) != ("fast", "ring")]
+    other = samples.record(fewer)
+    assert status_changes(BEFORE, other) == []
+    assert list(in_one_alone(BEFORE, other)) == [
+        "methods in the other record alone: table-2-float64",
+        "families in the other record alone: ring",
+    ]
+    assert [each.replace("this", "the other") for each in in_one_alone(other, BEFORE)] == list(
+        in_one_alone(BEFORE, other)
+    )
+
+
+def test_reports_show_it_behind_what_failed():
+    text = markdown.render(WORSE, Around(against=BEFORE)).decode()
+    assert text.index("## What changed") < text.index("## The oracles")
+    assert "| `table-2-float32` | `tower-body` | 19 right and 1 tolerated | 17 right and 3 wrong | 2.5 | 40 |" in text
+    lines = terminal.render(WORSE, Around(against=BEFORE)).decode()
+    assert "1 family of a method changed, worse: table-2-float32 on tower-body" in lines

@@ -1,0 +1,97 @@
+"""`hypcheck report`: which report goes where, and what is refused before anything is written."""
+
+from __future__ import annotations
+
+import json
+import os
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.report.write import REPORTS, kept
+from tests import report_samples as samples
+
+
+@pytest.fixture
+def run(tmp_path):
+    """A folder with a record and nothing else."""
+    folder = tmp_path / "run"
+    folder.mkdir()
+    (folder / "record.jsonl").write_text(samples.text_and_record()[0], encoding="utf-8")
+    return folder
+
+
+def test_the_summary_is_printed(run, capsys):
+    assert main(["report", str(run)]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == samples.HELD
+    assert os.listdir(run) == ["record.jsonl"]
+
+
+@pytest.mark.parametrize("name", list(REPORTS))
+def test_one_format_on_standard_output(run, name, capfdbinary):
+    assert main(["report", str(run / "record.jsonl"), "--format", name]) == 0
+    assert capfdbinary.readouterr().out == REPORTS[name].render(samples_read(run))
+
+
+def samples_read(run):
+    from hypcheck.record import read
+
+    return read(run / "record.jsonl")
+
+
+def test_a_folder_gets_what_a_run_writes(run, tmp_path):
+    assert main(["report", str(run), "--out", str(tmp_path / "new")]) == 0
+    assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept()} - {"errors.svg"}
+    assert main(["report", str(run), "--out", str(tmp_path / "two"), "--format", "json", "--format", "terminal"]) == 0
+    assert set(os.listdir(tmp_path / "two")) == {"summary.json", "report.txt"}
+
+
+@pytest.mark.parametrize(
+    ("file", "name"), [("a.md", "markdown"), ("b.xml", "junit"), ("c.json", "json"), ("d.txt", "terminal")]
+)
+def test_a_file_is_the_report_that_its_name_says(run, tmp_path, file, name):
+    assert main(["report", str(run), "--out", str(tmp_path / file)]) == 0
+    assert (tmp_path / file).read_bytes() == REPORTS[name].render(samples_read(run))
+
+
+def test_a_file_of_any_name_with_a_format(run, tmp_path):
+    assert main(["report", str(run), "--out", str(tmp_path / "a.dat"), "--format", "json"]) == 0
+    assert json.loads((tmp_path / "a.dat").read_bytes())["passed"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--out", "a.dat"], "its name does not tell which report it is"),
+        (["--format", "json", "--format", "junit"], "2 formats need a folder: --out FOLDER"),
+        (["--format", "junit", "--against", "record.jsonl"], "--against is shown by terminal, markdown"),
+        (["--against", "nowhere.jsonl"], "nowhere.jsonl: cannot be read"),
+        (["--out", "record.jsonl", "--format", "json"], "is a record that is being read"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(run, monkeypatch, capsys, words, said):
+    monkeypatch.chdir(run)
+    before = (run / "record.jsonl").read_bytes()
+    assert main(["report", "record.jsonl", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert os.listdir(run) == ["record.jsonl"]
+    assert (run / "record.jsonl").read_bytes() == before
+
+
+def test_a_truncated_record_is_reported_and_noted(run, capsys):
+    (run / "record.jsonl").write_text(samples.text_and_record(exit_code=None)[0], encoding="utf-8")
+    assert main(["report", str(run)]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("TRUNCATED")
+    assert "hypcheck: note: the record has no end" in err
+
+
+def test_what_is_no_record_is_one_sentence(run, capsys):
+    (run / "record.jsonl").write_bytes(b"\xff\xfe\x00")
+    assert main(["report", str(run)]) == 2
+    assert "is not UTF-8 text" in capsys.readouterr().err
+
+
+def test_against_another_record(run, tmp_path, capsys):
+    assert main(["report", str(run), "--against", str(run)]) == 0
+    assert "against the run of " in capsys.readouterr().out

@@ -1,0 +1,91 @@
+"""A record that somebody brings is held to the schema; what is wrong with it is named, and never a traceback."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.report.reading import notes, read_checked
+from hypcheck.report.write import REPORTS
+from tests import report_samples as samples
+from tests.report import bench_lines
+
+
+def written(tmp_path, body=None, **header):
+    text, _ = samples.text_and_record(body)
+    first, _, rest = text.partition("\n")
+    path = tmp_path / "record.jsonl"
+    path.write_text(json.dumps({**json.loads(first), **header}) + "\n" + rest, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("body", [samples.lines(), bench_lines.lines()])
+def test_a_record_from_its_file_or_its_folder(tmp_path, body):
+    path = written(tmp_path, body)
+    assert read_checked(path) == read_checked(tmp_path)
+    assert notes(read_checked(path)) == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "spoilt", "said"),
+    [
+        ("group", {"counts": None}, "counts is None, not object"),
+        ("group", {"worst": [{}]}, "worst[0] lacks answer, backward_error, "),
+        ("oracle", {"asked": -4}, "asked is -4, below 0"),
+        ("timing", {"samples_ns": ["\x1b[31m"]}, r"samples_ns[0] is '\x1b[31m', not number"),
+        ("map", {"lines": ["x" * 10**6]}, "lines[0] is 'xxxxxxxxxxxxxxxxx"),
+    ],
+)
+def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
+    body = [{**line, **spoilt} if line["type"] == kind else line for line in samples.lines()]
+    number = 2 + next(place for place, line in enumerate(body) if line["type"] == kind)
+    with pytest.raises(InputError) as caught:
+        read_checked(written(tmp_path, body))
+    assert f"record.jsonl: line {number}, {kind}: {said}" in str(caught.value)
+    assert len(str(caught.value)) < 1000
+
+
+@pytest.mark.parametrize("constant", ["NaN", "Infinity"])
+def test_constants_that_are_no_json_are_refused(tmp_path, constant):
+    path = written(tmp_path)
+    path.write_text(path.read_text(encoding="utf-8").replace('"seconds": 0.25', f'"seconds": {constant}', 1))
+    with pytest.raises(InputError, match=rf"line \d+ is no JSON: {constant} is no number"):
+        read_checked(path)
+
+
+def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
+    """Whatever is left out, there is a sentence or a report."""
+    header, *lines = map(json.loads, samples.text_and_record([*samples.lines(), *bench_lines.lines()])[0].splitlines())
+    first = {line["type"]: place for place, line in reversed(list(enumerate(lines)))}
+    for place in first.values():
+        for field in set(lines[place]) - {"type"}:
+            less = [dict(line) for line in lines]
+            del less[place][field]
+            path = tmp_path / "record.jsonl"
+            path.write_text("\n".join(map(json.dumps, [header, *less])) + "\n", encoding="utf-8")
+            with pytest.raises(InputError, match=rf"{field}|footer counts"):
+                read_checked(path)
+
+
+def test_other_versions(tmp_path):
+    later = read_checked(written(tmp_path, [*samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
+    assert notes(later) == [
+        "the record has schema 1.9.0, later than this program's 1.1.0; what it adds is not shown",
+    ]
+    for name in ("terminal", "json", "markdown", "junit"):
+        assert REPORTS[name].render(later)
+    assert notes(read_checked(written(tmp_path, schema="1.0.0"))) == []
+    for schema in ("0.9.0", "2.0.0"):
+        with pytest.raises(InputError, match=r"reads 1\.x"):
+            read_checked(written(tmp_path, schema=schema))
+    with pytest.raises(InputError, match="schema is '1', not like"):
+        read_checked(written(tmp_path, schema="1"))
+
+
+def test_a_truncated_record_is_noted(tmp_path):
+    text, _ = samples.text_and_record(exit_code=None)
+    path = tmp_path / "record.jsonl"
+    path.write_text(text, encoding="utf-8")
+    assert "interrupted" in notes(read_checked(path))[0]
