@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from hypcheck.casebook.families import FAMILIES, case_id, is_extreme, parse_case_id, row_of, select
-from hypcheck.casebook.family import BLOCK, Family
+from hypcheck.casebook.family import BLOCK, TOGETHER, Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair
 from hypcheck.rows import invalid
@@ -99,6 +99,17 @@ def test_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(family: Fami
     assert family.block(3, 1)[:40].tobytes() == long[BLOCK:].tobytes()
     others = [family.rows(seed, 40).tobytes() for seed in (3, 4)] + [long[BLOCK:].tobytes()]
     assert len(set(others)) == 3, "another seed or block repeats the rows"
+
+
+@pytest.mark.parametrize(
+    "family", [each for each in FAMILIES.values() if each.by_place], ids=lambda family: family.name
+)
+def test_blocks_made_at_one_go_are_those_made_alone(family: Family) -> None:
+    blocks = [family.block(5, number) for number in range(TOGETHER + 3)]
+    rows = family.rows(5, len(blocks) * BLOCK)
+    assert rows.tobytes() == np.concatenate(blocks).tobytes()
+    start, stop = BLOCK + 7, TOGETHER * BLOCK + 500
+    assert family.rows_between(5, start, stop).tobytes() == rows[start:stop].tobytes()
 
 
 @every_family

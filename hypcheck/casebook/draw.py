@@ -9,10 +9,11 @@ and a random mantissa, and a point of the circle a rational one.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, cast
 
 import numpy as np
+from numpy.random.bit_generator import ISeedSequence
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.rows import Rows
@@ -22,23 +23,58 @@ Integers = NDArray[np.int64]
 Maker = Callable[["Draw", int], Rows]
 """What a generator is: from a draw and a number n, n valid rows."""
 
+_HIGHEST = np.uint64(1 << 63)
+
+
+class _Key(ISeedSequence):
+    """What Philox takes as its key without asking the system for entropy first, which takes longer than all else."""
+
+    def __init__(self, name: str) -> None:
+        self._words = np.frombuffer(hashlib.sha256(name.encode()).digest()[:16], dtype="<u8").astype(np.uint64)
+
+    def generate_state(self, n_words: int, dtype: object = np.uint64) -> NDArray[np.uint64]:  # noqa: ARG002
+        """The key: two words of 64 bits, and Philox asks for no others."""
+        return self._words
+
 
 class Draw:
-    """The stream of one block; each method takes as many words as it returns numbers, unless it says otherwise."""
+    """The stream of one block; each method takes as many words as it returns numbers, unless it says otherwise.
 
-    __slots__ = ("_bits",)
+    Of several blocks (of_blocks) each gives an equal share of whatever is taken, one behind the other, so that a
+    generator that works place by place makes their rows at one go, the same as it would make of each alone.
+    """
+
+    __slots__ = ("_streams",)
 
     def __init__(self, *name: object) -> None:
-        digest = hashlib.sha256("/".join(map(str, name)).encode()).digest()
-        self._bits = np.random.Philox(key=int.from_bytes(digest[:16], "little"))
+        self._streams = [_stream(name)]
+
+    @classmethod
+    def of_blocks(cls, names: Sequence[Sequence[object]]) -> Draw:
+        """The streams of these names side by side; every n asked of them must be a multiple of their number."""
+        draw = cls.__new__(cls)
+        draw._streams = [_stream(name) for name in names]
+        return draw
 
     def words(self, n: int) -> NDArray[np.uint64]:
         """Raw 64-bit words."""
-        return np.asarray(self._bits.random_raw(n), dtype=np.uint64)
+        share, rest = divmod(n, len(self._streams))
+        if rest:
+            raise ValueError(f"{n} words cannot be shared by {len(self._streams)} blocks")
+        words = np.empty(n, dtype=np.uint64)
+        for number, stream in enumerate(self._streams):
+            words[number * share : (number + 1) * share] = stream.random_raw(share)
+        return words
+
+    def places(self, n: int) -> Integers:
+        """0, 1, 2 … in each block; takes no words."""
+        return np.tile(np.arange(n // len(self._streams)), len(self._streams))
 
     def integers(self, n: int, low: int, high: int) -> Integers:
         """Integers from low to high, both included; 0 ≤ high − low < 2⁴⁰, so no value is favoured by more than 2⁻²⁴."""
-        return low + (self.words(n) % np.uint64(high - low + 1)).astype(np.int64)
+        words, span = self.words(n), np.uint64(high - low + 1)
+        words -= words // span * span  # numpy's % by a number takes ten times as long
+        return low + words.astype(np.int64)
 
     def unit(self, n: int) -> Floats:
         """Multiples of 2⁻⁵³ in [0, 1)."""
@@ -65,12 +101,20 @@ class Draw:
     def circle(self, n: int) -> tuple[Floats, Floats]:
         """Points (cosine, sine) of the unit circle in all quadrants, a quarter of them on the axes; takes 2n words."""
         words, half = self.words(n), self.unit(n)
-        half = np.where(words >> np.uint64(62) == 0, 0.0, half)
-        cosine, sine = circle_at(half)
-        swapped = words & np.uint64(1) == 1
-        first = np.where(words & np.uint64(2) == 0, 1.0, -1.0)
-        second = np.where(words & np.uint64(4) == 0, 1.0, -1.0)
-        return first * np.where(swapped, sine, cosine), second * np.where(swapped, cosine, sine)
+        cosine, sine = circle_at(np.where(words >> np.uint64(62) == 0, 0.0, half))
+        swapped = (words & np.uint64(1)).astype(np.bool_)
+        first, second = np.where(swapped, sine, cosine), np.where(swapped, cosine, sine)
+        return _signed(first, words << np.uint64(62)), _signed(second, words << np.uint64(61))
+
+
+def _stream(name: Sequence[object]) -> np.random.Philox:
+    key = cast("np.random.SeedSequence", _Key("/".join(map(str, name))))  # numpy's types leave its interface out
+    return np.random.Philox(key)
+
+
+def _signed(values: Floats, words: NDArray[np.uint64]) -> Floats:
+    """The values, their sign turned where the words' highest bit is set."""
+    return np.asarray(values.view(np.uint64) ^ (words & _HIGHEST)).view(np.float64)
 
 
 def circle_at(half: Floats) -> tuple[Floats, Floats]:
@@ -116,4 +160,4 @@ def in_turn(*makers: Maker) -> Maker:
 
 def turns(n: int, *values: Any) -> NDArray[Any]:  # noqa: ANN401 - strings or numbers alike
     """The values in turn, n in all."""
-    return np.resize(np.asarray(values), n)
+    return np.tile(np.asarray(values), -(-n // len(values)))[:n]

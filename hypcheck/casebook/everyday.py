@@ -91,6 +91,7 @@ FAMILIES = (
         drone="obstacles of ordinary sizes are missed or imagined",
         regimes="all four",
         make=uniform,
+        by_place=True,
     ),
     Family(
         name="far-centers",
@@ -102,6 +103,7 @@ FAMILIES = (
         drone="in coordinates of a distant base the wall moves by metres",
         regimes="all four",
         make=far_centers,
+        by_place=True,
     ),
     Family(
         name="giant-spheroids",
@@ -113,6 +115,7 @@ FAMILIES = (
         drone="a guy wire's marker is lost beside the drone's own size",
         regimes="a < 1, c² on both sides of a",
         make=giant_spheroids,
+        by_place=True,
     ),
     Family(
         name="tiny-spheroids",
@@ -124,6 +127,7 @@ FAMILIES = (
         drone="a small drone in a large tower: the sizes that float32 autopilots meet",
         regimes="a > 1, c² on both sides of a",
         make=tiny_spheroids,
+        by_place=True,
     ),
     Family(
         name="float32-exact",
@@ -135,6 +139,7 @@ FAMILIES = (
         drone="a float32 autopilot gives another answer than the planner on the ground",
         regimes="all four",
         make=exact_in(24, 2.0**-126),
+        by_place=True,
     ),
     Family(
         name="float16-exact",
@@ -146,6 +151,7 @@ FAMILIES = (
         drone="an accelerator's half-precision filter drops an obstacle",
         regimes="all four",
         make=exact_in(11, 2.0**-14),
+        by_place=True,
     ),
     Family(
         name="small-integers",
@@ -157,6 +163,7 @@ FAMILIES = (
         drone="waypoints on a metre grid touch the keep-out volume exactly",
         regimes="all four",
         make=small_integers,
+        by_place=True,
     ),
     Family(
         name="symmetric-images",
@@ -168,5 +175,6 @@ FAMILIES = (
         drone="the same approach is safe on one heading and refused on another",
         regimes="all four",
         make=symmetric_images,
+        by_place=True,
     ),
 )

@@ -12,7 +12,10 @@ from hypcheck.pairs import COLUMNS
 from hypcheck.rows import Rows
 
 BLOCK = 1024
-"""Rows made at a time. Each block has a random stream of its own, so any block can be made alone and in any order."""
+"""Rows with a random stream of their own, so that any block can be made alone and in any order."""
+
+TOGETHER = 16
+"""Blocks that a generator makes at one go, where it can: numpy's overhead is shared, and all still fits the cache."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,8 @@ class Family:
     case ids. `title`, `source` (where the idea comes from) and `purpose` (what a wrong program does here) are for
     people, as are `game` and `drone`: what a wrong answer here means to either. `extreme`: lengths near the end of a
     float format, so the family is taken only when it is asked for. `regimes`: which hyperboloids it visits, by
-    a = α/b and c = γ/d.
+    a = α/b and c = γ/d. `by_place`: the generator works place by place, so that it can make several blocks at one go.
+    `movement`: so many consecutive rows follow one object from moment to moment; 1 where none do.
     """
 
     name: str
@@ -36,10 +40,29 @@ class Family:
     regimes: str
     make: Maker = field(repr=False)
     extreme: bool = False
+    by_place: bool = False
+    movement: int = 1
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7), all valid."""
         return self.make(Draw(self.name, self.version, seed, number), BLOCK)
+
+    def rows_between(self, seed: int, start: int, stop: int) -> Rows:
+        """Rows start to stop − 1 of the seed, float64 (stop − start, 7), without those before them being made."""
+        rows = np.empty((stop - start, len(COLUMNS)))
+        together = TOGETHER if self.by_place else 1
+        for first in range(start // BLOCK, -(-stop // BLOCK), together):
+            last = min(first + together, -(-stop // BLOCK))
+            made = self._blocks(seed, first, last)
+            begin, end = max(start, first * BLOCK), min(stop, last * BLOCK)
+            rows[begin - start : end - start] = made[begin - first * BLOCK : end - first * BLOCK]
+        return rows
+
+    def _blocks(self, seed: int, first: int, last: int) -> Rows:
+        if last == first + 1:
+            return self.block(seed, first)
+        names = [(self.name, self.version, seed, number) for number in range(first, last)]
+        return self.make(Draw.of_blocks(names), (last - first) * BLOCK)
 
     def rows(self, seed: int, count: int) -> Rows:
         """The first `count` rows of the seed: float64 (count, 7), columns as in pairs.COLUMNS, all valid.
@@ -48,8 +71,4 @@ class Family:
         """
         if seed < 0 or count < 0:
             raise InputError(f"seed is {seed} and count is {count}; neither may be negative")
-        rows = np.empty((count, len(COLUMNS)))
-        for start in range(0, count, BLOCK):
-            part = rows[start : start + BLOCK]
-            part[:] = self.block(seed, start // BLOCK)[: len(part)]
-        return rows
+        return self.rows_between(seed, 0, count)

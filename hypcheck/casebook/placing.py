@@ -48,8 +48,8 @@ def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
     """The rows of these columns, without negative zeros."""
     rows = np.empty((len(size.b), 7))
     for index, column in enumerate((size.alpha, size.gamma, size.b, size.d, x, y, z)):
-        rows[:, index] = column
-    return rows + 0.0
+        np.add(column, 0.0, out=rows[:, index])
+    return rows
 
 
 def centred(draw: Draw, size: Sizes, radius: Floats, height: Floats) -> Rows:

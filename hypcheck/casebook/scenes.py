@@ -45,7 +45,7 @@ def forest_type_2(draw: Draw, n: int) -> Rows:
     """Trunks narrower than the walker; a third of the rows is high up, where even such a trunk is wide enough."""
     b, d = _walker(draw, n)
     size = _trunk(draw, b, d, b * draw.between(n, 0.2, 0.99))
-    aloft = np.arange(n) % 3 == 0
+    aloft = draw.places(n) % 3 == 0
     height = np.where(aloft, size.c / size.a * draw.between(n, 1, 2.5), draw.between(n, 0, 2) / d)
     return beside(draw, size, height, np.where(aloft, -1, 1) * np.abs(offsets(draw, n)))
 
@@ -127,6 +127,7 @@ FAMILIES = (
         drone="the same test keeps a delivery drone clear of trunks and pylons",
         regimes="a in [1, 6], c² > a",
         make=forest_type_1,
+        by_place=True,
     ),
     Family(
         name="forest-type-2",
@@ -138,6 +139,7 @@ FAMILIES = (
         drone="a mast thinner than the drone is not seen",
         regimes="a in [0.2, 1), c² > a",
         make=forest_type_2,
+        by_place=True,
     ),
     Family(
         name="tower-body",
@@ -149,6 +151,7 @@ FAMILIES = (
         drone="the drone strikes the shell it inspects, or hangs back from a free path",
         regimes="a = 8, c² > a",
         make=tower_body,
+        by_place=True,
     ),
     Family(
         name="tower-rotors",
@@ -160,6 +163,7 @@ FAMILIES = (
         drone="a blade strikes the shell while the test says that only the bounding volume touches",
         regimes="a = 20, c² > a",
         make=tower_rotors,
+        by_place=True,
     ),
     Family(
         name="flight",
@@ -171,5 +175,7 @@ FAMILIES = (
         drone="a step longer than the clearance left is accepted because the last one was",
         regimes="a = 8, c² > a",
         make=flight,
+        by_place=True,
+        movement=FLIGHT_STEPS,
     ),
 )
