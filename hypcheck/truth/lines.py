@@ -1,0 +1,90 @@
+"""Fixed multipliers for many centres beside bodies of one size: each proves clearance by a product and a comparison.
+
+For a fixed λ in (0, B), g(λ) > 0 says P/(A+λ) − Q/(B−λ) > 1 + 1/λ, and for μ in (0, A), g(−μ) > 0 says
+P/(A−μ) − Q/(B+μ) < 1 − 1/μ. With P = (x²+y²)/b² and Q = z²/d² these are the two sides of straight lines in x²+y², z²:
+
+    exterior if x² + y² > K + M z²,   K = b² (A+λ)(1 + 1/λ),   M = (b²/d²) (A+λ)/(B−λ)
+    interior if x² + y² < K + M z²,   K = b² (A−μ)(1 − 1/μ),   M = (b²/d²) (A−μ)/(B+μ)
+
+A, B, K and M are exact rationals here, rounded once. Bound, u = 2⁻⁵³: x² + y² collects 2 factors 1+δ, |δ| ≤ u, and
+K + M z² three, all of positive numbers, and rounding K or M one more; (1+u)^6/(1−u)^6 < 1 + 13u. K and M are moved by
+64u to the safe side. batch.py asks with lengths in 2^±100 or zero: b²A = α², b²λ ≤ αb, d²B = γ², and a difference of
+A or B and a float is 0 or not below 2^-160 of them, so that K and M lie in 2^±600: nothing over- or underflows.
+
+Any multiplier proves; good ones are double roots of g at a tangency. At height ζ = γ h of the surface that is about
+a/√(1 + h²), exactly so at the waist, where c² > a or, inside, a > 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.pairs import Position
+
+MARGIN = 64 * 2.0**-53
+SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
+"""Heights that have a line of their own, as parts of the height that is asked for."""
+
+Floats = NDArray[np.float64]
+Line = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """Pairs (K, M): exterior is what lies above one of the first, interior what lies below one of the second."""
+
+    exterior: tuple[Line, ...]
+    interior: tuple[Line, ...]
+
+    def proved(self, squares: Floats, heights: Floats, otherwise: int) -> NDArray[np.int8]:
+        """The position of centres with these x² + y² and z², int8 (n,), where a line proves it, else `otherwise`."""
+        result = np.full(len(squares), otherwise, dtype=np.int8)
+        for lines, nearest, beyond, position in (
+            (self.exterior, np.minimum, np.greater, Position.EXTERIOR),
+            (self.interior, np.maximum, np.less, Position.INTERIOR),
+        ):
+            if lines:
+                border = _envelope(lines, heights, nearest)
+                np.copyto(result, np.int8(position), where=beyond(squares, border))
+        return result
+
+
+def _envelope(lines: tuple[Line, ...], heights: Floats, nearest: Callable[..., Floats]) -> Floats:
+    """The least, or the greatest, of the lines at each height."""
+    (first, slope), *others = lines
+    border = slope * heights
+    border += first
+    for constant, slope in others:
+        line = slope * heights
+        line += constant
+        nearest(border, line, out=border)
+    return border
+
+
+@lru_cache(maxsize=64)
+def lines(alpha: float, gamma: float, b: float, d: float, reach: int) -> Lines:
+    """Lines for these sizes, good for centres as high as γ 2^reach."""
+    A, B = (Fraction(alpha) / Fraction(b)) ** 2, (Fraction(gamma) / Fraction(d)) ** 2
+    across, slope = Fraction(b) ** 2, Fraction(b) ** 2 / Fraction(d) ** 2
+    exterior, interior = [], []
+    for share in SHARES:
+        multiplier = Fraction(alpha / b / math.hypot(1.0, math.ldexp(share, reach)))
+        if 0 < multiplier < B:
+            constant = across * (A + multiplier) * (1 + 1 / multiplier)
+            exterior.append((constant, slope * (A + multiplier) / (B - multiplier)))
+        if 1 < multiplier < A:
+            constant = across * (A - multiplier) * (1 - 1 / multiplier)
+            interior.append((constant, slope * (A - multiplier) / (B + multiplier)))
+    return Lines(_moved(exterior, 1 + MARGIN), _moved(interior, 1 - MARGIN))
+
+
+def _moved(exact: list[tuple[Fraction, Fraction]], factor: float) -> tuple[Line, ...]:
+    """The lines in floats, moved to the safe side."""
+    return tuple((float(constant) * factor, float(slope) * factor) for constant, slope in exact)

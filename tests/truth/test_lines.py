@@ -1,0 +1,85 @@
+"""Lines prove nothing that is not so, next to the lines themselves above all, and they decide what is well away."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.pairs import Pair
+from hypcheck.truth import batch, exact
+from hypcheck.truth.lines import lines
+
+TOWER = (2.0, 17.8, 0.25, 0.15)
+ULPS = np.arange(-40, 41)
+sizes = st.tuples(*[st.floats(2.0**-12, 2.0**12)] * 4)
+
+
+def rows_of(some, x, z):
+    x, z = np.broadcast_arrays(x, z)
+    rows = np.zeros((x.size, 7))
+    rows[:, :4], rows[:, 4], rows[:, 6] = some, x.ravel(), z.ravel()
+    return rows
+
+
+def beside_lines(some, height):
+    """Centres within 40 ulps of where each line crosses a height; each is on the line at about the middle."""
+    found = lines(*some, math.frexp(height / some[1])[1])
+    crossings = [constant + slope * height * height for constant, slope in (*found.exterior, *found.interior)]
+    x = [math.sqrt(crossing) + ULPS * math.ulp(math.sqrt(crossing)) for crossing in crossings]
+    return rows_of(some, np.concatenate([*x, [some[0]]]), height)
+
+
+def assert_right(rows):
+    proved = batch.filtered(rows)
+    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    decided = proved != batch.UNDECIDED
+    assert (proved[decided] == expected[decided]).all()
+    return decided
+
+
+@given(sizes, st.floats(0, 4))
+def test_beside_a_line_nothing_wrong_is_proved(some, share):
+    assert_right(beside_lines(some, share * some[1]))
+
+
+@given(sizes, st.integers(-60, -1), st.floats(0, 2))
+def test_near_the_waist_nothing_wrong_is_proved(some, exponent, share):
+    """r = α ± b, moved by a little: tangencies wherever the throat and the groove are wide enough."""
+    alpha, gamma, b, _ = some
+    x = np.array([alpha + b, abs(alpha - b)])[:, None] * (1 + np.array([-1, 0, 1]) * 2.0**exponent)
+    assert_right(rows_of(some, x, np.array([0.0, share * gamma * 2.0**exponent])[:, None, None]))
+
+
+@given(sizes, st.integers(-2, 5))
+def test_the_numbers_of_a_line_are_on_its_safe_side(some, reach):
+    """By more than the rounding of both sides of a comparison can come to, which is 12 of these units."""
+    alpha, gamma, b, d = map(Fraction, some)
+    A, B = (alpha / b) ** 2, (gamma / d) ** 2
+    found = lines(*some, reach)
+    for sign, kept in ((1, found.exterior), (-1, found.interior)):
+        for constant, slope in kept:
+            # M tells λ: (A ± λ)/(B ∓ λ) = M d²/b², and the exact line of that λ has the K that is compared.
+            ratio = Fraction(slope) * d**2 / b**2
+            multiplier = sign * (ratio * B - A) / (1 + ratio)
+            moved = 1 + sign * Fraction(12, 2**53)
+            assert sign * Fraction(constant) >= sign * moved * b**2 * (A + sign * multiplier) * (1 + sign / multiplier)
+
+
+def test_most_of_a_tower_is_decided_by_lines():
+    rng = np.random.default_rng(3)
+    rows = np.column_stack([np.tile(TOWER, (4000, 1)), rng.uniform(-4, 4, (4000, 2)), rng.uniform(-17.8, 17.8, 4000)])
+    proved = batch._by_lines(np.ascontiguousarray(rows.T))
+    truth = batch.positions(rows)
+    assert (proved == truth)[truth != 0].mean() > 0.99
+    assert (proved[truth == 0] == batch.UNDECIDED).all()
+
+
+@given(st.tuples(*[st.floats(2.0**-100, 2.0**100)] * 4), st.integers(-2, 20))
+def test_no_number_of_a_line_is_out_of_range(some, reach):
+    found = lines(*some, reach)
+    numbers = [number for line in (*found.exterior, *found.interior) for number in line]
+    assert all(2.0**-600 < number < 2.0**600 for number in numbers)
