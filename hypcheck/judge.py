@@ -19,7 +19,7 @@ from hypcheck.errors import InputError
 from hypcheck.methods.questions import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.pairs import Lengths, Pair, Position
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
-from hypcheck.truth import exact, flip
+from hypcheck.truth import batch, exact, flip, flip_batch
 from hypcheck.truth.exact import Decision
 
 DEFAULT_TOLERANCE = Fraction(8)
@@ -120,10 +120,10 @@ def measured(case: WrongCase, question: str) -> float:
 
 def flip_octaves(rows: Rows) -> NDArray[np.float64]:
     """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency."""
-    octaves = np.empty(len(rows))
+    octaves = flip_batch.octaves(rows, batch.positions(rows))
     guess = -10
-    for index, row in enumerate(rows.tolist()):
-        lengths = Pair.from_row(row).lengths
+    for index in np.flatnonzero(np.isnan(octaves)):
+        lengths = Pair.from_row(rows[index].tolist()).lengths
         truth = exact.decide(lengths)
         targets = right_positions(truth.position, 0, truth.position.name.lower())
         octaves[index] = min(flip.flip_exponent(lengths, truth, target, guess) for target in targets)

@@ -1,0 +1,54 @@
+"""The octaves that floats find are those that exact changes find, of every family and next to every power of two."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hypcheck import judge
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.pairs import Pair
+from hypcheck.truth import batch, exact, flip, flip_batch
+
+
+def one_by_one(rows):
+    octaves = []
+    for row in rows.tolist():
+        lengths = Pair.from_row(row).lengths
+        truth = exact.decide(lengths)
+        targets = judge.right_positions(truth.position, 0, truth.position.name.lower())
+        octaves.append(min(flip.flip_exponent(lengths, truth, target) for target in targets))
+    return octaves
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_octaves_are_those_of_exact_changes(name):
+    rows = FAMILIES[name].rows(11, 24)
+    assert judge.flip_octaves(rows).tolist() == one_by_one(rows)
+
+
+def test_most_rows_of_everyday_need_no_exact_change():
+    for name in ("tower-body", "uniform", "forest-type-2"):
+        rows = FAMILIES[name].rows(12, 1000)
+        assert np.isnan(flip_batch.octaves(rows, batch.positions(rows))).mean() < 0.05
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_next_to_a_power_of_two_floats_are_silent_or_right(sign):
+    """x = α + b + δ at the waist: the distance is about δ/(α + b + x), here about a power of two."""
+    steps = np.concatenate([2.0 ** np.arange(-12, -6), -(2.0 ** np.arange(-12, -6)), [0.0]])
+    rows = np.zeros((40 * len(steps), 7))
+    for place, (exponent, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
+        rows[place, :4] = 2.0, 1000.0, 1.0, 1.0
+        rows[place, 4] = 3 + sign * 6 * 2.0**exponent * (1 + step)
+    found = flip_batch.octaves(rows, batch.positions(rows))
+    told = ~np.isnan(found)
+    assert 0.3 < told.mean() < 1
+    assert found[told].tolist() == np.array(one_by_one(rows))[told].tolist()
+
+
+def test_a_tangency_is_at_no_distance():
+    rows = np.array([[2.0, 1000.0, 1.0, 1.0, 3.0, 0.0, 0.0]])
+    assert judge.flip_octaves(rows).tolist() == [-math.inf]
