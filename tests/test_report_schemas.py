@@ -66,6 +66,16 @@ OF_A_BENCHMARK = {
 """Lines that `hypcheck bench` writes, since schema 1.1.0."""
 
 
+def lines_of(text):
+    """The lines of a record without their checksums, of which each must have one."""
+    for written in text.splitlines():
+        line = json.loads(written)
+        assert violations(line, RECORD) == []
+        assert list(line)[-1] == "crc32"
+        del line["crc32"]
+        yield line
+
+
 def of_summary(record):
     return json.loads(summary.render(record))
 
@@ -73,7 +83,7 @@ def of_summary(record):
 def test_every_line_of_the_sample_fits():
     text, _ = samples.text_and_record()
     kinds = set()
-    for line in map(json.loads, text.splitlines()):
+    for line in lines_of(text):
         assert violations(line, RECORD, closed=True) == []
         kinds.add(line["type"])
     assert kinds == set(RECORD["$defs"]) - PARTS - {"drift", "implementation"} - OF_A_BENCHMARK
@@ -107,7 +117,7 @@ def really_recorded():
 
 
 def test_what_a_run_records_fits(really_recorded):
-    lines = [json.loads(text) for text in really_recorded.splitlines()]
+    lines = list(lines_of(really_recorded))
     assert {"header", "oracle", "finding", "group", "map", "footer"} <= {line["type"] for line in lines}
     for line in lines:
         assert violations(line, RECORD, closed=True) == []
@@ -177,6 +187,8 @@ def test_a_spoilt_summary_does_not_fit(spoil):
         ("map", "lines", ["exterior"]),
         ("timing", "samples_ns", []),
         ("proof", "type", "theorem"),
+        ("proof", "crc32", 7),
+        ("proof", "crc32", "0123456G"),
     ],
 )
 def test_a_spoilt_line_does_not_fit(kind, field, value):

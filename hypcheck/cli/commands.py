@@ -19,6 +19,7 @@ COMMANDS = {
     "minimise": "hypcheck.cli.minimise:minimise",
     "replay": "hypcheck.cli.replay:replay",
     "report": "hypcheck.cli.report:report",
+    "record": "hypcheck.cli.record:record_",
     "init": "hypcheck.cli.init:init",
 }
 """Name → module:attribute of the click command."""

@@ -9,10 +9,9 @@ from typing import Any
 
 from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, Line, Record, read
+from hypcheck.record.reading import file_of
 from hypcheck.report.json_schema import violations
 from hypcheck.visible import visible
-
-FILE = "record.jsonl"
 
 
 def read_checked(path: Path) -> Record:
@@ -20,7 +19,7 @@ def read_checked(path: Path) -> Record:
 
     Lines of types that later versions add are left as they are.
     """
-    file = path / FILE if path.is_dir() else path
+    file = file_of(path)
     record = read(file)
     lines = [record.header, *record.lines, *([record.footer] if record.footer else [])]
     schema = _schema()

@@ -37,6 +37,11 @@ class Reader:
             self._file.seek(offset)
             return self._file.read(size)
 
+    def line(self, most: int) -> bytes:
+        """The next line with its end, or the first `most` bytes of it; nothing at the end. Raises InputError."""
+        with _blamed("read", self.name):
+            return self._file.readline(most)
+
     def size(self) -> int | None:
         """The length of a regular file in bytes; None for a stream."""
         with _blamed("read", self.name):

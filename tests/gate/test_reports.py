@@ -41,7 +41,8 @@ def record(out):
 
 
 def test_the_record_fits_its_schema(out):
-    lines = [json.loads(text) for text in (out / "record.jsonl").read_text(encoding="utf-8").splitlines()]
+    record = read(out / "record.jsonl")
+    lines = [record.header, *record.lines, record.footer]
     assert {"header", "group", "implementation", "footer"} == {line["type"] for line in lines}
     for line in lines:
         assert violations(line, RECORD, closed=True) == []

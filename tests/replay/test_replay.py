@@ -206,7 +206,7 @@ def test_text_of_every_formula_can_be_printed(capsys):
         (["nan,2,1,1,5,0,0", "builtin:fast"], "it must be finite"),
         (["ring-9999", "builtin:fast"], "there is no case"),
         (["ring/99/1/1", "builtin:fast"], "by generator"),
-        (["nowhere.jsonl:1", "builtin:fast"], "cannot be read"),
+        (["nowhere.jsonl:1", "builtin:fast"], "cannot read nowhere.jsonl: no such file"),
         ([FREE, "builtin:fast", "--formula", "table-3"], "there is no formula 'table-3'"),
         ([FREE, "builtin:fast", "--formula", "procedure-2b"], "there is no formula 'procedure-2b'"),
         ([FREE, "builtin:fast", "--memory", "much"], "--memory"),

@@ -1,0 +1,29 @@
+"""A record read as a whole."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hypcheck.record.model import Record
+from hypcheck.record.scanning import Scan
+from hypcheck.tables.streams import reading
+
+FILE = "record.jsonl"
+"""The record's name in the folder of a run."""
+
+
+def file_of(path: Path) -> Path:
+    """The file of a record, which may be named by the folder of its run."""
+    return path / FILE if path.is_dir() else path
+
+
+def read(path: Path) -> Record:
+    """The record in a file, truncated where it was cut off anywhere behind its first line.
+
+    Raises DamagedError, an InputError that names the byte and what is wrong there, where it is not as it was written,
+    and InputError where it is no record that this program reads.
+    """
+    with reading(str(path)) as reader:
+        scan = Scan(reader)
+        lines = list(scan)
+    return Record(lines[0], tuple(lines[1:-1] if scan.footer else lines[1:]), scan.footer)

@@ -1,0 +1,107 @@
+"""Whatever happens to the bytes of a record is seen: no change is taken for what was written, and no cut for an end."""
+
+from __future__ import annotations
+
+import io
+import zlib
+from itertools import combinations
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.record.scanning import DamagedError, Scan
+from hypcheck.tables.streams import Reader
+from tests.records import resealed
+
+LINES = [
+    {"type": "header", "schema": "1.2.0"},
+    {"type": "drift", "sentence": 'α "\\'},
+    {"type": "drift", "sentence": "again"},
+    {"type": "footer", "lines": 4, "exit_code": 0},
+]
+
+
+@pytest.fixture
+def data():
+    return resealed(LINES)
+
+
+def outcome(data):
+    """What becomes of it (refused, truncated, whole), and the lines that are read."""
+    scan = Scan(Reader(io.BytesIO(data), "it"))
+    try:
+        lines = list(scan)
+    except InputError:
+        return "refused", []
+    return ("whole" if scan.footer else "truncated"), lines
+
+
+def test_as_written_it_is_whole(data):
+    assert outcome(data) == ("whole", LINES)
+
+
+def test_every_change_of_one_byte_is_refused_but_that_of_the_last_line_end_which_reads_as_a_cut(data):
+    for place, byte in enumerate(data):
+        for other in range(256):
+            if other == byte:
+                continue
+            found, lines = outcome(data[:place] + bytes([other]) + data[place + 1 :])
+            if place < len(data) - 1:
+                assert found == "refused", (place, other)
+            else:
+                assert (found, lines) == ("truncated", LINES[:-1])
+
+
+def test_a_cut_at_any_byte_is_truncated_with_the_lines_that_are_whole(data):
+    for length in range(len(data)):
+        whole = data.count(b"\n", 0, length)
+        assert outcome(data[:length]) == (("truncated", LINES[:whole]) if whole else ("refused", []))
+
+
+def test_every_byte_lost_or_added_is_refused_where_it_is_not_a_cut_or_the_line_end_of_windows(data):
+    for place in range(len(data)):
+        found, lines = outcome(data[:place] + data[place + 1 :])
+        assert found == "refused" or (place == len(data) - 1 and (found, lines) == ("truncated", LINES[:-1]))
+        for added in range(256):
+            changed = data[:place] + bytes([added]) + data[place:]
+            harmless = added == ord("\r") and data[place : place + 1] == b"\n"
+            found, lines = outcome(changed)
+            assert found == "refused" or (harmless and (found, lines) == ("whole", LINES)), (place, added)
+
+
+def test_every_line_lost_doubled_or_moved_is_refused(data):
+    lines = data.splitlines(keepends=True)
+    for place in range(len(lines) - 1):
+        assert outcome(b"".join(lines[:place] + lines[place + 1 :]))[0] == "refused"
+    for place in range(len(lines)):
+        assert outcome(b"".join([*lines[: place + 1], *lines[place:]]))[0] == "refused"
+    for first, second in combinations(range(len(lines)), 2):
+        moved = list(lines)
+        moved[first], moved[second] = moved[second], moved[first]
+        assert outcome(b"".join(moved))[0] == "refused"
+
+
+def test_a_line_of_another_record_is_refused_where_its_own_number_would_fit(data):
+    others = resealed([{"type": "header", "schema": "1.2.0", "seed": 2}, *LINES[1:]]).splitlines(keepends=True)
+    lines = data.splitlines(keepends=True)
+    for place in range(1, len(lines)):
+        assert outcome(b"".join([*lines[:place], *others[place:]]))[0] == "refused"
+
+
+def test_a_record_cannot_lose_its_checksums_by_calling_itself_older(data):
+    assert outcome(data.replace(b"1.2.0", b"1.0.0"))[0] == "refused"
+
+
+def test_the_damage_is_told_with_its_byte(data):
+    start = data.index(b"\n") + 1
+    with pytest.raises(DamagedError, match=f"^it is damaged in line 2, at byte {start}: its checksum is") as caught:
+        list(Scan(Reader(io.BytesIO(data.replace(b"\\\\", b"/\\")), "it")))
+    assert caught.value.at == start
+
+
+def test_the_checksum_is_that_of_all_bytes_before_it_but_for_checksums_and_line_ends(data):
+    check = 0
+    for line in data.splitlines():
+        body, _, end = line.rpartition(b', "crc32": ')
+        check = zlib.crc32(body, check)
+        assert end == b'"%08x"}' % check

@@ -1,0 +1,145 @@
+"""A record is read back as it was written, also one of an older or a newer version; what is none is refused."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import tracemalloc
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.record import Recorder, read, scanning
+from tests.records import resealed
+
+
+def written(path, close=True):
+    stream = io.StringIO()
+    recorder = Recorder(stream, {"seed": 3})
+    recorder.add("group", method="m", worst=[math.inf, -math.inf, 0.1], counts={1: (2, 3)})
+    record = recorder.close(0) if close else None
+    path.write_text(stream.getvalue(), encoding="utf-8")
+    return record
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "record.jsonl"
+
+
+def test_what_is_read_is_what_was_written(path):
+    record = written(path)
+    assert read(path) == record
+    assert read(path).of("group")[0]["worst"] == ["inf", "-inf", 0.1]
+
+
+def test_without_a_footer_a_record_is_truncated(path):
+    written(path, close=False)
+    assert read(path).footer is None
+    assert len(read(path).lines) == 1
+
+
+def test_lines_that_end_as_on_windows_are_the_same_lines(path):
+    record = written(path)
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert read(path) == record
+
+
+def test_a_text_that_utf_8_cannot_hold_comes_back(path):
+    stream = io.StringIO()
+    recorder = Recorder(stream, {})
+    recorder.add("drift", sentence="a lone surrogate \udc80, a line \u2028 and \x00")
+    path.write_text(stream.getvalue(), encoding="utf-8")
+    assert read(path).lines[0]["sentence"] == "a lone surrogate \udc80, a line \u2028 and \x00"
+
+
+OLDER = '{"type": "header", "schema": "%s"}\n{"type": "group", "n": 1}\n{"type": "footer", "lines": 3}\n'
+
+
+@pytest.mark.parametrize("version", ["1.0.0", "1.1.0"])
+def test_an_older_version_is_read_without_checksums(path, version):
+    path.write_text(OLDER % version, encoding="utf-8")
+    assert read(path).lines == ({"type": "group", "n": 1},)
+    assert read(path).footer == {"type": "footer", "lines": 3}
+
+
+def test_a_newer_minor_version_is_read_and_what_it_adds_is_kept(path):
+    lines = [{"type": "header", "schema": "1.99.0", "new": [1]}, {"type": "novelty", "n": 1e300}]
+    path.write_bytes(resealed([*lines, {"type": "footer", "lines": 3}]))
+    record = read(path)
+    assert record.header["new"] == [1]
+    assert record.of("novelty") == [{"type": "novelty", "n": 1e300}]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "is empty; a record begins with a header"),
+        ('{"type": "head', "is cut off within its first line; nothing of it can be used"),
+        ("alpha,gamma", "is no record: it has no whole line"),
+        ("alpha,gamma\n", "is no record: its first line is no header .it is no JSON at character 1"),
+        ("[1]\n", "its first line is no header .it is no object with a type"),
+        ('{"type": "group"}\n', "its first line is no header with a schema such as 1.0.0"),
+        ('{"type": "header", "schema": 1}\n', "its first line is no header with a schema such as 1.0.0"),
+        ('{"type": "header", "schema": "1.x"}\n', "its first line is no header with a schema such as 1.0.0"),
+        (OLDER % "9.0.0", "has schema 9.0.0; this program reads 1.x"),
+        (OLDER % "1.2.0", "is damaged in line 1, at byte 0: it has no checksum at its end"),
+        (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it stands behind the footer"),
+        (OLDER % "1.0.0" + "{}\n", "in line 4, at byte 95: it is no object with a type"),
+        (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it stands behind the footer"),
+        (
+            (OLDER % "1.0.0").replace("3", "4"),
+            "in line 3, at byte 64: it is a footer that counts 4 lines, but it is line 3",
+        ),
+        (
+            (OLDER % "1.0.0").replace('"n"', "n"),
+            "in line 2, at byte 38: it is no JSON at character 19: expecting property",
+        ),
+        ((OLDER % "1.0.0").replace("1}", "NaN}"), "in line 2, at byte 38: NaN is no number of JSON"),
+        ((OLDER % "1.0.0").replace("1}", "1e999}"), "in line 2, at byte 38: 1e999 is too large for float64"),
+        (
+            (OLDER % "1.0.0").replace("1}", f"{'9' * 5000}}}"),
+            "in line 2, at byte 38: 999999.*… is too large for float64",
+        ),
+        ((OLDER % "1.0.0").replace("1}", f"{'[' * 99999}}}"), "in line 2, at byte 38: it is nested too deeply"),
+        ((OLDER % "1.0.0").replace("group", "header"), "in line 2, at byte 38: it is a second header"),
+    ],
+)
+def test_what_is_no_record_is_refused_naming_the_byte(path, text, message):
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        read(path)
+
+
+def test_bytes_that_are_no_text_and_a_file_that_is_not_there_are_refused(path, tmp_path):
+    path.write_bytes((OLDER % "1.0.0").encode().replace(b"group", b"gr\xffup"))
+    with pytest.raises(InputError, match="in line 2, at byte 38: its byte 12 is no UTF-8"):
+        read(path)
+    with pytest.raises(InputError, match=r"cannot read .*: no such file"):
+        read(tmp_path / "none.jsonl")
+    with pytest.raises(InputError, match=r"cannot read .*: is a directory"):
+        read(tmp_path)
+
+
+@pytest.mark.parametrize("beginning", [b"", (OLDER % "1.0.0")[:38].encode()])
+def test_a_line_of_a_gigabyte_is_refused_without_being_loaded(path, beginning):
+    with path.open("wb") as file:
+        file.write(beginning)
+        file.truncate(1 << 30)
+    tracemalloc.start()
+    with pytest.raises(InputError, match=f"it is longer than {scanning.LONGEST} bytes"):
+        read(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 5 * scanning.LONGEST
+
+
+def test_every_line_is_strict_json_with_its_checksum_last(path):
+    written(path)
+
+    def refuse(constant):
+        raise AssertionError(constant)
+
+    for line in path.read_text(encoding="utf-8").splitlines():
+        assert list(json.loads(line, parse_constant=refuse))[-1] == "crc32"

@@ -1,0 +1,101 @@
+"""`hypcheck record`: the condition of a file is told, and what is good of it is saved."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from tests.records import resealed
+
+LINES = [
+    {"type": "header", "schema": "1.2.0"},
+    {"type": "drift", "sentence": "one"},
+    {"type": "drift", "sentence": "two"},
+    {"type": "footer", "lines": 4, "exit_code": 6},
+]
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "record.jsonl"
+    path.write_bytes(resealed(LINES))
+    return path
+
+
+def asked(capsys, *words):
+    code = main(["record", *map(str, words)])
+    told = capsys.readouterr()
+    assert told.err.count("\n") <= 1
+    return code, told.out + told.err
+
+
+def test_a_whole_record_is_whole(path, capsys):
+    code, text = asked(capsys, "check", path)
+    assert code == 0
+    assert "4 good lines, 243 bytes, with their checksums; it is whole, of a run that ended with 6" in text
+
+
+@pytest.mark.parametrize("cut", [1, 100])
+def test_a_cut_one_is_cut(path, capsys, cut):
+    path.write_bytes(path.read_bytes()[:-cut])
+    code, text = asked(capsys, "check", path)
+    assert code == 1
+    assert "bytes (1 line) from byte" in text
+
+
+def test_one_without_a_footer_is_cut_or_interrupted(path, capsys):
+    path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:-1]))
+    code, text = asked(capsys, "check", path)
+    assert code == 1
+    assert "3 good lines" in text
+    assert "it has no footer" in text
+
+
+def test_a_damaged_one_is_refused_and_saved_up_to_the_damage(path, capsys, tmp_path):
+    data = path.read_bytes()
+    path.write_bytes(data.replace(b"two", b"twt"))
+    start = data.index(b'{"type": "drift", "sentence": "two"')
+    code, text = asked(capsys, "check", path)
+    assert code == 2
+    assert f"is damaged in line 3, at byte {start}: its checksum is" in text
+    saved = tmp_path / "saved.jsonl"
+    code, text = asked(capsys, "repair", path, "--out", saved)
+    assert code == 0
+    assert f"2 good lines, {start} bytes" in text
+    assert f"{len(data) - start} bytes (2 lines) from byte {start} on are lost" in text
+    assert "its checksum is" in text
+    assert saved.read_bytes() == data[:start]
+    assert read(saved).footer is None
+    assert read(saved).lines == (LINES[1],)
+
+
+def test_a_cut_one_is_saved_without_what_is_half(path, capsys, tmp_path):
+    data = path.read_bytes()
+    path.write_bytes(data[:-1])
+    saved = tmp_path / "saved.jsonl"
+    assert asked(capsys, "repair", path, "--out", saved)[0] == 0
+    assert saved.read_bytes() == b"".join(data.splitlines(keepends=True)[:-1])
+
+
+def test_a_whole_one_is_copied(path, capsys, tmp_path):
+    code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
+    assert code == 0
+    assert "it is whole" in text
+    assert (tmp_path / "saved.jsonl").read_bytes() == path.read_bytes()
+
+
+def test_where_nothing_is_good_nothing_is_written(path, capsys, tmp_path):
+    path.write_bytes(path.read_bytes().replace(b"header", b"heades"))
+    code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
+    assert code == 2
+    assert "is damaged in line 1, at byte 0" in text
+    assert sorted(tmp_path.iterdir()) == [path]
+
+
+def test_a_record_is_not_repaired_in_its_place(path, capsys):
+    data = path.read_bytes()
+    code, text = asked(capsys, "repair", path, "--out", path)
+    assert code == 2
+    assert "is the record itself; name another file" in text
+    assert path.read_bytes() == data
