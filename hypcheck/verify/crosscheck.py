@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, Future, as_completed
-from contextlib import contextmanager
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from multiprocessing import resource_tracker
 
+from hypcheck import processes
 from hypcheck.derivation.exact_arithmetic import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.pairs import COLUMNS, Pair, Position
@@ -95,31 +93,8 @@ def _unless_rule_differs(row: list[float], opinion: Opinion) -> Opinion:
 
 def perform(todo: Sequence[Task], executor: Executor | None) -> Iterator[tuple[Task, list[Opinion], float]]:
     """Each task with its opinions and seconds, as they are finished; without an executor, here and in order."""
-    if executor is None:
-        for task in todo:
-            yield task, *run(task)
-        return
-    with _interrupts_held():
-        running: dict[Future[tuple[list[Opinion], float]], Task] = {executor.submit(run, task): task for task in todo}
-    for future in as_completed(running):
-        yield running[future], *future.result()
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Interrupts from the keyboard wait, and the processes started meanwhile never get them.
-
-    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    resource_tracker.ensure_running()  # started with the first process, it would let interrupts through again
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    for task, (opinions, seconds) in processes.perform(run, todo, executor):
+        yield task, opinions, seconds
 
 
 def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> Tally:

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from multiprocessing import active_children, get_context
 from typing import Any
 
 from hypcheck import judge
@@ -17,6 +14,7 @@ from hypcheck.derivation.proofs import prove_formulas
 from hypcheck.judge import Status
 from hypcheck.methods.builtin import builtin_methods
 from hypcheck.methods.method import Method
+from hypcheck.processes import processes
 from hypcheck.record import Recorder
 from hypcheck.verify import contenders, crosscheck, findings, known, maps
 from hypcheck.verify.crosscheck import Tally
@@ -110,7 +108,7 @@ def _cross_check(
     advance: Advance,
 ) -> None:
     tallies: list[Tally] = []
-    with _executor(plan.workers) as executor:
+    with processes(plan.workers) as executor:
         for task, opinions, seconds in crosscheck.perform(todo, executor):
             tallies.append(crosscheck.compare(task, opinions, all_batches[task.batch], seconds))
             advance(1)
@@ -121,23 +119,6 @@ def _cross_check(
             name: getattr(tally, name) for name in ("oracle", "family", "asked", "undecided", "stages", "seconds")
         }
         recorder.add("oracle", **fields, disagreeing=len(tally.disagreements), disagreements=cases)
-
-
-@contextmanager
-def _executor(workers: int) -> Iterator[ProcessPoolExecutor | None]:
-    """Processes for the oracles; none where one worker is asked for. Fresh ones: forking copies locks and threads."""
-    if workers <= 1:
-        yield None
-        return
-    executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
-    try:
-        yield executor
-    except BaseException:
-        executor.shutdown(wait=False, cancel_futures=True)
-        for worker in active_children():
-            worker.terminate()
-        raise
-    executor.shutdown()
 
 
 def _exact_findings(

@@ -1,0 +1,71 @@
+"""Work in fresh processes of our own, and interrupts that end it as they should."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing import active_children, get_context, resource_tracker
+from typing import TypeVar
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+@contextmanager
+def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
+    """As many processes; none where one worker is asked for. Fresh ones: forking copies locks and threads.
+
+    Where the block is left by an exception they are ended, and what they were to do is not done.
+    """
+    if workers <= 1:
+        yield None
+        return
+    with fresh(workers) as executor:
+        yield executor
+
+
+@contextmanager
+def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
+    """The same, with a process of its own for a single worker too."""
+    executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
+    try:
+        yield executor
+    except BaseException:
+        executor.shutdown(wait=False, cancel_futures=True)
+        for worker in active_children():
+            worker.terminate()
+        raise
+    executor.shutdown()
+
+
+def perform(
+    function: Callable[[Task], Result], tasks: Iterable[Task], executor: Executor | None
+) -> Iterator[tuple[Task, Result]]:
+    """Each task with its result, as they are finished; without an executor, here and in order."""
+    if executor is None:
+        for task in tasks:
+            yield task, function(task)
+        return
+    with _interrupts_held():
+        running: dict[Future[Result], Task] = {executor.submit(function, task): task for task in tasks}
+    for future in as_completed(running):
+        yield running[future], future.result()
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Interrupts from the keyboard wait, and the processes started meanwhile never get them.
+
+    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # started with the first process, it would let interrupts through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
