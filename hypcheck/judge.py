@@ -7,7 +7,7 @@ that very answer right (truth/flip.py), counted in units u of the precision that
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -112,9 +112,14 @@ def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criteri
 
 def measured(case: WrongCase, question: str) -> float:
     """The backward error of a wrong answer, to 4 significant digits."""
-    lengths = Pair.from_row(case.row).lengths
+    return error_of(case.row, case.answer, question)
+
+
+def error_of(row: Sequence[float], answer: int, question: str) -> float:
+    """The backward error of an answer to a row, right or wrong, to 4 significant digits."""
+    lengths = Pair.from_row(row).lengths
     truth = exact.decide(lengths)
-    targets = right_positions(truth.position, case.answer, question)
+    targets = right_positions(truth.position, answer, question)
     return min(flip.backward_error(lengths, truth, target) for target in targets)
 
 
@@ -142,7 +147,7 @@ def _judged(index: int, row: list[float], answer: int, criterion: Criterion, gue
         row=tuple(row),
         truth=truth.position,
         answer=answer,
-        mistake=_mistake(truth.position, answer, criterion.question),
+        mistake=mistake_of(truth.position, answer, criterion.question),
         status=Status.TOLERATED if within else Status.WRONG,
         exponent=min(flip.flip_exponent(lengths, truth, target, guess) for target in targets),
     )
@@ -182,7 +187,8 @@ def in_units(error: float, unit: Fraction) -> float:
     return error / float(unit) if unit else math.inf
 
 
-def _mistake(truth: Position, answer: int, question: str) -> Mistake:
+def mistake_of(truth: Position, answer: int, question: str) -> Mistake:
+    """What a wrong answer means; `answer` is neither right nor CANNOT_SAY."""
     if question == "position":
         if truth is Position.CONTACT:
             return Mistake.FALSE_CLEAR

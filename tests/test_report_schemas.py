@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import io
 import json
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, replace
 from importlib import resources
 
 import pytest
 
-from hypcheck.bench.timing import Contender, measure
+from hypcheck.bench.rounds import measure
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.derivation.printed import EquationCheck
 from hypcheck.derivation.proofs import Proof
@@ -18,6 +18,8 @@ from hypcheck.record import Recorder, read
 from hypcheck.report import summary
 from hypcheck.report.json_schema import violations
 from hypcheck.verify import run
+from hypcheck.verify.contenders import Contender
+from hypcheck.verify.contenders import line as timing_line
 from hypcheck.verify.plan import Plan
 from tests import report_samples as samples
 from tests.report import bench_lines
@@ -45,6 +47,7 @@ PARTS = {
     "grid",
     "ratio",
     "ratios",
+    "load",
 }
 """Definitions that are no lines of their own."""
 
@@ -62,6 +65,10 @@ OF_A_BENCHMARK = {
     "cost",
     "kernel",
     "comparison",
+    "absent",
+    "compiler",
+    "conditions",
+    "refused",
 }
 """Lines that `hypcheck bench` writes, since schema 1.1.0."""
 
@@ -93,12 +100,12 @@ def test_every_line_of_a_benchmark_fits():
     found = bench_lines.bench_record().lines
     for line in found:
         assert violations(line, RECORD, closed=True) == []
-    assert {line["type"] for line in found} == OF_A_BENCHMARK
+    assert {line["type"] for line in found} == OF_A_BENCHMARK - {"refused"}
 
 
 def test_the_older_schema_is_part_of_the_newer():
     older = schema("record-1.0.0.json")
-    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | {"grid", "ratio", "ratios"}
+    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | {"grid", "ratio", "ratios", "load"}
     alike = older["$defs"].keys() - {"limits"}  # null was added to them
     assert {name: RECORD["$defs"][name] for name in alike} == {name: older["$defs"][name] for name in alike}
 
@@ -137,8 +144,8 @@ def test_lines_of_the_derivation_have_the_fields_of_their_values(kind, type_):
 def test_a_timing_line_is_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
     contender = Contender("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
-    *_, (_, (timing,)) = measure([contender], rows, 2, shortest_s=1e-6)
-    line = {"type": "timing", "workload": "w", "median_ns": timing.median_ns, **json.loads(json.dumps(asdict(timing)))}
+    *_, (_, (timing,)) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
+    line = {"type": "timing", **json.loads(json.dumps(timing_line(contender, timing)))}
     assert violations(line, RECORD, closed=True) == []
 
 

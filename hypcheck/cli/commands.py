@@ -14,6 +14,7 @@ from hypcheck.version import VERSION
 COMMANDS = {
     "classify": "hypcheck.cli.classify:classify",
     "verify": "hypcheck.cli.verify:verify",
+    "bench": "hypcheck.cli.bench:bench",
     "cases": "hypcheck.cli.cases:cases",
     "hunt": "hypcheck.cli.hunt:hunt",
     "minimise": "hypcheck.cli.minimise:minimise",

@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache, partial
 
-import numpy as np
-
-from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.formulas import FORMULAS, Formula, answers
+from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
 from hypcheck.kernel import numpy_path
 from hypcheck.methods.domain import EVERYWHERE, Domain
 from hypcheck.methods.dual import dual_positions
 from hypcheck.methods.fcl_naive import ellipsoid_mesh, point_mesh, sphere_mesh
+from hypcheck.methods.formula import by_rows
+from hypcheck.methods.measured import measured_methods
 from hypcheck.methods.method import Answers, Method
-from hypcheck.pairs import COLUMNS
 from hypcheck.rows import Rows
 from hypcheck.truth.mesh import availability as fcl_trouble
 
@@ -31,19 +29,13 @@ NAIVE_FCL = (
 )
 
 
-def _formula_answers(rows: Rows, formula: Formula, precision: str) -> Answers:
-    columns = dict(zip(COLUMNS, rows.T, strict=True))
-    return np.asarray(answers(formula, float_arithmetic(precision), columns), dtype=np.int8)
-
-
 def _of_formula(formula: Formula, precision: str) -> Method:
-    by_rows = partial(_formula_answers, formula=formula, precision=precision)
     return Method(
         name=f"{formula.name}-{precision}",
         title=f"{formula.title}, {precision}",
         question=formula.question,
         precision=precision,
-        answer=partial(dual_positions, precision=precision) if formula.name == "dual" else by_rows,
+        answer=partial(dual_positions, precision=precision) if formula.name == "dual" else by_rows(formula, precision),
         domain=Domain(regimes=formula.regimes),
     )
 
@@ -64,7 +56,8 @@ def _without_fcl() -> dict[str, Method]:
         exact=True,
     )
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
-    methods = [fast, *(_of_formula(formula, precision) for precision in PRECISIONS for formula in formulas)]
+    ours = (_of_formula(formula, precision) for precision in PRECISIONS for formula in formulas)
+    methods = [fast, *ours, *measured_methods()]
     return {method.name: method for method in methods}
 
 

@@ -6,6 +6,7 @@ evaluation of φ; how λ was found matters for false contacts alone (docs/mathem
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,9 @@ from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import cut
+from hypcheck.methods.formula import Sizes, in_chunks
 from hypcheck.methods.method import Answers
-from hypcheck.pairs import COLUMNS
+from hypcheck.pairs import COLUMNS, SIZES
 from hypcheck.rows import Rows
 
 Floats = NDArray[Any]
@@ -32,17 +34,30 @@ _PHI = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
 
 def dual_positions(rows: Rows, precision: str) -> Answers:
     """Positions by the dual form with everything, the search included, in one float format; int8 (n,)."""
-    found = searched(rows, precision)
-    (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
-    return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
+    return in_chunks(len(rows), lambda part: _sides(dict(zip(COLUMNS, rows[part].T, strict=True)), precision))
+
+
+def dual_by_scene(precision: str, sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+    """The same for many centres and one α, γ, b, d."""
+    fixed = dict(zip(SIZES, sizes, strict=True))
+    return in_chunks(len(x), lambda part: _sides({**fixed, "x": x[part], "y": y[part], "z": z[part]}, precision))
 
 
 def searched(rows: Rows, precision: str) -> dict[str, Floats]:
     """The columns in a float format, and the distances of the best λ that is found in it: (n,) each."""
+    return _searched(dict(zip(COLUMNS, rows.T, strict=True)), precision)
+
+
+def _searched(columns: Mapping[str, Floats | float], precision: str) -> dict[str, Floats]:
+    rounded = {name: np.asarray(columns[name], dtype=precision) for name in COLUMNS}
     with np.errstate(all="ignore"):
-        columns = dict(zip(COLUMNS, rows.astype(precision).T, strict=True))
-        distances = _best_multiplier(*(columns[name] for name in COLUMNS))
-    return {**columns, **dict(zip(DISTANCES, distances, strict=True))}
+        return {**rounded, **dict(zip(DISTANCES, _best_multiplier(**rounded), strict=True))}
+
+
+def _sides(columns: Mapping[str, Floats | float], precision: str) -> Answers:
+    found = _searched(columns, precision)
+    (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
+    return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
 
 
 def _best_multiplier(

@@ -20,7 +20,8 @@ class Method:
 
     `question` and `precision` are those of judge.Criterion; `domain` is where the method claims to be right; `answer`
     maps valid rows, float64 (n, 7), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes and no.
-    `exact` marks a method that promises never to be wrong; `most` limits a slow one's rows of each family.
+    `exact` marks a method that promises never to be wrong; `most` limits a slow one's rows of each family. `measured`
+    marks one that `verify` leaves to `bench`: it stands beside the paper's methods, and its errors are no finding.
     """
 
     name: str
@@ -31,3 +32,4 @@ class Method:
     domain: Domain
     exact: bool = False
     most: int | None = None
+    measured: bool = False

@@ -4,7 +4,7 @@ The first line is a header, the last a footer; a file without its footer was int
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
 
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
-declared; 1.2.0 adds a checksum to each line.
+declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused.
 """
 
 from __future__ import annotations

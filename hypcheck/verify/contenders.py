@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
-from hypcheck.bench.timing import Contender
+from hypcheck.bench.rounds import Entry, Samples, clocked
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.kernel import numpy_path
 from hypcheck.methods.fcl_naive import point_mesh
 from hypcheck.methods.method import Answers
+from hypcheck.methods.roots import by_numpy
 from hypcheck.rows import CANNOT_SAY, Rows
 from hypcheck.verify.opinions import ORACLES
 
 WORKLOAD = "tower-body"
 ROWS = 100_000
 FAST, PLAIN = "fast path", "plain numpy formula"
+
+
+@dataclass(frozen=True)
+class Contender:
+    """Something to be timed: `run` answers the first `count` rows of the workload it is given."""
+
+    name: str
+    title: str
+    run: Callable[[Rows], Answers]
+    count: int
+
+    def entry(self, rows: Rows) -> Entry:
+        """It, ready to be timed on those rows."""
+        part = rows[: self.count]
+        return Entry(self.name, len(part), clocked(lambda: self.run(part)))
 
 
 def workload(seed: int) -> Rows:
@@ -27,7 +47,7 @@ def contenders() -> list[Contender]:
     found = [
         Contender(FAST, "certified floats, integers where they cannot tell; exact", _fast, ROWS),
         Contender(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain, ROWS),
-        Contender("numpy.roots", "eigenvalues of the companion matrix, one call a row; not certified", _roots, 200),
+        Contender("numpy.roots", "eigenvalues of the companion matrix, one call a row; not certified", by_numpy, 200),
     ]
     if ORACLES["mesh"].available() is None:
         found += [
@@ -35,6 +55,20 @@ def contenders() -> list[Contender]:
             Contender("FCL certified", "two one-sided meshes built for each row; contact or clear only", _mesh, 60),
         ]
     return found
+
+
+def line(contender: Contender, timing: Samples) -> dict[str, Any]:
+    """The record's line about one contender."""
+    return {
+        "workload": WORKLOAD,
+        "median_ns": timing.median_ns,
+        "name": timing.name,
+        "title": contender.title,
+        "rows": timing.rows,
+        "loops": timing.loops,
+        "samples_ns": timing.samples_ns,
+        "checksum": timing.checksum,
+    }
 
 
 def _fast(rows: Rows) -> Answers:
@@ -54,19 +88,6 @@ def _plain(rows: Rows) -> Answers:
     delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
     clear, outside = delta > 0, (c2 < 0) & (c1 > 0)
     return np.where(clear, np.where(outside, 1, -1), 0).astype(np.int8)
-
-
-def _roots(rows: Rows) -> Answers:
-    """The roots of g by numpy.roots: three real ones and their signs, as [10] is read in floats."""
-    A, B = (rows[:, 0] / rows[:, 2]) ** 2, (rows[:, 1] / rows[:, 3]) ** 2
-    P, Q = (rows[:, 4] ** 2 + rows[:, 5] ** 2) / rows[:, 2] ** 2, (rows[:, 6] / rows[:, 3]) ** 2
-    c0, c1, c2 = -A * B, B * (P - A - 1) + A * (1 - Q), A - B + 1 - P - Q
-    found = np.empty(len(rows), dtype=np.int8)
-    for index, coefficients in enumerate(np.column_stack([np.ones(len(rows)), c2, c1, c0])):
-        values = np.roots(coefficients)
-        real = not np.iscomplexobj(values) or bool((values.imag == 0).all())
-        found[index] = 0 if not real else (1 if (values.real > 0).all() else -1)
-    return found
 
 
 def _mesh(rows: Rows) -> Answers:

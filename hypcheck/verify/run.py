@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from hypcheck import judge
-from hypcheck.bench.timing import measure
+from hypcheck.bench.rounds import measure
 from hypcheck.derivation.printed import check_equations
 from hypcheck.derivation.proofs import prove_formulas
 from hypcheck.judge import Status
@@ -57,7 +57,7 @@ def stages(plan: Plan, recorder: Recorder, outcome: Outcome) -> tuple[Stage, ...
     """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
     families = chosen_families(plan)
     all_batches = batches(plan, families)
-    methods = tuple(builtin_methods().values())
+    methods = tuple(method for method in builtin_methods().values() if not method.measured)
     todo = crosscheck.tasks(_with_available(plan, recorder), all_batches)
     formulas = findings.exact_formulas()
     return (
@@ -164,11 +164,11 @@ def _draw(recorder: Recorder, advance: Advance) -> None:
 
 
 def _time(plan: Plan, recorder: Recorder, advance: Advance) -> None:
-    rows = contenders.workload(plan.seed)
-    for _, timings in measure(contenders.contenders(), rows, ROUNDS):
+    rows, found = contenders.workload(plan.seed), contenders.contenders()
+    for _, timings in measure([each.entry(rows) for each in found], ROUNDS):
         advance(1)
-        for timing in timings:
-            recorder.add("timing", workload=contenders.WORKLOAD, median_ns=timing.median_ns, **asdict(timing))
+        for contender, timing in zip(found, timings, strict=False):
+            recorder.add("timing", **contenders.line(contender, timing))
 
 
 def options(plan: Plan) -> Mapping[str, Any]:

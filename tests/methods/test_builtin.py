@@ -12,6 +12,7 @@ from hypcheck.judge import Criterion
 from hypcheck.methods.builtin import builtin, builtin_methods
 from hypcheck.methods.domain import representable
 from hypcheck.methods.questions import UNIT_ROUNDOFF, allowed
+from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth import batch
 
 
@@ -23,14 +24,15 @@ def rows():
 @pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
 def test_a_method_answers_its_question_with_allowed_answers(name, rows):
     method = builtin(name)
-    answers = method.answer(rows)
+    some = rows if method.most is None else rows[:: 1 + 10 * len(rows) // (method.most * 28)]
+    answers = method.answer(some)
     assert answers.dtype == np.int8
-    assert answers.shape == (len(rows),)
-    assert set(answers.tolist()) <= set(allowed(method.question))
+    assert answers.shape == (len(some),)
+    assert set(answers.tolist()) <= {*allowed(method.question), CANNOT_SAY}
 
 
 def test_the_exact_method_is_exact(rows):
-    (exact,) = [method for method in builtin_methods().values() if method.exact]
+    (exact,) = [method for method in builtin_methods().values() if method.exact and not method.measured]
     assert (exact.answer(rows) == batch.positions(rows)).all()
 
 

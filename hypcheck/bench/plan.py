@@ -1,0 +1,102 @@
+"""What one run of bench is asked to do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from hypcheck.errors import InputError
+from hypcheck.methods.limits import Limits
+
+REFERENCE = "table-2-float64"
+"""The method whose time every ratio is relative to: the paper's own formula in numpy, which runs everywhere."""
+
+
+@dataclass(frozen=True, slots=True)
+class Amounts:
+    """How much is done: what makes a run full or quick.
+
+    `judged` rows of each workload are asked of a fast method, `timed` rows make a timed batch; `sample_s` is what a
+    sample lasts at least, in a batch; `cell` rows fill a cell of a stability map; a map of places has `map_lines`
+    lines; `bodies` positions along flights are asked of the procedures; `most_triangles` bounds the meshes.
+    """
+
+    judged: int
+    timed: int
+    sample_s: float
+    cell: int
+    map_lines: int
+    bodies: int
+    most_triangles: int
+    memory: bool
+
+
+FULL = Amounts(
+    judged=12_000,
+    timed=49_152,
+    sample_s=0.008,
+    cell=48,
+    map_lines=61,
+    bodies=16_384,
+    most_triangles=100_000,
+    memory=True,
+)
+QUICK = Amounts(
+    judged=1_500, timed=16_384, sample_s=0.002, cell=8, map_lines=31, bodies=4_096, most_triangles=1_000, memory=False
+)
+
+
+@dataclass(frozen=True, slots=True)
+class BenchPlan:
+    """Options of a run.
+
+    `specs` name implementations to be measured beside the built-in methods; `methods` and `workloads` are names and
+    globs that choose (none: all). Times come from `rounds` rounds in each of `processes` fresh processes. `baseline` is
+    a record to be held to: a method may be `max_slowdown` times slower against the reference than it was there.
+    """
+
+    specs: tuple[str, ...] = ()
+    methods: tuple[str, ...] = ()
+    workloads: tuple[str, ...] = ()
+    quick: bool = False
+    seed: int = 1
+    processes: int = 5
+    rounds: int = 5
+    workers: int = 2
+    baseline: Path | None = None
+    max_slowdown: float = 1.1
+    kernel: bool = False
+    limits: Limits = field(default_factory=Limits)
+
+    def __post_init__(self) -> None:
+        if self.max_slowdown < 1:
+            raise InputError(f"--max-slowdown is {self.max_slowdown:g}; it must be 1 or more, as in 1.10 for 10 %")
+
+    @property
+    def amounts(self) -> Amounts:
+        """How much this run does."""
+        return QUICK if self.quick else FULL
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The plan as the record's header shows it."""
+        shown = {name: value for name, value in asdict(self).items() if name != "limits"}
+        baseline = None if self.baseline is None else str(self.baseline)
+        return {"command": "bench", **shown, "baseline": baseline, "reference": REFERENCE}
+
+
+def chosen(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:
+    """The names that the patterns reach, in their own order; all of them without a pattern.
+
+    Raises InputError for a pattern that names nothing.
+    """
+    for pattern in patterns:
+        if not any(fnmatchcase(name, pattern) for name in names):
+            near = get_close_matches(pattern, names, n=3, cutoff=0.5)
+            hint = f"near to it: {', '.join(near)}" if near else f"there are {', '.join(names)}"
+            raise InputError(f"there is no {noun} {pattern!r}; {hint}")
+    return [name for name in names if not patterns or any(fnmatchcase(name, pattern) for pattern in patterns)]

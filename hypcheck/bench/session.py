@@ -1,0 +1,136 @@
+"""One fresh process that measures: every method checked, then all of them in rounds, workload by workload."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.bench.accuracy import chosen_workloads, print_of, timed_rows
+from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.bench.rounds import Entry, Samples, measure
+from hypcheck.bench.ways import Empty, Prepared, Way
+from hypcheck.bench.workloads import Workload
+from hypcheck.rows import Rows
+
+MODES: Mapping[str, Callable[[Way, Rows], Prepared | None]] = {
+    "batch": lambda way, rows: way.batch(rows),
+    "single": lambda way, rows: way.single(rows),
+    "build": lambda way, rows: way.build(rows),
+}
+"""What is timed of a method: many rows by one call, rows one by one, and what is built before."""
+
+AGAIN = f"{REFERENCE} again"
+"""The reference a second time: what separates it from itself is noise."""
+
+LEAST_NS = 0.01
+"""What is left at least of a time from which an empty call was taken off."""
+
+Key = tuple[str, str, str]
+"""A method, a workload and a mode."""
+
+
+@dataclass(frozen=True)
+class Session:
+    """What one process is to measure.
+
+    `expected` are the prints of the answers by method, workload and mode; a method whose answers have another print is
+    refused. `loops` are those of the first process, for all to do alike; it is given none.
+    """
+
+    plan: BenchPlan
+    number: int
+    expected: Mapping[Key, str]
+    loops: Mapping[Key, int]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What one process measured of one method, workload and mode; `empty_ns` is taken off the samples already."""
+
+    key: Key
+    samples: Samples
+    empty_ns: float
+    timed_by: str
+
+
+@dataclass(frozen=True)
+class _Field:
+    """Those that are measured together: ready, and the empty calls that are taken off them, by their names."""
+
+    where: tuple[str, str]
+    ready: dict[str, Prepared]
+    empties: dict[str, Prepared]
+    empty_of: dict[str, str]
+    refused: list[Measured]
+
+
+def run(session: Session) -> list[Measured]:
+    """Everything, in the order of workloads and modes."""
+    found = contenders(session.plan)
+    ways = {name: each.load() for name, each in found.items() if not each.accuracy_only}
+    measured = []
+    try:
+        for workload in chosen_workloads(session.plan):
+            for mode in MODES if workload.timed else ():
+                field = _field(session, found, ways, workload, mode)
+                measured += [*field.refused, *_measured(session, field)]
+    finally:
+        for way in ways.values():
+            way.close()
+    return measured
+
+
+def _field(
+    session: Session, found: Mapping[str, Contender], ways: Mapping[str, Way], workload: Workload, mode: str
+) -> _Field:
+    field = _Field((workload.name, mode), {}, {}, {}, [])
+    for name, way in ways.items():
+        rows = timed_rows(session.plan, found[name], workload)
+        ready = MODES[mode](way, rows)
+        if ready is None:
+            continue
+        key = (name, *field.where)
+        told = session.expected.get(key)
+        if told is not None and print_of(ready.answers()) != told:
+            reason = "its answers, when it was about to be timed, were not those that were judged"
+            field.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
+            continue
+        field.ready[name] = ready
+        _with_empty(field, name, way.empty(rows, mode))
+    return field
+
+
+def _with_empty(field: _Field, name: str, empty: Empty | None) -> None:
+    if empty is not None:
+        field.empty_of[name] = f"an empty call of {empty.name}"
+        field.empties.setdefault(field.empty_of[name], empty.ready)
+
+
+def _measured(session: Session, field: _Field) -> Iterator[Measured]:
+    if not field.ready:
+        return
+    todo = {**field.ready, **({AGAIN: field.ready[REFERENCE]} if REFERENCE in field.ready else {})}
+    samples = _rounds(session, {**todo, **field.empties}, field.where)
+    for name, ready in todo.items():
+        found = samples[name]
+        empty = samples.get(field.empty_of.get(REFERENCE if name == AGAIN else name, ""))
+        empty_ns = empty.median_ns if empty is not None else 0.0
+        off = empty_ns if field.where[1] == "single" else empty_ns / ready.rows
+        found.samples_ns = [max(LEAST_NS, sample - off) for sample in found.samples_ns]
+        yield Measured((name, *field.where), found, empty_ns, ready.timed_by)
+    for name in field.empties:
+        yield Measured((name, *field.where), samples[name], 0.0, "process")
+
+
+def _rounds(session: Session, todo: Mapping[str, Prepared], where: tuple[str, str]) -> dict[str, Samples]:
+    entries = [
+        Entry(name, each.rows, each.run, int(each.answers().sum(dtype=np.int64)), session.loops.get((name, *where)))
+        for name, each in todo.items()
+    ]
+    first = session.number * len(entries) // max(1, session.plan.processes)
+    shortest = session.plan.amounts.sample_s
+    *_, (_, samples) = measure(entries, session.plan.rounds, shortest, first)
+    return {each.name: each for each in samples}

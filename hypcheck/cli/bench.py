@@ -1,0 +1,64 @@
+"""`hypcheck bench`: options into a plan, the run under a progress bar, the reports, the exit code."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hypcheck.cli.recording import Part, record_and_report
+
+
+@click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
+@click.argument("specs", nargs=-1, metavar="[SPEC]...")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("reports/bench"), show_default=True)
+@click.option("--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes.")
+@click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
+@click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
+@click.option("--processes", type=click.IntRange(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
+@click.option("--rounds", type=click.IntRange(1), help="Rounds in each process.  [default: 5; quick: 3]")
+@click.option("--workers", type=click.IntRange(1), help="Processes that judge.  [default: one a processor]")
+@click.option("--baseline", type=click.Path(path_type=Path), help="A record of an earlier run to be held to.")
+@click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
+@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets instead.")
+@click.pass_context
+def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
+    """Compare methods by error and by run time, on the same rows.
+
+    Every method is judged by the flip distance of the rows it gets wrong, then timed in fresh processes, in rounds that
+    take all methods in turn. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
+
+    With --baseline, times relative to the reference method are held to those of an earlier record, of this machine or
+    another. Ends with 0 when all held, 1 when a method that promises to be exact erred or answered otherwise while it
+    was timed, 3 when one is slower than allowed, 4 when the machine was too noisy to tell, 5 when a SPEC could not be
+    started.
+    """
+    from hypcheck.bench import run
+    from hypcheck.bench.plan import BenchPlan
+    from hypcheck.cli.verify import names_in
+    from hypcheck.verify.run import default_workers
+
+    quick = options["quick"]
+    plan = BenchPlan(
+        specs=specs,
+        methods=names_in(options["methods"]),
+        workloads=names_in(options["workloads"]),
+        quick=quick,
+        seed=options["seed"],
+        processes=options["processes"] or (3 if quick else 5),
+        rounds=options["rounds"] or (3 if quick else 5),
+        workers=options["workers"] or default_workers(),
+        baseline=options["baseline"],
+        max_slowdown=options["max_slowdown"],
+        kernel=options["kernel"],
+    )
+    outcome = run.BenchOutcome()
+    record_and_report(
+        options["out"],
+        plan.options,
+        lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
+        lambda: outcome.exit_code,
+    )
+    context.exit(outcome.exit_code)

@@ -1,0 +1,104 @@
+"""From answers to errors by flip distance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck import judge
+from hypcheck.bench.accuracy import Answered, Known, by_octave, line, mistakes_of, reliable_above
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.judge import Mistake
+from hypcheck.rows import CANNOT_SAY
+from hypcheck.truth import batch
+
+INF = math.inf
+
+
+@pytest.fixture(scope="module")
+def truth():
+    workload = WORKLOADS["near-contact"]
+    rows = workload.rows(5, 120)
+    return Known(workload, rows, batch.positions(rows), judge.flip_octaves(rows))
+
+
+@pytest.fixture(scope="module")
+def contender():
+    return contenders(BenchPlan())["fast-numpy"]
+
+
+def answered(truth, answers):
+    return Answered("fast-numpy", truth.workload.name, np.arange(len(truth.rows)), answers, "", "")
+
+
+def test_right_answers_make_no_error(contender, truth):
+    found = line(contender, answered(truth, truth.positions), truth)
+    assert (found["asked"], found["wrong"], found["abstained"]) == (120, 0, 0)
+    assert (found["reliable_above"], found["worst"]) == (0.0, [])
+    assert sum(number for _, number, _ in found["octaves"]) == 120
+
+
+def test_what_is_not_said_is_not_wrong(contender, truth):
+    answers = truth.positions.copy()
+    answers[:7] = CANNOT_SAY
+    found = line(contender, answered(truth, answers), truth)
+    assert (found["wrong"], found["abstained"]) == (0, 7)
+
+
+def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender, truth):
+    place = int(np.flatnonzero(truth.positions == 1)[0])
+    answers = truth.positions.copy()
+    answers[place] = 0
+    found = line(contender, answered(truth, answers), truth)
+    assert (found["wrong"], found["false_contact"], found["false_clear"], found["wrong_side"]) == (1, 1, 0, 0)
+    assert [octave for octave, _, wrong in found["octaves"] if wrong] == [int(truth.octaves[place])]
+    (worst,) = found["worst"]
+    assert [float.fromhex(value) for value in worst["row"]] == truth.rows[place].tolist()
+    assert (worst["truth"], worst["answer"], worst["case"]) == (1, 0, f"near-contact/{place}")
+    assert 2.0 ** truth.octaves[place] <= worst["flip_distance"] <= 2.0 ** (truth.octaves[place] + 1)
+
+
+def test_a_one_sided_question_is_judged_as_such(contender, truth):
+    one_sided = replace(contender, question="exterior")
+    answers = (truth.positions == 1).astype(np.int8)
+    assert line(one_sided, answered(truth, answers), truth)["wrong"] == 0
+    found = line(one_sided, answered(truth, 1 - answers), truth)
+    assert found["wrong"] == 120
+    assert found["false_clear"] == np.count_nonzero(truth.positions == 0)
+    assert found["wrong_side"] == np.count_nonzero(truth.positions == -1)
+
+
+def test_mistakes_by_what_they_mean():
+    positions = np.array([0, 0, 1, 1, -1], dtype=np.int8)
+    found = mistakes_of(positions, np.array([1, -1, 0, -1, 0], dtype=np.int8), "position")
+    assert found == {Mistake.FALSE_CLEAR: 2, Mistake.FALSE_CONTACT: 2, Mistake.WRONG_SIDE: 1}
+
+
+def test_octaves_ascend_from_tangencies():
+    octaves = np.array([-3.0, -INF, -3.0, -40.0])
+    wrong = np.array([True, True, False, False])
+    assert by_octave(octaves, wrong) == [["-inf", 1, 1], [-40, 1, 0], [-3, 2, 1]]
+
+
+@pytest.mark.parametrize(
+    ("octaves", "wrong", "edge"),
+    [
+        ([-1, -2, -3], [], 0.0),
+        ([-1, -2, -3], [0], INF),
+        ([-1, -2, -3], [2], 2.0**-2),
+        ([-1, -2, -INF], [2], 2.0**-2),
+        ([-INF, -INF], [0], INF),
+        ([-1] * 1000 + [-5] * 1000, [1000], 2.0**-5),
+        ([-1] * 1000 + [-5] * 1000, [1000, 1001, 1002], 2.0**-1),
+        ([-1] * 1000 + [-5] * 1000, [0, 1, 1000], INF),
+    ],
+)
+def test_above_the_edge_at_most_one_in_a_thousand_is_wrong(octaves, wrong, edge):
+    mask = np.zeros(len(octaves), dtype=bool)
+    mask[wrong] = True
+    assert reliable_above(np.array(octaves, dtype=float), mask) == edge

@@ -1,0 +1,109 @@
+"""Rounds: every entry once in each, in rotated order, with calibrated loops, and no time for who answers otherwise."""
+
+from __future__ import annotations
+
+import gc
+
+import numpy as np
+import pytest
+
+from hypcheck.bench.rounds import MOST_LOOPS, Entry, clocked, measure
+
+
+class Clock:
+    """Work that takes as long as it is told, and remembers when it was asked."""
+
+    def __init__(self, name, order, ns=1000, checksums=(7,)):
+        self.name, self.order, self.ns, self.checksums = name, order, ns, list(checksums)
+        self.repeats = []
+
+    def __call__(self, repeat):  # noqa: D102 - the class says it
+        self.order.append(self.name)
+        self.repeats.append(repeat)
+        return repeat * self.ns, self.checksums.pop(0) if len(self.checksums) > 1 else self.checksums[0]
+
+
+def measured(entries, rounds=3, **options):
+    *_, (done, samples) = measure(entries, rounds, **options)
+    assert done == rounds
+    return {each.name: each for each in samples}
+
+
+def test_each_round_begins_with_another_and_leaves_none_out():
+    order = []
+    names = ["a", "b", "c"]
+    entries = [Entry(name, 10, Clock(name, order), loops=1) for name in names]
+    measured(entries, rounds=4, first=1)
+    assert "".join(order[3:]) == "bca" + "cab" + "abc" + "bca"
+
+
+def test_loops_make_a_sample_of_the_length_that_is_asked_for():
+    found = measured([Entry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
+    assert found.loops == 1000
+    assert found.samples_ns == [250.0] * 3
+    assert found.median_ns == 250.0
+
+
+def test_slow_work_is_done_once_a_sample():
+    clock = Clock("a", [], ns=10**8)
+    assert measured([Entry("a", 1, clock)], shortest_s=1e-3)["a"].loops == 1
+    assert clock.repeats == [1, 1, 1, 1]
+
+
+def test_a_clock_that_stands_still_does_not_hang():
+    assert measured([Entry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
+
+
+def test_given_loops_are_kept():
+    assert measured([Entry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
+
+
+def test_who_answers_otherwise_while_it_is_timed_is_refused_and_no_longer_asked():
+    order = []
+    changing = Clock("b", order, checksums=[7, 7, 8])
+    found = measured([Entry("a", 1, Clock("a", order), 7, 1), Entry("b", 1, changing, 7, 1)], rounds=5)
+    assert found["a"].refused is None
+    assert len(found["a"].samples_ns) == 5
+    assert found["b"].refused == "its answers summed to 8 while it was timed; they must sum to 7"
+    assert len(found["b"].samples_ns) == 1
+    assert order.count("b") == 3
+
+
+def test_a_first_answer_that_is_not_the_expected_one_is_refused():
+    found = measured([Entry("a", 1, Clock("a", [], checksums=[6]), 7, 1)])["a"]
+    assert found.refused is not None
+    assert found.samples_ns == []
+
+
+def test_work_in_this_process_is_repeated_and_summed_once():
+    done = []
+
+    def work():
+        done.append(1)
+        return np.array([1, 1, -1, 1], dtype=np.int8)
+
+    took, checksum = clocked(work)(5)
+    assert took >= 0
+    assert (len(done), checksum) == (5, 2)
+
+
+def test_a_sum_beyond_int8_is_right():
+    assert clocked(lambda: np.ones(1000, dtype=np.int8))(1)[1] == 1000
+
+
+@pytest.mark.parametrize("enabled", [True, False])
+def test_garbage_collection_is_off_in_a_round_and_as_before_after_it(enabled):
+    seen = []
+
+    def work(repeat):
+        seen.append(gc.isenabled())
+        return 1, 0
+
+    before = gc.isenabled()
+    (gc.enable if enabled else gc.disable)()
+    try:
+        measured([Entry("a", 1, work, loops=1)])
+        assert gc.isenabled() is enabled
+        assert seen[1:] == [False] * 3
+    finally:
+        (gc.enable if before else gc.disable)()

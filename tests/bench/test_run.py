@@ -1,0 +1,116 @@
+"""A run of bench as a whole, on few methods: what it records, and how it ends."""
+
+from __future__ import annotations
+
+import json
+from importlib import resources
+
+import pytest
+from click.testing import CliRunner
+
+from hypcheck.bench import run
+from hypcheck.bench.plan import REFERENCE
+from hypcheck.cli.bench import bench
+from hypcheck.errors import InputError
+from hypcheck.record import SCHEMA, read
+from tests.json_schema import violations
+
+SMALL = ["--quick", "--processes", "2", "--rounds", "2", "--workers", "1"]
+METHODS = ["--methods", "fast-numpy,table-2-float16,bounding-cylinder"]
+RECORD = json.loads(
+    resources.files("hypcheck.report").joinpath("schemas", f"record-{SCHEMA}.json").read_text(encoding="utf-8")
+)
+
+
+def ended(folder, *options):
+    """The exit code and the record of a run."""
+    result = CliRunner().invoke(bench, ["--out", str(folder), *SMALL, *options], standalone_mode=False)
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    record = read(folder / "record.jsonl")
+    return record.footer["exit_code"], record
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    return ended(tmp_path_factory.mktemp("bench"), *METHODS, "--workloads", "uniform,ring")
+
+
+def test_it_ends_well_and_every_line_fits_the_schema(small):
+    code, record = small
+    assert code == 0
+    for line in record.lines:
+        assert violations(line, RECORD, closed=True) == []
+    assert violations(record.header, RECORD, closed=True) == []
+    assert record.header["options"]["command"] == "bench"
+    assert record.header["options"]["reference"] == REFERENCE
+
+
+def test_what_was_chosen_is_compared_and_the_reference_with_it(small):
+    _, record = small
+    assert [line["method"] for line in record.of("method")] == [
+        REFERENCE,
+        "table-2-float16",
+        "fast-numpy",
+        "bounding-cylinder",
+    ]
+    assert [line["workload"] for line in record.of("workload")] == ["uniform", "ring"]
+
+
+def test_every_method_is_judged_on_every_workload(small):
+    _, record = small
+    judged = {(line["method"], line["workload"]): line for line in record.of("accuracy")}
+    assert len(judged) == 8
+    assert judged["fast-numpy", "ring"]["wrong"] == 0
+    assert judged[REFERENCE, "ring"]["wrong"] > 0
+    assert judged["table-2-float16", "uniform"]["reliable_above"] > judged[REFERENCE, "uniform"]["reliable_above"]
+
+
+def test_methods_are_timed_in_every_process_and_round(small):
+    _, record = small
+    timed = {(line["method"], line["workload"], line["mode"]): line for line in record.of("speed")}
+    assert {key[1] for key in timed} == {"uniform"}
+    assert {key[0] for key in timed} == {REFERENCE, "fast-numpy", "bounding-cylinder"}
+    assert {key[2] for key in timed} == {"batch", "single"}
+    for line in timed.values():
+        assert [len(part) for part in line["samples_ns"]] == [2, 2]
+        low, high = line["ratio_ci95"]
+        assert low <= line["ratio"] <= high
+    assert timed[REFERENCE, "uniform", "batch"]["ratio"] == 1.0
+
+
+def test_a_call_of_numpy_for_one_row_costs_more_than_a_row_in_a_batch(small):
+    _, record = small
+    timed = {(line["method"], line["mode"]): line["median_ns"] for line in record.of("speed")}
+    assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]
+
+
+def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
+    _, record = small
+    kinds = [line["type"] for line in record.lines if line["type"] in ("noise", "speed")]
+    assert kinds[:2] == ["noise", "noise"]
+    for line in record.of("noise"):
+        low, high = line["ratio_ci95"]
+        assert line["floor"] == pytest.approx(max(high, 1 / low) - 1)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; near to it: table-2-float32"),
+        (["--workloads", "everywhere"], "there is no workload 'everywhere'"),
+        (["--max-slowdown", "0.9"], "--max-slowdown is 0.9; it must be 1 or more"),
+    ],
+)
+def test_what_does_not_exist_is_refused_and_nothing_is_written(tmp_path, options, message):
+    with pytest.raises(InputError, match=message):
+        ended(tmp_path, *options)
+    assert not list(tmp_path.glob("record*"))
+
+
+def test_reasons_to_end_have_an_order():
+    outcome = run.BenchOutcome()
+    for code, found in ((4, outcome.inconclusive), (3, outcome.slower), (1, outcome.wrong), (5, outcome.not_started)):
+        found.append("a reason")
+        assert outcome.exit_code == code
+    assert run.BenchOutcome().exit_code == 0

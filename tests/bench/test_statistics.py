@@ -1,0 +1,85 @@
+"""The intervals: they hold what they are to hold as often as they say, and are the same for the same samples."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.bench.statistics import Estimate, estimate, ratios
+
+DRAWN = 300
+
+
+def coverage(processes, rounds, between, within, median=1.0):
+    """How often the interval holds the true median of log-normal samples."""
+    generator = np.random.default_rng(7)
+    held = 0
+    for _ in range(DRAWN):
+        level = generator.normal(0, between, (processes, 1))
+        found = estimate((median * np.exp(level + generator.normal(0, within, (processes, rounds)))).tolist())
+        held += found.low <= median <= found.high
+    return held / DRAWN
+
+
+@pytest.mark.parametrize("median", [1e-3, 1.0, 250.0])
+def test_where_rounds_alone_differ_the_interval_holds_the_median(median):
+    assert coverage(5, 5, 0.0, 0.02, median) >= 0.94
+
+
+def test_where_processes_differ_as_much_as_rounds_it_still_does():
+    assert coverage(5, 5, 0.02, 0.02) >= 0.90
+
+
+def test_where_processes_alone_differ_five_of_them_are_few_and_the_interval_is_known_to_fall_short():
+    assert 0.75 <= coverage(5, 5, 0.05, 0.001) <= 0.96
+
+
+def test_rounds_of_one_process_do_not_pass_for_as_many_processes():
+    """Levels differ by 5 %, rounds by nothing: an interval from the 25 numbers as such would be far too narrow."""
+    levels = [1.0, 1.05, 0.95, 1.02, 0.97]
+    found = estimate([[level] * 5 for level in levels])
+    assert found.median == 1.0
+    assert found.low <= 0.97
+    assert found.high >= 1.02
+
+
+def test_the_interval_shrinks_with_more_rounds():
+    generator = np.random.default_rng(3)
+
+    def width(rounds):
+        found = estimate(np.exp(generator.normal(0, 0.05, (7, rounds))).tolist())
+        return found.high - found.low
+
+    assert width(3) > 3 * width(300)
+
+
+def test_it_is_an_interval_about_the_median_and_the_same_each_time():
+    samples = [[3.0, 1.0, 2.0], [5.0, 4.0]]
+    assert estimate(samples) == estimate(samples)
+    found = estimate(samples)
+    assert found.median == 3.0
+    assert 1.0 <= found.low <= found.median <= found.high <= 5.0
+
+
+def test_a_single_sample_is_its_own_interval():
+    assert estimate([[4.0]]) == Estimate(4.0, 4.0, 4.0)
+    with pytest.raises(ValueError, match="no sample"):
+        estimate([[], []])
+
+
+def test_ratios_pair_the_rounds():
+    assert ratios([[2.0, 6.0], [8.0]], [[1.0, 2.0], [4.0]]) == [[2.0, 3.0], [2.0]]
+
+
+def test_a_slow_moment_of_the_machine_does_not_show_in_ratios():
+    """The whole machine is three times slower in one round: both are, so their ratio is not."""
+    slow = np.array([[1.0, 3.0, 1.0], [1.0, 1.0, 3.0]])
+    found = estimate(ratios((2 * slow).tolist(), slow.tolist()))
+    assert found == Estimate(2.0, 2.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "width"), [(0.98, 1.01, 1 / 0.98 - 1), (0.99, 1.05, 0.05), (1, 1, 0), (0, 1, np.inf)]
+)
+def test_the_half_width_is_the_farther_side_as_a_factor(low, high, width):
+    assert Estimate(1.0, low, high).half_width == pytest.approx(width)

@@ -1,0 +1,51 @@
+"""The rows that methods are compared on are the ones that are promised."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck import judge
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
+from hypcheck.rows import first_trouble
+from hypcheck.truth import batch
+from hypcheck.truth.nearest import clearances
+
+
+@pytest.mark.parametrize("name", WORKLOADS)
+def test_rows_are_valid_and_a_shorter_call_is_the_beginning_of_a_longer_one(name):
+    rows = WORKLOADS[name].rows(3, 1500)
+    assert rows.shape == (1500, 7)
+    assert first_trouble(rows) is None
+    assert (WORKLOADS[name].rows(3, 90) == rows[:90]).all()
+    assert (WORKLOADS[name].rows(4, 90) != rows[:90]).any()
+    assert WORKLOADS[name].rows(3, 0).shape == (0, 7)
+
+
+@pytest.mark.parametrize("name", ["uniform", "flight"])
+def test_two_workloads_are_about_one_scene(name):
+    assert scene_of(WORKLOADS[name].rows(1, 200)) == (2.0, 17.8, 0.25, 0.15)
+    assert scene_of(WORKLOADS["near-contact"].rows(1, 200)) is None
+
+
+def test_near_contact_takes_its_scenes_in_turn_and_is_on_both_sides_of_contact():
+    rows = WORKLOADS["near-contact"].rows(1, 1200)
+    positions = batch.positions(rows)
+    for place, scene in enumerate(NEAR_SCENES):
+        assert (rows[place :: len(NEAR_SCENES), :4] == scene).all()
+        assert {0, 1} <= set(positions[place :: len(NEAR_SCENES)].tolist())
+    assert np.count_nonzero(positions == -1) > 150
+
+
+def test_near_contact_reaches_from_half_a_radius_to_less_than_a_unit_of_float64():
+    rows = WORKLOADS["near-contact"].rows(1, 1200)
+    gaps = np.abs(clearances(rows).clearance)
+    decades = np.floor(np.log10(gaps[gaps > 0])).astype(int)
+    assert {*range(-15, 0)} <= set(decades.tolist())
+    octaves = judge.flip_octaves(rows)
+    assert np.count_nonzero(octaves < -53) > 50
+
+
+def test_half_of_the_ring_is_clear_with_a_vanishing_discriminant():
+    rows = WORKLOADS["ring"].rows(1, 400)
+    assert (batch.positions(rows[::2]) == 1).all()
