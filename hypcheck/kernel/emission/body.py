@@ -1,0 +1,148 @@
+"""A setting's function in any language: the stages of its plan, one after the other, until one answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from hypcheck.derivation.program import Program
+from hypcheck.kernel.emission.dialects import Dialect
+from hypcheck.kernel.specialise.centre import CENTRE
+from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
+from hypcheck.pairs import Position
+from hypcheck.rows import CANNOT_SAY
+
+INDENT = "    "
+
+
+def answer(position: Position, question: str) -> int:
+    """What a position is answered with: itself, or 1 for yes and 0 for no."""
+    return int(position) if question == "position" else int(position is Position[question.upper()])
+
+
+def function(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
+    """The function of the setting at this place, from the first line to the last."""
+    lines = [line for part in _Body(plan, stages, place, dialect).lines() for line in part.splitlines()]
+    indented = [f"{INDENT}{line}" if line else "" for line in lines]
+    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
+    return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
+
+
+class _Body:
+    """The statements of one function; the stages share the language, the format and the question."""
+
+    def __init__(self, plan: Plan, stages: Stages, place: int, dialect: Dialect) -> None:
+        self._question, self._precision = plan.question, plan.format.name
+        self._stages, self._place, self._dialect = stages, place, dialect
+        self._number = dialect.number_of(self._precision)
+
+    def lines(self) -> Iterator[str]:
+        stages = self._stages
+        if stages.setting.cut is not None:
+            low, high = (self._literal(end) for end in (stages.setting.cut.low, stages.setting.cut.high))
+            beyond = self._say("or", left=f"z < {low}", right=f"z > {high}")
+            yield self._note("beyond the modelled height")
+            yield self._say("return if", condition=beyond, value=CANNOT_SAY)
+        if stages.always is not None:
+            yield self._say("return", value=answer(stages.always, self._question))
+        elif stages.thresholds is not None:
+            yield from self._thresholds()
+        else:
+            yield from self._stages_in_turn()
+
+    def _thresholds(self) -> Iterator[str]:
+        found = self._stages.thresholds
+        assert found is not None  # noqa: S101 - the caller has looked
+        yield from self._entry(("R",))
+        outer, inner = f"R > {self._literal(found.outer)}", None
+        if found.inner is not None:
+            inner = f"R < {self._literal(found.inner)}"
+        for condition, position in ((outer, Position.EXTERIOR), (inner, Position.INTERIOR)):
+            if condition is not None and answer(position, self._question) != answer(Position.CONTACT, self._question):
+                yield self._return_if(condition, position)
+        if self._question == "contact":
+            for condition in (outer, inner):
+                if condition is not None:
+                    yield self._say("return if", condition=condition, value=0)
+        yield self._say("return", value=answer(Position.CONTACT, self._question))
+
+    def _stages_in_turn(self) -> Iterator[str]:
+        stages = self._stages
+        yield from self._entry(("R", "zz", "height") if stages.search is not None else ("R", "zz"))
+        for line in stages.lines:
+            yield ""
+            yield self._note(f"lambda = {float(line.multiplier)!r} proves {line.side.name.lower()} beyond this line")
+            yield from self._constants(line.constants)
+            yield from self._printed(line.program, (line.holds,))
+            yield self._return_if(line.holds, line.side)
+        if self._question in ONE_SIDED or (stages.discriminant is not None and self._needs_side()):
+            yield ""
+            yield from self._centre()
+        if stages.discriminant is not None:
+            yield ""
+            yield from self._discriminant()
+        if stages.search is not None:
+            yield ""
+            yield self._say("return", value=self._searched())
+
+    def _centre(self) -> Iterator[str]:
+        yield self._note("the side of the centre")
+        yield from self._constants(self._stages.centre)
+        yield from self._printed(CENTRE, ("outside",))
+        if self._question in ONE_SIDED:
+            never = "outside" if self._question == "interior" else self._say("not", value="outside")
+            yield self._say("return if", condition=never, value=0)
+
+    def _needs_side(self) -> bool:
+        delta = self._stages.discriminant
+        return self._question == "position" and delta is not None and delta.clear_where_positive
+
+    def _discriminant(self) -> Iterator[str]:
+        delta = self._stages.discriminant
+        assert delta is not None  # noqa: S101 - the caller has looked
+        yield self._note("the sign of three times the discriminant, where it is certain")
+        yield from self._constants(delta.constants)
+        yield from self._printed(delta.program, ("delta_3",))
+        near = self._say(
+            "and", left=f"R <= {self._literal(delta.widest)}", right=f"zz <= {self._literal(delta.highest)}"
+        )
+        bound = self._literal(delta.bound)
+        yield self._return_if(self._say("and", left=near, right=f"delta_3 < -{bound}"), Position.CONTACT)
+        if delta.clear_where_positive:
+            certain = self._say("and", left=near, right=f"delta_3 > {bound}")
+            yield self._say("return if", condition=certain, value=self._clear())
+
+    def _clear(self) -> str:
+        """The answer about a clear spheroid, once `outside` is known where it matters."""
+        if self._question == "position":
+            return self._say("select", condition="outside", left="1", right="-1")
+        return "0" if self._question == "contact" else "1"
+
+    def _searched(self) -> str:
+        call = self._say("search", place=self._place)
+        compared = {"exterior": f"{call} > 0", "interior": f"{call} < 0", "contact": f"{call} == 0"}
+        if self._question == "position":
+            return call
+        return self._say("truth", condition=compared[self._question])
+
+    def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
+        yield from self._constants(self._stages.entry_constants)
+        yield from self._printed(self._stages.entry, wanted)
+
+    def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
+        for name, value in constants.items():
+            yield self._say("constant", name=name, value=self._literal(value))
+
+    def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+        return self._dialect.printer(program, wanted, self._number)
+
+    def _return_if(self, condition: str, position: Position) -> str:
+        return self._say("return if", condition=condition, value=answer(position, self._question))
+
+    def _literal(self, value: float) -> str:
+        return self._dialect.literal(value, self._precision)
+
+    def _note(self, text: str) -> str:
+        return self._say("note", text=text)
+
+    def _say(self, phrase: str, **words: object) -> str:
+        return self._dialect.say(phrase, **{"number": self._number, **words})

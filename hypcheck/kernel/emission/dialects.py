@@ -1,0 +1,155 @@
+"""How each language writes what a kernel has beside its programs: constants, conditions, answers, tables, comments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from hypcheck.derivation.program import Program
+from hypcheck.errors import InputError
+from hypcheck.kernel.printing.c import c_statements
+from hypcheck.kernel.printing.cpp import cpp_statements
+from hypcheck.kernel.printing.javascript import javascript_statements
+from hypcheck.kernel.printing.python import python_statements
+from hypcheck.kernel.printing.rust import rust_statements
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """A language: the file its kernel is usually called, its types of numbers, and its phrases.
+
+    `numbers` has the type for each format that the language computes in, as its printer knows it. `phrases` are
+    templates with {name}, {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE.
+    """
+
+    name: str
+    file: str
+    numbers: Mapping[str, str]
+    printer: Callable[[Program, tuple[str, ...], str], tuple[str, ...]]
+    phrases: Mapping[str, str]
+    suffixes: Mapping[str, str]
+
+    def number_of(self, precision: str) -> str:
+        """The type of numbers for a format; raises InputError where the language has none."""
+        if precision not in self.numbers:
+            raise InputError(f"{self.name} has no {precision}; it computes in {' or '.join(self.numbers)}")
+        return self.numbers[precision]
+
+    def literal(self, value: float, precision: str) -> str:
+        """A number of the format, in decimals that read back as that very number."""
+        return f"{value!r}{self.suffixes.get(precision, '')}"
+
+    def say(self, phrase: str, **words: object) -> str:
+        """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""
+        return self.phrases[phrase].format(**words)
+
+
+_C_LIKE = {
+    "constant": "const {number} {name} = {value};",
+    "begin": "static int position_{place}({number} x, {number} y, {number} z)\n{{",
+    "end": "}}",
+    "return": "return {value};",
+    "return if": "if ({condition}) return {value};",
+    "or": "{left} || {right}",
+    "and": "{left} && {right}",
+    "not": "!{value}",
+    "select": "{condition} ? {left} : {right}",
+    "truth": "{condition}",
+    "search": "search(R, zz, height, &setting_{place})",
+    "setting": "static const setting setting_{place} = {{{values}}};",
+    "field": ".{name} = {value}",
+    "choose": "if (has_sizes(sizes, {sizes})) return position_{place};",
+    "note": "/* {text} */",
+}
+
+_CPP = {
+    **_C_LIKE,
+    "constant": "constexpr {number} {name} = {value};",
+    "begin": "int position_{place}({number} x, {number} y, {number} z)\n{{",
+    "search": "search(R, zz, height, setting_{place})",
+    "setting": "constexpr Setting setting_{place} = {{{values}}};",
+    "field": "{value}",
+    "note": "// {text}",
+}
+
+_RUST = {
+    **_C_LIKE,
+    "constant": "const {name}: {number} = {value};",
+    "begin": "fn position_{place}(x: {number}, y: {number}, z: {number}) -> i8 {{",
+    "return if": "if {condition} {{\n    return {value};\n}}",
+    "select": "if {condition} {{ {left} }} else {{ {right} }}",
+    "truth": "i8::from({condition})",
+    "search": "search(R, zz, height, &SETTING_{place})",
+    "setting": "const SETTING_{place}: Setting = Setting {{{values}}};",
+    "field": "{name}: {value}",
+    "choose": "if has_sizes(sizes, [{sizes}]) {{\n    return Some(position_{place});\n}}",
+    "note": "// {text}",
+}
+
+_JAVASCRIPT = {
+    **_C_LIKE,
+    "constant": "const {name} = {value};",
+    "begin": "function position_{place}(x, y, z) {{",
+    "truth": "{condition} ? 1 : 0",
+    "search": "search(R, zz, height, setting_{place})",
+    "setting": "const setting_{place} = {{{values}}};",
+    "field": "{name}: {value}",
+    "choose": "if (hasSizes(sizes, [{sizes}])) return position_{place};",
+    "note": "// {text}",
+}
+
+_PYTHON = {
+    "constant": "{name} = {value}",
+    "begin": "def position_{place}(x, y, z):",
+    "end": "",
+    "return": "return {value}",
+    "return if": "if {condition}:\n    return {value}",
+    "or": "{left} or {right}",
+    "and": "{left} and {right}",
+    "not": "not {value}",
+    "select": "{left} if {condition} else {right}",
+    "truth": "int({condition})",
+    "search": "search(R, zz, height, *SETTING_{place})",
+    "setting": "SETTING_{place} = ({values})",
+    "field": "{value}",
+    "choose": "if sizes == ({sizes}):\n    return position_{place}",
+    "note": "# {text}",
+}
+
+
+def _c(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
+    return c_statements(program, wanted, number=number)
+
+
+def _cpp(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
+    return cpp_statements(program, wanted, number=number)
+
+
+def _rust(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
+    return rust_statements(program, wanted, number=number)
+
+
+def _javascript(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
+    return javascript_statements(program, wanted, number=number)
+
+
+def _python(program: Program, wanted: tuple[str, ...], _number: str) -> tuple[str, ...]:
+    return python_statements(program, wanted)
+
+
+_C_NUMBERS = {"float64": "double", "float32": "float"}
+_C_SUFFIXES = {"float32": "F"}
+
+DIALECTS = {
+    dialect.name: dialect
+    for dialect in (
+        Dialect("c", "kernel.c", _C_NUMBERS, _c, _C_LIKE, _C_SUFFIXES),
+        Dialect("cpp", "kernel.cpp", _C_NUMBERS, _cpp, _CPP, _C_SUFFIXES),
+        Dialect("rust", "kernel.rs", {"float64": "f64", "float32": "f32"}, _rust, _RUST, {}),
+        Dialect(
+            "javascript", "predicate.mjs", {"float64": "number", "float32": "float32"}, _javascript, _JAVASCRIPT, {}
+        ),
+        Dialect("python", "kernel.py", {"float64": "float"}, _python, _PYTHON, {}),
+    )
+}
+"""By name: what `emit --language` takes."""

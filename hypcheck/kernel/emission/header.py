@@ -1,0 +1,109 @@
+"""What stands at the head of an emitted kernel: for which scene it is, what it costs, what is proved of it."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from textwrap import wrap
+
+from hypcheck.derivation.counting import Operations, count
+from hypcheck.kernel.specialise.plan import Plan, Stages
+from hypcheck.kernel.specialise.settings import Setting
+from hypcheck.rows import CANNOT_SAY
+from hypcheck.scene.model import Span
+from hypcheck.version import VERSION
+from hypcheck.visible import visible
+
+WIDTH = 110
+LONGEST_NAME = 60
+
+
+def header(plan: Plan, command: Sequence[str], prefix: str) -> str:
+    """The lines of the comment, each after `prefix`."""
+    lines = [line for paragraph in _paragraphs(plan, command) for line in (*_wrapped(paragraph), "")]
+    return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
+
+
+def _wrapped(paragraph: str) -> list[str]:
+    if paragraph.startswith("    "):
+        return [paragraph]
+    return wrap(paragraph, WIDTH - 3, break_long_words=False, break_on_hyphens=False)
+
+
+def _paragraphs(plan: Plan, command: Sequence[str]) -> Iterator[str]:
+    scene = safe(plan.scene.name)
+    yield f'Where a spheroid stands in the scene "{scene}": {_asked(plan.question)}.'
+    yield (f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by\n").strip()
+    yield "    " + safe(shlex.join(command))
+    yield (
+        "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
+        f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say."
+    )
+    for number, stages in enumerate(plan.settings, start=1):
+        yield from _setting(number, stages)
+    yield _bound(plan)
+
+
+def safe(text: str) -> str:
+    """A foreign text as a comment can hold it in every language: ASCII, one line, nothing that ends a comment."""
+    plain = visible(text, LONGEST_NAME * 4).encode("ascii", "backslashreplace").decode("ascii")
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("\\u", "u+")
+
+
+def _asked(question: str) -> str:
+    if question == "position":
+        return "+1 exterior, 0 contact (tangency included), -1 interior"
+    return f"1 if it is {question if question != 'contact' else 'in contact'}, else 0"
+
+
+def _setting(number: int, stages: Stages) -> Iterator[str]:
+    setting = stages.setting
+    alpha, gamma, b, d = setting.sizes
+    uses = "; ".join(safe(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
+    yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {_region(setting)}"
+    yield f"   {_cost(stages)}"
+
+
+def _region(setting: Setting) -> str:
+    told = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
+    beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
+    return f"Region: {', '.join(told) or 'everywhere'}.{beyond}"
+
+
+def _span(span: Span) -> str:
+    return f"= {span.low!r}" if span.fixed else f"from {span.low!r} to {span.high!r}"
+
+
+def _cost(stages: Stages) -> str:
+    if stages.always is not None:
+        return "Nothing is computed: all of the region has one answer."
+    shares = ", ".join(f"{name} {share:.1%}" for name, share in stages.shares.items() if share)
+    operations = operations_before(stages)
+    return (
+        f"{operations.additions} additions, {operations.multiplications} multiplications, {operations.divisions} "
+        f"divisions and {operations.comparisons} comparisons at most before the search. Decided by: {shares} (of "
+        "centres spread evenly)."
+    )
+
+
+def operations_before(stages: Stages) -> Operations:
+    """The operations of all stages before the search; thresholds are two comparisons more than the entry."""
+    steps = [step for step in stages.entry.steps if step.operation != "abs"]
+    for line in stages.lines:
+        steps += line.program.steps
+    if stages.discriminant is not None:
+        steps += stages.discriminant.program.steps
+    return count(steps)
+
+
+def _bound(plan: Plan) -> str:
+    if plan.bound_u == 0:
+        return "Proved: every answer is right."
+    unit = plan.format.unit
+    return (
+        f"Proved (docs/plans.md): an answer is right for inputs each changed by {float(plan.bound_u):g} u at most, "
+        f"u = 2^-{plan.format.bits} = {float(unit):.3g}. So it may be wrong only in a band around contact: where "
+        f"changing every size and coordinate by a share of {float(Fraction(plan.bound_u) * unit):.2g} changes the "
+        "position. There is no wrong answer away from the surface, on the ring of double roots either."
+    )

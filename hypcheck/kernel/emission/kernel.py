@@ -1,0 +1,122 @@
+"""A kernel from a plan, in one of the languages: a template, its constants, and statements printed from programs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from hypcheck.derivation.program import Program
+from hypcheck.errors import InputError
+from hypcheck.kernel.emission.body import function
+from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
+from hypcheck.kernel.emission.filling import filled, template
+from hypcheck.kernel.emission.header import header, safe
+from hypcheck.kernel.specialise import search as searching
+from hypcheck.kernel.specialise.plan import Plan
+from hypcheck.kernel.specialise.search import GEOMETRIC_STEPS
+from hypcheck.version import VERSION
+
+COMMENTS = {"c": " * ", "cpp": "// ", "rust": "//! ", "javascript": "// ", "python": ""}
+EXTENSIONS = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}
+SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
+"""The constants of a search, in the order in which a kernel holds them."""
+
+
+def emitted(plan: Plan, language: str, command: Sequence[str]) -> str:
+    """The text of the kernel; `command` is what its header says made it. Raises InputError."""
+    if language not in DIALECTS:
+        raise InputError(f"the language is {language!r}; it must be one of {', '.join(DIALECTS)}")
+    dialect = DIALECTS[language]
+    number = dialect.number_of(plan.format.name)
+    extension = EXTENSIONS[language]
+    functions = [function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
+    parts = {
+        "header": header(plan, command, COMMENTS[language]),
+        "number": number,
+        "search": _search(plan, dialect, extension) if _searches(plan) else "",
+        "settings": "\n\n".join([*_settings(plan, dialect), *functions]),
+        "choose": "\n".join(_choices(plan, dialect)),
+        "round": "Math.fround" if plan.format.name == "float32" else "Number",
+        "description": _quoted(description(plan, language), language),
+    }
+    return filled(template(f"kernel.{extension}.tmpl"), parts).strip("\n") + "\n"
+
+
+def description(plan: Plan, language: str) -> dict[str, Any]:
+    """What the kernel says of itself, as docs/protocol.md has it."""
+    return {
+        "protocol": 1,
+        "name": f"{safe(plan.scene.name)} ({language}, {plan.format.name})",
+        "version": VERSION,
+        "language": language,
+        "precision": plan.format.name,
+        "question": plan.question,
+        "domain": {"settings": [_domain(stages.setting) for stages in plan.settings]},
+    }
+
+
+def _domain(setting: Any) -> dict[str, Any]:  # noqa: ANN401
+    spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
+    return {"sizes": list(setting.sizes), **spans}
+
+
+def _numbered(plan: Plan) -> list[tuple[int, Any]]:
+    return list(enumerate(plan.settings, start=1))
+
+
+def _searches(plan: Plan) -> bool:
+    return any(stages.search is not None for stages in plan.settings)
+
+
+def _settings(plan: Plan, dialect: Dialect) -> list[str]:
+    """The tables of constants that searches take."""
+    found = []
+    for place, stages in _numbered(plan):
+        if stages.search is not None:
+            values = ((name, dialect.literal(stages.search.constants[name], plan.format.name)) for name in SETTING)
+            fields = ", ".join(dialect.say("field", name=name, value=value) for name, value in values)
+            found.append(dialect.say("setting", place=place, values=fields))
+    return found
+
+
+def _choices(plan: Plan, dialect: Dialect) -> list[str]:
+    return [
+        dialect.say("choose", place=place, sizes=", ".join(repr(size) for size in stages.setting.sizes))
+        for place, stages in _numbered(plan)
+    ]
+
+
+def _search(plan: Plan, dialect: Dialect, extension: str) -> str:
+    """The search that all settings share."""
+
+    def printed(program: Program, *wanted: str) -> str:
+        return "\n".join(dialect.printer(program, wanted, dialect.number_of(plan.format.name)))
+
+    parts = {
+        "number": dialect.number_of(plan.format.name),
+        "place": printed(searching.PLACE, "to_a", "to_b"),
+        "place_all": printed(searching.PLACE, "to_a", "to_b", "lambda_"),
+        "falls": printed(searching.falls(), "past"),
+        "falls_at_zero": printed(searching.falls("_zero"), "past_zero"),
+        "geometric": printed(searching.GEOMETRIC, "middle"),
+        "arithmetic": printed(searching.ARITHMETIC, "middle"),
+        "start": printed(searching.START, "P", "Q", "ar", "cz"),
+        "half": printed(searching.HALF, "half"),
+        "phi": printed(searching.PHI, "above_zero"),
+        "one": dialect.literal(1.0, plan.format.name),
+        "zero": dialect.literal(0.0, plan.format.name),
+        "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),
+        "geometric_steps": str(GEOMETRIC_STEPS),
+    }
+    return filled(template(f"search.{extension}.tmpl"), parts)
+
+
+def _quoted(value: dict[str, Any], language: str) -> str:
+    """The description as the language holds it: a text of JSON, or an object of its own."""
+    text = json.dumps(value)
+    if language == "javascript":
+        return text
+    if language == "python":
+        return repr(value)
+    return json.dumps(text)  # C, C++ and Rust escape quotation marks and backslashes alike

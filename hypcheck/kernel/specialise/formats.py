@@ -1,0 +1,67 @@
+"""The float formats that a specialised kernel computes in, and exact numbers rounded to them in a given direction."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from hypcheck.errors import InputError
+
+Direction = Literal["nearest", "up", "down"]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A binary format: significant bits, and the exponents of its normal numbers, 2^least ≤ |v| < 2^(greatest + 1)."""
+
+    name: str
+    bits: int
+    least: int
+    greatest: int
+
+    @property
+    def unit(self) -> Fraction:
+        """u, the largest relative error of one rounding to nearest."""
+        return Fraction(1, 2**self.bits)
+
+    def rounded(self, value: Fraction, direction: Direction = "nearest") -> float:
+        """The number of the format next to `value`; raises OverflowError beyond its normal range, 0 aside."""
+        if value == 0:
+            return 0.0
+        exponent = _floor_log2(abs(value))
+        if not self.least <= exponent <= self.greatest:
+            raise OverflowError(f"{float(abs(value)):.3g} is no normal number of {self.name}")
+        step = Fraction(2) ** (exponent - self.bits + 1)
+        units = value / step
+        return float(_whole(units, direction) * step)
+
+
+FORMATS = {
+    "float32": Format("float32", 24, -126, 127),
+    "float64": Format("float64", 53, -1022, 1023),
+}
+
+
+def format_of(precision: str) -> Format:
+    """The format by its name; raises InputError."""
+    if precision not in FORMATS:
+        raise InputError(f"the precision is {precision!r}; a kernel computes in {' or '.join(FORMATS)}")
+    return FORMATS[precision]
+
+
+def power_of_two_near(value: Fraction) -> Fraction:
+    """The largest power of two that is not above `value` > 0."""
+    return Fraction(2) ** _floor_log2(value)
+
+
+def _whole(value: Fraction, direction: Direction) -> int:
+    if direction == "nearest":
+        return round(value)
+    return math.ceil(value) if direction == "up" else math.floor(value)
+
+
+def _floor_log2(value: Fraction) -> int:
+    exponent = value.numerator.bit_length() - value.denominator.bit_length()
+    return exponent if Fraction(2) ** exponent <= value else exponent - 1

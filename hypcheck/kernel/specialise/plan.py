@@ -1,0 +1,229 @@
+"""What a scene needs, stage by stage, and what it does without: the plan that kernels are emitted from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.evaluation import evaluate, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.program import Program
+from hypcheck.kernel.specialise import search as searching
+from hypcheck.kernel.specialise import thresholds as two_thresholds
+from hypcheck.kernel.specialise.centre import CENTRE, centre_constants
+from hypcheck.kernel.specialise.choosing import lines_for
+from hypcheck.kernel.specialise.discriminant import Discriminant, discriminant
+from hypcheck.kernel.specialise.entry import entry
+from hypcheck.kernel.specialise.formats import Format, format_of
+from hypcheck.kernel.specialise.lines import Line
+from hypcheck.kernel.specialise.sampling import REACH, centres
+from hypcheck.kernel.specialise.scale import scaled
+from hypcheck.kernel.specialise.search import Search, search
+from hypcheck.kernel.specialise.settings import Setting, always, settings_of
+from hypcheck.kernel.specialise.thresholds import Thresholds, thresholds
+from hypcheck.pairs import Position
+from hypcheck.scene.model import Scene, Span
+
+USEFUL = 0.5
+"""Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
+
+ONE_SIDED = ("exterior", "interior")
+
+SIDES = {
+    "position": (Position.EXTERIOR, Position.INTERIOR),
+    "contact": (Position.EXTERIOR, Position.INTERIOR),
+    "exterior": (Position.EXTERIOR,),
+    "interior": (Position.INTERIOR,),
+}
+"""Which lines a question can use."""
+
+
+@dataclass(frozen=True, slots=True)
+class Omission:
+    """Something that Table 2, or the whole kernel, has and this one does not; and why the answers stay the same."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Stages:
+    """A setting's way to an answer: `always`, or `thresholds`, or lines, discriminant and search in that order.
+
+    `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of centre.py,
+    whose test follows the lines where the question is one-sided. `shares` says how many of the sample's centres each
+    stage decided. `bound_u` is the backward error that an answer can have, in units u.
+    """
+
+    setting: Setting
+    entry: Program
+    entry_constants: dict[str, float]
+    always: Position | None
+    thresholds: Thresholds | None
+    lines: tuple[Line, ...]
+    centre: dict[str, float]
+    discriminant: Discriminant | None
+    search: Search | None
+    shares: dict[str, float]
+    omitted: tuple[Omission, ...]
+    bound_u: Fraction
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The stages of every setting of a scene, for one question in one format."""
+
+    scene: Scene
+    question: str
+    format: Format
+    settings: tuple[Stages, ...]
+
+    @property
+    def bound_u(self) -> Fraction:
+        """The largest backward error that an answer can have, in units u of the format."""
+        return max((stages.bound_u for stages in self.settings), default=Fraction(0))
+
+
+def plan_of(scene: Scene, precision: str = "float64") -> Plan:
+    """The plan for a scene's own question. Raises InputError for another format, or for sizes that leave it."""
+    form = format_of(precision)
+    found = tuple(_stages(setting, scene.question, form) for setting in settings_of(scene))
+    return Plan(scene, scene.question, form, found)
+
+
+def _stages(setting: Setting, question: str, form: Format) -> Stages:
+    scale = scaled(setting.sizes, form)
+    first, constants = entry(scale)
+    position = always(setting)
+    if position is not None:
+        return _without_tests(setting, first, constants, position)
+    height = setting.box.z
+    if height is not None and height.fixed:
+        found = thresholds(setting.sizes, height.low, scale, form)
+        return _at_one_height(setting, first, constants, found, question)
+    R, zz = _sample(setting, first, constants, form)
+    lines: list[Line] = []
+    by_lines = np.zeros(len(R), dtype=bool)
+    for side in SIDES[question]:
+        own, decided = lines_for(side, scale, form, R, zz, len(lines) + 1)
+        lines += own
+        by_lines |= decided
+    sides = centre_constants(scale, form)
+    if question in ONE_SIDED:
+        (outside,) = outputs(CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
+        by_lines |= outside == (question == "interior")
+    delta = discriminant(scale, form, first, constants, _corner(setting))
+    left = np.flatnonzero(~by_lines)
+    by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
+    if delta is not None and by_delta.sum() < USEFUL * len(left):
+        delta, by_delta = None, np.zeros(len(left), dtype=bool)
+    shares = {
+        "lines": float(by_lines.mean()),
+        "discriminant": float(by_delta.sum() / len(R)),
+        "search": float((~by_delta).sum() / len(R)),
+    }
+    bound = searching.backward_bound(first)
+    omitted = _omissions(setting, question, delta, constants)
+    return Stages(
+        setting, first, constants, None, None, tuple(lines), sides, delta, search(scale, form), shares, omitted, bound
+    )
+
+
+def _sample(
+    setting: Setting, first: Program, constants: dict[str, float], form: Format
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """R and zz of the sample's centres, as the kernel computes them."""
+    x, y, z = centres(setting)
+    values = evaluate(first, float_arithmetic(form.name), {"x": x, "y": y, "z": z, **constants})
+    return values["R"], values["zz"]
+
+
+def _decided(delta: Discriminant, form: Format, R: NDArray[np.float64], zz: NDArray[np.float64]) -> NDArray[np.bool_]:
+    values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
+    inside = (R <= delta.widest) & (zz <= delta.highest)
+    beyond = values["delta_3"] < -delta.bound
+    if delta.clear_where_positive:
+        beyond = beyond | (values["delta_3"] > delta.bound)
+    return np.asarray(inside & beyond)
+
+
+def _corner(setting: Setting) -> tuple[Fraction, Fraction]:
+    """The far corner of the box, or as far as centres lie that lines leave open, where the box is open."""
+    alpha, gamma, b, d = map(Fraction, setting.sizes)
+    x, y, z = setting.box.spans
+    across = [_most(span) if span is not None else Fraction(REACH) * (alpha + b) for span in (x, y)]
+    return max(across), _most(z) if z is not None else Fraction(REACH) * (gamma + d)
+
+
+def _most(span: Span) -> Fraction:
+    return max(abs(Fraction(span.low)), abs(Fraction(span.high)))
+
+
+def _without_tests(setting: Setting, first: Program, constants: dict[str, float], position: Position) -> Stages:
+    name = position.name.lower()
+    why = (
+        f"the least favourable corner of the region is {name}, decided exactly, and {name} positions are monotone in "
+        "each coordinate (docs/mathematics.md)"
+    )
+    omitted = (Omission("every test", why),)
+    return Stages(setting, first, constants, position, None, (), {}, None, None, {"always": 1.0}, omitted, Fraction(0))
+
+
+def _at_one_height(
+    setting: Setting, first: Program, constants: dict[str, float], found: Thresholds, question: str
+) -> Stages:
+    omitted = [
+        Omission(
+            "the coefficients, the discriminant and every term in z",
+            f"the height is {found.height!r}: position depends on x² + y² alone and is monotone in it",
+        )
+    ]
+    if found.inner is None:
+        omitted.append(Omission("the interior threshold", "at this height not even a centre on the axis is interior"))
+    omitted += _one_sided(question)
+    return Stages(
+        setting, first, constants, None, found, (), {}, None, None, {"thresholds": 1.0}, tuple(omitted),
+        two_thresholds.BACKWARD_BOUND,
+    )  # fmt: skip
+
+
+def _one_sided(question: str) -> list[Omission]:
+    if question not in ONE_SIDED:
+        return []
+    other = "interior" if question == "exterior" else "exterior"
+    return [
+        Omission(
+            f"whatever tells {other} from contact",
+            f"the question is {question}: both are answered no",
+        )
+    ]
+
+
+def _omissions(
+    setting: Setting, question: str, delta: Discriminant | None, constants: dict[str, float]
+) -> tuple[Omission, ...]:
+    found = [
+        Omission(
+            "the divisions and the products of sizes alone",
+            "the sizes are fixed: each is rounded once, from its exact value, when the kernel is made",
+        ),
+        *_one_sided(question),
+    ]
+    if delta is None:
+        found.append(
+            Omission(
+                "the discriminant",
+                "of degree 12 in the lengths, it decides too little of this region in this format, "
+                "or leaves it; the dual form, of degree 2, does not",
+            )
+        )
+    elif not delta.clear_where_positive:
+        found.append(Omission("clear where Δ > 0", "a < 1 or c² < a: Δ > 0 does not mean clear there"))
+    if not constants:
+        found.append(Omission("scaling of lengths", "the semi-axes are ordinary: no square leaves the format"))
+    if setting.cut is None and setting.box.z is not None:
+        found.append(Omission("the test of height", "the region ends before the hyperboloids do"))
+    return tuple(found)

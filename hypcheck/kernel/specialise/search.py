@@ -1,0 +1,148 @@
+"""The last stage: the sign of the dual function φ at the λ where it is largest, found by a search that cannot cancel.
+
+F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of
+0 the root lies, its sign half way to the pole whether it is nearer to 0 or to the pole; that distance is the unknown,
+halved first in its exponent, then itself, and the two other distances are sums of it (docs/mathematics.md).
+
+Everything that rounds is one of the programs below; a kernel adds the loop, and which side goes on.
+
+Bound. φ is computed as a sum whose terms P λ/(A+λ), Q λ/(B−λ), 1 and λ carry few factors (1+δ), |δ| ≤ u: with k of them
+on the first and second and j on the others, the computed sign is the sign of φ for P and Q changed by at most (k + j)u
+relative to 1 + λ. A claim of clear is thus right for inputs changed by half of that, wherever λ is. Where φ is not
+positive at the λ found, that λ is the true maximum for P and Q changed by the few u of F's own count; since φ is
+stationary there, the true maximum is larger by the square of that only, far below one u of the terms. So the answer
+"contact" is right for inputs changed by half of (k + j)u too, up to a share of order √u. `backward_bound` counts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.listing import program_of
+from hypcheck.derivation.program import Program, Step, cut
+from hypcheck.derivation.rounding import relative_error_counts
+from hypcheck.kernel.specialise.formats import Format
+from hypcheck.kernel.specialise.scale import Scaled
+
+GEOMETRIC_STEPS = 10
+"""Halvings of the exponent: 100 octaves become a tenth of one."""
+
+OCTAVES = 100
+"""How much nearer to 0, or to a pole, than half way the search begins."""
+
+START = program_of(
+    "start",
+    ("R", "zz", "height", "PR", "QZ", "AR", "CZ"),
+    """
+    P = PR * R
+    Q = QZ * zz
+    r = sqrt R
+    ar = AR * r
+    cz = CZ * height
+    """,
+)
+
+HALF = program_of("half", ("pole",), "half = pole / 2")
+
+
+def falls(end: str = "") -> Program:
+    """Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ. `end` ends the names."""
+    return program_of(
+        f"falls{end}",
+        ("ar", "cz", f"to_a{end}", f"to_b{end}"),
+        f"""
+        across{end} = ar / to_a{end}
+        along{end} = cz / to_b{end}
+        across_squared{end} = across{end} * across{end}
+        along_squared{end} = along{end} * along{end}
+        along_side{end} = along_squared{end} + 1
+        past{end} = across_squared{end} <= along_side{end}
+        """,
+    )
+
+
+GEOMETRIC = program_of(
+    "geometric", ("low", "high"), "root_low = sqrt low\n root_high = sqrt high\n middle = root_low * root_high"
+)
+ARITHMETIC = program_of("arithmetic", ("low", "high"), "sum_of_both = low + high\n middle = sum_of_both / 2")
+
+PLACE = program_of(
+    "place",
+    ("pole", "other", "distance", "near_zero", "inside"),
+    """
+    is_near_zero = near_zero > 0
+    is_inside = inside > 0
+    complement = pole - distance
+    to_pole = is_near_zero ? complement : distance
+    from_zero = is_near_zero ? distance : complement
+    to_other = other + from_zero
+    to_a = is_inside ? to_pole : to_other
+    to_b = is_inside ? to_other : to_pole
+    minus_from_zero = - from_zero
+    lambda_ = is_inside ? minus_from_zero : from_zero
+    """,
+)
+"""From the distance to 0 (near_zero = 1) or to the pole (0) to λ, A + λ and B − λ."""
+
+
+PHI = cut(FORMULAS["dual"].program, ("P", "Q", "lambda_", "A_plus_lambda", "B_minus_lambda"), ("above_zero",))
+"""The dual form from P, Q and the three distances on: the formula's own steps."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """The constants of a setting: A and B, products that lead to P, Q, a r and c z, and where the search begins."""
+
+    constants: dict[str, float]
+    steps: int
+
+
+def search(scaled: Scaled, form: Format) -> Search:
+    """The stage for a setting. Raises OverflowError where a constant leaves the format."""
+    A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    floor = Fraction(2) ** (form.least + 6)
+    exact = {
+        "A": A,
+        "B": B,
+        "PR": 1 / bb,
+        "QZ": 1 / dd,
+        "low_a": max(A / 2 / 2**OCTAVES, floor),
+        "low_b": max(B / 2 / 2**OCTAVES, floor),
+    }
+    constants = {name: form.rounded(value) for name, value in exact.items()}
+    # a r = (α/b²) √R and c z = (γ/d²) |z|: square roots of A/b² and B/d², rounded to nearest.
+    constants["AR"], constants["CZ"] = _root(A / bb, form), _root(B / dd, form)
+    return Search(constants, GEOMETRIC_STEPS + form.bits + 3)
+
+
+def _root(value: Fraction, form: Format) -> float:
+    """√value within one u or so: of 2 bits + 8 more than the format has."""
+    shift = 2 * (form.bits + 64)
+    exponent = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 * 2 + shift
+    whole = isqrt(int(value * Fraction(2) ** exponent))
+    return form.rounded(Fraction(whole) / Fraction(2) ** (exponent // 2))
+
+
+def backward_bound(entry: Program) -> Fraction:
+    """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ."""
+    steps = (*entry.steps, *(step for step in START.steps if step.name in {"P", "Q"}), *PHI.steps)
+    inputs = tuple(
+        dict.fromkeys(name for name in (*entry.inputs, "PR", "QZ", "lambda_", "A_plus_lambda", "B_minus_lambda"))
+    )
+    whole = Program("bound", inputs, tuple(step for step in steps if not _is_comparison(step)))
+    positive = frozenset({"PR", "QZ", "A_plus_lambda", "B_minus_lambda"})
+    counts = relative_error_counts(whole, ("P_term", "Q_term", "one_plus_lambda"), positive, input_roundings=1).counts
+    sums = 2  # P_term − Q_term and the last subtraction
+    distances = (
+        1  # of λ, A + λ and B − λ one is exact and one, or the sum of two, may carry a rounding more than an input
+    )
+    on_terms = max(counts["P_term"], counts["Q_term"]) + distances + sums
+    on_others = counts["one_plus_lambda"] + 1
+    return Fraction(on_terms + on_others, 2)
+
+
+def _is_comparison(step: Step) -> bool:
+    return step.operation in {"gt", "lt", "ge", "le", "eq", "ne", "and", "or", "not", "select"}
