@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,3 +31,26 @@ def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINAR
     inside = ((ratios >= ratio[0]) & (ratios <= ratio[1])).all(axis=1)
     inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (np.abs(rows) <= magnitude[1]).all(axis=1)
     return np.asarray(inside)
+
+
+@dataclass(frozen=True, slots=True)
+class FixedSizes:
+    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and the spans of x, y, z; None is any, bounds belong."""
+
+    sizes: tuple[float, float, float, float]
+    x: Range | None = None
+    y: Range | None = None
+    z: Range | None = None
+
+    @property
+    def spans(self) -> tuple[Range | None, Range | None, Range | None]:
+        """The spans in order."""
+        return self.x, self.y, self.z
+
+    def holds(self, rows: Rows) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows with these sizes and the centre in the spans."""
+        inside = (rows[:, :4] == self.sizes).all(axis=1)
+        for column, span in zip(rows[:, 4:].T, self.spans, strict=True):
+            if span is not None:
+                inside &= (column >= span[0]) & (column <= span[1])
+        return np.asarray(inside)

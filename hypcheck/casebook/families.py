@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
-from hypcheck.casebook import borders, everyday, extremes, ladder, ring, scenes, stiff, tangency
+from hypcheck.casebook import borders, everyday, extremes, fixed_sizes, ladder, ring, scenes, stiff, tangency
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair
@@ -21,7 +21,7 @@ FAMILIES: dict[str, Family] = {
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""
 
-_CASE_ID = re.compile(r"([a-z0-9-]+)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)", re.ASCII)
+_CASE_ID = re.compile(r"([a-z0-9-]+(?:@[a-z0-9.,:=+-]+)?)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)/(0|[1-9][0-9]*)", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def parse_case_id(text: str) -> CaseId:
     if match is None:
         raise InputError(f"{text!r} is no case id; it must be family/version/seed/index, as in tower-body/1/0/17")
     name, version, seed, index = match.group(1), *map(int, match.groups()[1:])
-    family = FAMILIES.get(name)
+    family = fixed_sizes.family_at(name) if fixed_sizes.MARK in name else FAMILIES.get(name)
     if family is None:
         raise InputError(f"case {text!r}: there is no family {name!r}; {_hint(name)}")
     if version != family.version:

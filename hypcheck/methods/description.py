@@ -9,7 +9,9 @@ from types import MappingProxyType
 from typing import Any
 
 from hypcheck.errors import InputError
+from hypcheck.methods.checks import shown
 from hypcheck.methods.domain import Domain
+from hypcheck.methods.domain_reading import domain_of
 from hypcheck.methods.questions import PRECISIONS, QUESTIONS
 from hypcheck.visible import visible
 
@@ -47,10 +49,10 @@ class Description:
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
     """The description that a mapping holds, completed from `defaults`; raises InputError naming key and value."""
     if not isinstance(raw, Mapping):
-        raise InputError(f"the description is {_shown(raw)}; it must be a mapping of names to values")
+        raise InputError(f"the description is {shown(raw)}; it must be a mapping of names to values")
     unknown = [key for key in raw if key not in _KEYS]
     if unknown:
-        raise InputError(f"the description has the key {_shown(unknown[0])}; it may have {', '.join(_KEYS)}")
+        raise InputError(f"the description has the key {shown(unknown[0])}; it may have {', '.join(_KEYS)}")
     missing = [key for key in required if key not in raw]
     if missing:
         raise InputError(f"the description has no key {missing[0]!r}; it must have {' and '.join(required)}")
@@ -66,7 +68,7 @@ def described_by_json(text: str | bytes, defaults: Description, required: tuple[
 
 def parse_domain(text: str) -> Domain:
     """A domain as the command line has it, in JSON; raises InputError."""
-    return _domain(_json(text, "the domain"), "the domain")
+    return domain_of(_json(text, "the domain"), "the domain")
 
 
 def _json(text: str | bytes, where: str) -> object:
@@ -80,13 +82,9 @@ def _json(text: str | bytes, where: str) -> object:
         raise InputError(f"{where} is '{visible(shown, 80)}'; it must be JSON ({why})") from None
 
 
-def _shown(value: object) -> str:
-    return visible(repr(value), 80)
-
-
 def _text(value: object, where: str) -> str:
     if not isinstance(value, str):
-        raise InputError(f"{where} is {_shown(value)}; it must be a text")
+        raise InputError(f"{where} is {shown(value)}; it must be a text")
     return visible(value, 200)
 
 
@@ -99,14 +97,14 @@ def _name(value: object, where: str) -> str:
 
 def _truth_value(value: object, where: str) -> bool:
     if not isinstance(value, bool):
-        raise InputError(f"{where} is {_shown(value)}; it must be true or false")
+        raise InputError(f"{where} is {shown(value)}; it must be true or false")
     return value
 
 
 def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
     def check(value: object, where: str) -> str:
         if value not in choices:
-            raise InputError(f"{where} is {_shown(value)}; it must be one of {', '.join(choices)}")
+            raise InputError(f"{where} is {shown(value)}; it must be one of {', '.join(choices)}")
         return str(value)
 
     return check
@@ -114,45 +112,8 @@ def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
 
 def _protocol(value: object, where: str) -> int:
     if value != PROTOCOL or isinstance(value, bool):
-        raise InputError(f"{where} is {_shown(value)}; it must be {PROTOCOL}, the only one there is")
+        raise InputError(f"{where} is {shown(value)}; it must be {PROTOCOL}, the only one there is")
     return PROTOCOL
-
-
-def _domain(value: object, where: str) -> Domain:
-    if isinstance(value, Domain):
-        return value
-    if not isinstance(value, Mapping):
-        raise InputError(f"{where} is {_shown(value)}; it must be a mapping with regimes, ratio, magnitude")
-    unknown = [key for key in value if key not in ("regimes", "ratio", "magnitude")]
-    if unknown:
-        raise InputError(f"{where} has the key {_shown(unknown[0])}; it may have regimes, ratio, magnitude")
-    ranges = [key for key in ("ratio", "magnitude") if key in value]
-    known: dict[str, Any] = {key: _range(value[key], f"{where}'s {key}") for key in ranges}
-    if "regimes" in value:
-        known["regimes"] = _regimes(value["regimes"], f"{where}'s regimes")
-    return Domain(**known)
-
-
-def _regimes(value: object, where: str) -> tuple[str, ...]:
-    if not isinstance(value, (list, tuple)) or not all(isinstance(each, str) for each in value):
-        raise InputError(f"{where} is {_shown(value)}; it must be a list of names")
-    return tuple(value)
-
-
-def _range(value: object, where: str) -> tuple[float, float]:
-    if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise InputError(f"{where} is {_shown(value)}; it must be two numbers, the least and the greatest")
-    low, high = (_number(each, where) for each in value)
-    return low, high
-
-
-def _number(value: object, where: str) -> float:
-    try:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            return float(value)
-    except OverflowError:
-        pass
-    raise InputError(f"{where} holds {_shown(value)}; it must be two numbers of float64")
 
 
 _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
@@ -163,7 +124,7 @@ _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
         "language": _text,
         "precision": _one_of(PRECISIONS),
         "question": _one_of(QUESTIONS),
-        "domain": _domain,
+        "domain": domain_of,
         "refuses": _truth_value,
         "binary": _truth_value,
         "time": _truth_value,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.ranges import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, Range, within
+from hypcheck.ranges import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, FixedSizes, Range, within
 from hypcheck.rows import Rows
 
 REGIMES = ("a>=1", "c2>=a")
@@ -31,12 +31,14 @@ class Domain:
     """The rows a method speaks of: every regime named holds, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
 
     Bounds are inclusive, as ranges.within has them. None is a range that was not declared: the ordinary one, or, where
-    more is asked for, every one. Raises InputError where a regime is unknown or a range is empty.
+    more is asked for, every one. `settings` names the only sizes there are, each with the spans of its centre; no range
+    holds then that was not declared. Raises InputError where a regime is unknown or a range is empty.
     """
 
     regimes: tuple[str, ...] = ()
     ratio: Range | None = None
     magnitude: Range | None = None
+    settings: tuple[FixedSizes, ...] = ()
 
     def __post_init__(self) -> None:
         for regime in self.regimes:
@@ -52,10 +54,13 @@ class Domain:
 
         `extreme`: they are of a family that is asked only when it is asked for, so what was not declared is unbounded.
         """
-        ratio, magnitude = (UNBOUNDED, UNBOUNDED) if extreme else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
+        unbounded = extreme or self.settings
+        ratio, magnitude = (UNBOUNDED, UNBOUNDED) if unbounded else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
         inside = within(rows, self.ratio or ratio, self.magnitude or magnitude)
         for regime in self.regimes:
             inside &= in_regime(rows, regime)
+        if self.settings:
+            inside &= np.logical_or.reduce([setting.holds(rows) for setting in self.settings])
         return inside
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
-from hypcheck.derivation.program import Program
+from hypcheck.derivation.program import Program, needed
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
@@ -21,7 +22,10 @@ def answer(position: Position, question: str) -> int:
 
 def function(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
     """The function of the setting at this place, from the first line to the last."""
-    lines = [line for part in _Body(plan, stages, place, dialect).lines() for line in part.splitlines()]
+    parts = list(_Body(plan, stages, place, dialect).lines())
+    read = set(re.findall(r"\w+", "\n".join(parts)))
+    unused = (dialect.say("unused", name=name) for name in "xyz" if name not in read)
+    lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
     indented = [f"{INDENT}{line}" if line else "" for line in lines]
     begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
@@ -52,18 +56,16 @@ class _Body:
     def _thresholds(self) -> Iterator[str]:
         found = self._stages.thresholds
         assert found is not None  # noqa: S101 - the caller has looked
-        yield from self._entry(("R",))
-        outer, inner = f"R > {self._literal(found.outer)}", None
+        contact = answer(Position.CONTACT, self._question)
+        tests = [(f"R > {self._literal(found.outer)}", Position.EXTERIOR)]
         if found.inner is not None:
-            inner = f"R < {self._literal(found.inner)}"
-        for condition, position in ((outer, Position.EXTERIOR), (inner, Position.INTERIOR)):
-            if condition is not None and answer(position, self._question) != answer(Position.CONTACT, self._question):
-                yield self._return_if(condition, position)
-        if self._question == "contact":
-            for condition in (outer, inner):
-                if condition is not None:
-                    yield self._say("return if", condition=condition, value=0)
-        yield self._say("return", value=answer(Position.CONTACT, self._question))
+            tests.append((f"R < {self._literal(found.inner)}", Position.INTERIOR))
+        telling = [(test, position) for test, position in tests if answer(position, self._question) != contact]
+        if telling:
+            yield from self._entry(("R",))
+        for test, position in telling:
+            yield self._return_if(test, position)
+        yield self._say("return", value=contact)
 
     def _stages_in_turn(self) -> Iterator[str]:
         stages = self._stages
@@ -125,8 +127,10 @@ class _Body:
         return self._say("truth", condition=compared[self._question])
 
     def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
-        yield from self._constants(self._stages.entry_constants)
-        yield from self._printed(self._stages.entry, wanted)
+        program, constants = self._stages.entry, self._stages.entry_constants
+        read = {name for step in needed(program, wanted) for name in step.reads}
+        yield from self._constants({name: value for name, value in constants.items() if name in read})
+        yield from self._printed(program, wanted)
 
     def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
         for name, value in constants.items():

@@ -60,6 +60,7 @@ _C_LIKE = {
     "field": ".{name} = {value}",
     "choose": "if (has_sizes(sizes, {sizes})) return position_{place};",
     "note": "/* {text} */",
+    "unused": "(void){name};",
 }
 
 _CPP = {
@@ -82,6 +83,7 @@ _RUST = {
     "search": "search(R, zz, height, &SETTING_{place})",
     "setting": "const SETTING_{place}: Setting = Setting {{{values}}};",
     "field": "{name}: {value}",
+    "unused": "let _ = {name};",
     "choose": "if has_sizes(sizes, [{sizes}]) {{\n    return Some(position_{place});\n}}",
     "note": "// {text}",
 }
@@ -94,6 +96,7 @@ _JAVASCRIPT = {
     "search": "search(R, zz, height, setting_{place})",
     "setting": "const setting_{place} = {{{values}}};",
     "field": "{name}: {value}",
+    "unused": "",
     "choose": "if (hasSizes(sizes, [{sizes}])) return position_{place};",
     "note": "// {text}",
 }
@@ -114,6 +117,7 @@ _PYTHON = {
     "field": "{value}",
     "choose": "if sizes == ({sizes}):\n    return position_{place}",
     "note": "# {text}",
+    "unused": "",
 }
 
 

@@ -16,8 +16,9 @@ def template(name: str) -> str:
 
 
 def filled(text: str, parts: Mapping[str, str]) -> str:
-    """The text with its marks filled in, once: what a part says is never taken for a mark. Raises KeyError for a mark
-    that has no part.
+    """The text with its marks filled in, once: what a part says is never taken for a mark.
+
+    Raises KeyError for a mark that has no part.
     """
 
     def block(match: re.Match[str]) -> str:

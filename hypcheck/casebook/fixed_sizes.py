@@ -1,0 +1,208 @@
+"""Families for given sizes: the traps that one spheroid beside one hyperboloid has, at every scale of nearness.
+
+A kernel that was made for a scene knows its own sizes alone, so the other families ask it next to nothing. These are
+made for it; their names carry the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+
+import numpy as np
+
+from hypcheck.casebook.draw import Draw, Floats, stepped, turns
+from hypcheck.casebook.family import Family
+from hypcheck.casebook.placing import Sizes, beside_surface, stack
+from hypcheck.errors import InputError
+from hypcheck.pairs import CENTER, SIZES, Pair, Position, trouble_with
+from hypcheck.ranges import FixedSizes, Range
+from hypcheck.rows import Rows
+from hypcheck.truth import exact
+
+MARK = "@"
+OPEN = 2.0
+"""Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
+
+_SPAN = re.compile(r"([xyz])=([^:]+):([^:]+)")
+
+
+@dataclass(frozen=True, slots=True)
+class _Trap:
+    """A generator of rows for fixed sizes, and what is said of its family."""
+
+    name: str
+    title: str
+    purpose: str
+    make: Callable[[FixedSizes, Draw, int], Rows]
+
+
+def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
+    """The families of every setting; of each all traps."""
+    return tuple(_family(trap, setting) for setting in settings for trap in TRAPS)
+
+
+def family_at(name: str) -> Family:
+    """The family that such a name names; raises InputError saying what is wrong with it."""
+    trap, _, text = name.partition(MARK)
+    known = {each.name: each for each in TRAPS}
+    if trap not in known:
+        raise InputError(f"there is no family {trap!r} for fixed sizes; there are {', '.join(known)}")
+    return _family(known[trap], _parsed(text, name))
+
+
+def _family(trap: _Trap, setting: FixedSizes) -> Family:
+    return Family(
+        name=f"{trap.name}{MARK}{_written(setting)}",
+        version=1,
+        title=trap.title,
+        source="made for the sizes of one scene",
+        purpose=trap.purpose,
+        game="a kernel made for one level is wrong where that level is played",
+        drone="a kernel made for one mission is wrong on it",
+        regimes="that of the sizes",
+        make=partial(trap.make, setting),
+    )
+
+
+def _written(setting: FixedSizes) -> str:
+    spans = [f"{name}={span[0]!r}:{span[1]!r}" for name, span in zip(CENTER, setting.spans, strict=True) if span]
+    return ",".join([*map(repr, setting.sizes), *spans])
+
+
+def _parsed(text: str, name: str) -> FixedSizes:
+    words = text.split(",")
+    try:
+        alpha, gamma, b, d = (float(word) for word in words[: len(SIZES)])
+        spans = dict(_span(word) for word in words[len(SIZES) :])
+    except ValueError:
+        raise InputError(
+            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, at will, x=low:high, y=…, z=…"
+        ) from None
+    for column, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(column, value)
+        if trouble is not None:
+            raise InputError(f"{name!r} names no family: {trouble}")
+    return FixedSizes((alpha, gamma, b, d), **spans)
+
+
+def _span(word: str) -> tuple[str, Range]:
+    match = _SPAN.fullmatch(word)
+    if match is None:
+        raise ValueError(word)
+    low, high = float(match.group(2)), float(match.group(3))
+    if not low <= high:
+        raise ValueError(word)
+    return match.group(1), (low, high)
+
+
+def _span_or(span: Range | None, reach: float) -> Range:
+    return span if span is not None else (-reach, reach)
+
+
+def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
+    n = len(x)
+    alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
+    low, high = setting.z if setting.z is not None else (-np.inf, np.inf)
+    return stack(Sizes(alpha, gamma, b, d), x, y, np.clip(z, low, high))
+
+
+def _turned(setting: FixedSizes, draw: Draw, radius: Floats, z: Floats) -> Rows:
+    cosine, sine = draw.circle(len(radius))
+    return _rows(setting, radius * cosine, radius * sine, z)
+
+
+def _heights(setting: FixedSizes, draw: Draw, n: int) -> Floats:
+    """Heights in the span: half of them uniform, half near the waist."""
+    low, high = _span_or(setting.z, OPEN * (setting.sizes[1] + setting.sizes[3]))
+    near = np.clip(draw.signs(n) * setting.sizes[3] * draw.log_uniform(n, -40, 3), low, high)
+    return np.where(turns(n, True, False), draw.between(n, low, high), near)
+
+
+def _box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    alpha, gamma, b, d = setting.sizes
+    reaches = (OPEN * (alpha + b), OPEN * (alpha + b), OPEN * (gamma + d))
+    spans = [_span_or(span, reach) for span, reach in zip(setting.spans, reaches, strict=True)]
+    x, y, z = (draw.between(n, low, high) for low, high in spans)
+    return _rows(setting, x, y, z)
+
+
+def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Centres one radius (1 ± 2⁻⁵² … 1) off the surface, on either side, along the normal."""
+    alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
+    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    height = np.abs(_heights(setting, draw, n)) / d
+    radius, level = beside_surface(alpha / b, gamma / d, height, offset)
+    return _turned(setting, draw, radius * b, level * d * draw.signs(n))
+
+
+def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """On and about r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
+    alpha, gamma, b, d = setting.sizes
+    a, c = alpha / b, gamma / d
+    radius = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
+    radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
+    height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
+    return _turned(setting, draw, radius, height)
+
+
+def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
+    alpha, gamma, b, d = setting.sizes
+    A, B = (alpha / b) * (alpha / b), (gamma / d) * (gamma / d)
+    z = _heights(setting, draw, n)
+    Q = (z / d) * (z / d)
+    P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
+    steps = draw.signs(n) * draw.log_uniform(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
+    return _turned(setting, draw, b * np.sqrt(np.maximum(P * (1 + steps), 0.0)), z)
+
+
+def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """On the axis or a hair beside it, at any height; and far out, at any azimuth."""
+    alpha, gamma = setting.sizes[:2]
+    hair = alpha * draw.log_uniform(n, -60, 1) * turns(n, 0.0, 1.0)
+    far = alpha * draw.log_uniform(n, 0, 12)
+    z = np.where(turns(n, True, False, False), 0.0, _heights(setting, draw, n))
+    away = turns(n, False, False, True)
+    up = draw.signs(n) * gamma * draw.log_uniform(n, 0, 12)
+    return _turned(setting, draw, np.where(away, far, hair), np.where(away & turns(n, True, False), up, z))
+
+
+def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The last floats before contact and the first in it, on both sides, at sixteen heights a block and y = 0."""
+    heights = np.clip(_heights(setting, draw, 16), *_span_or(setting.z, np.inf))
+    sides = (Position.EXTERIOR, Position.INTERIOR)
+    edges = [(_edge(setting.sizes, z, side), z) for z in heights.tolist() for side in sides]
+    table = np.resize(np.array(edges), (n, 2))
+    x = stepped(table[:, 0], draw.integers(n, -6, 6))
+    return _rows(setting, draw.signs(n) * x, np.zeros(n), table[:, 1])
+
+
+def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
+    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 where it never is."""
+
+    def outward(x: float) -> bool:
+        position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
+        return position is Position.EXTERIOR if side is Position.EXTERIOR else position is not Position.INTERIOR
+
+    low, high = 0.0, sizes[0] + sizes[2]
+    if outward(low):
+        return low
+    while not outward(high):
+        low, high = high, 2 * high
+    while low < (middle := float((Fraction(low) + Fraction(high)) / 2)) < high:
+        low, high = (low, middle) if outward(middle) else (middle, high)
+    return high
+
+
+TRAPS = (
+    _Trap("box", "anywhere in the region", "the everyday case, each stage in its share", _box),
+    _Trap("beside", "one radius off the surface, or nearly", "the boundary itself, from 1 to 2⁻⁵³ off it", _beside),
+    _Trap("razor", "a few floats before and behind contact", "the last digit decides", _razor),
+    _Trap("ring-about", "clear, with Δ next to 0", "an invisible wall far from the surface", _ring),
+    _Trap("zeros", "c1 or c2 is 0, or nearly", "a coefficient's sign is no help", _zeros),
+    _Trap("axes", "on the axis, in the plane of the waist, or far out", "zeros, and squares that are far apart", _axes),
+)

@@ -1,0 +1,58 @@
+"""A domain read from a mapping: regimes, ratio, magnitude, and the settings that a kernel for one scene has."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from hypcheck.errors import InputError
+from hypcheck.methods.checks import number, require_known, shown, two_numbers
+from hypcheck.methods.domain import Domain
+from hypcheck.pairs import CENTER, SIZES, trouble_with
+from hypcheck.ranges import FixedSizes
+
+KEYS = ("regimes", "ratio", "magnitude", "settings")
+
+
+def domain_of(value: object, where: str) -> Domain:
+    """The domain that a mapping describes, or that is one already; raises InputError naming key and value."""
+    if isinstance(value, Domain):
+        return value
+    if not isinstance(value, Mapping):
+        raise InputError(f"{where} is {shown(value)}; it must be a mapping with {', '.join(KEYS)}")
+    require_known(value, KEYS, where)
+    ranges = [key for key in ("ratio", "magnitude") if key in value]
+    known: dict[str, Any] = {key: two_numbers(value[key], f"{where}'s {key}") for key in ranges}
+    if "regimes" in value:
+        known["regimes"] = _regimes(value["regimes"], f"{where}'s regimes")
+    if "settings" in value:
+        known["settings"] = _settings(value["settings"], f"{where}'s settings")
+    return Domain(**known)
+
+
+def _regimes(value: object, where: str) -> tuple[str, ...]:
+    if not isinstance(value, (list, tuple)) or not all(isinstance(each, str) for each in value):
+        raise InputError(f"{where} is {shown(value)}; it must be a list of names")
+    return tuple(value)
+
+
+def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
+    if not isinstance(value, (list, tuple)) or not value:
+        raise InputError(f"{where} is {shown(value)}; it must be a list of mappings with sizes and, at will, x, y, z")
+    return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
+
+
+def _setting(value: object, where: str) -> FixedSizes:
+    if not isinstance(value, Mapping) or "sizes" not in value:
+        raise InputError(f"{where} is {shown(value)}; it must be a mapping with sizes and, at will, x, y, z")
+    require_known(value, ("sizes", *CENTER), where)
+    sizes = value["sizes"]
+    if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
+        raise InputError(f"{where}'s sizes is {shown(sizes)}; it must be four numbers, {', '.join(SIZES)}")
+    alpha, gamma, b, d = (number(each, f"{where}'s sizes") for each in sizes)
+    for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(name, size)
+        if trouble is not None:
+            raise InputError(f"{where}'s sizes: {trouble}")
+    spans = {key: two_numbers(value[key], f"{where}'s {key}") for key in CENTER if key in value}
+    return FixedSizes((alpha, gamma, b, d), **spans)
