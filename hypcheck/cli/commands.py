@@ -21,6 +21,8 @@ COMMANDS = {
     "replay": "hypcheck.cli.replay:replay",
     "report": "hypcheck.cli.report:report",
     "record": "hypcheck.cli.record:record_",
+    "plan": "hypcheck.cli.plan:plan",
+    "emit": "hypcheck.cli.emit:emit",
     "init": "hypcheck.cli.init:init",
 }
 """Name → module:attribute of the click command."""

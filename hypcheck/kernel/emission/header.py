@@ -34,7 +34,7 @@ def _wrapped(paragraph: str) -> list[str]:
 def _paragraphs(plan: Plan, command: Sequence[str]) -> Iterator[str]:
     scene = safe(plan.scene.name)
     yield f'Where a spheroid stands in the scene "{scene}": {_asked(plan.question)}.'
-    yield (f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by\n").strip()
+    yield f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by"
     yield "    " + safe(shlex.join(command))
     yield (
         "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
@@ -61,11 +61,11 @@ def _setting(number: int, stages: Stages) -> Iterator[str]:
     setting = stages.setting
     alpha, gamma, b, d = setting.sizes
     uses = "; ".join(safe(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
-    yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {_region(setting)}"
-    yield f"   {_cost(stages)}"
+    yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} {_cost(stages)}"
 
 
-def _region(setting: Setting) -> str:
+def region(setting: Setting) -> str:
+    """Where the centre can be, as seen from the hyperboloid's, in a sentence or two."""
     told = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
     beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
     return f"Region: {', '.join(told) or 'everywhere'}.{beyond}"
