@@ -75,7 +75,8 @@ def _setting_lines(place: int, stages: Stages, question: str) -> Iterator[str]:
     for omission in stages.omitted:
         yield f"     {omission.what}: {omission.why}"
     yield "   costs"
-    yield f"     {_told(operations_before(stages))} before a search; {_average(stages, question):.1f} that round on average"
+    average = _average(stages, question)
+    yield f"     {_told(operations_before(stages))} before a search; {average:.1f} that round on average"
     yield f"     Table 2 as printed: {_told(printed_operations())}; {printed_operations().rounded} that round"
 
 

@@ -11,11 +11,15 @@ from hypcheck.kernel.specialise.scale import Scaled
 RADIAL, AXIAL = "radial_unit", "axial_unit"
 """Names of the two powers of two, where a kernel has them."""
 
+_ONE = Fraction(1)
+UNSCALED = Scaled(_ONE, _ONE, _ONE, _ONE, _ONE, _ONE)
+"""Some sizes that need no scaling: what is counted of their entry holds for all."""
+
 
 def entry(scaled: Scaled) -> tuple[Program, dict[str, float]]:
     """The program from x, y, z to R, zz and height = |z|, with the constants it takes besides them."""
     constants = {
-        name: float(value) for name, value in ((RADIAL, scaled.radial), (AXIAL, scaled.axial)) if value != Fraction(1)
+        name: float(value) for name, value in ((RADIAL, scaled.radial), (AXIAL, scaled.axial)) if value != _ONE
     }
     lines = []
     across, up = ("x", "y"), "z"

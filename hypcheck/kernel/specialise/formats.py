@@ -32,7 +32,7 @@ class Format:
             return 0.0
         exponent = _floor_log2(abs(value))
         if not self.least <= exponent <= self.greatest:
-            raise OverflowError(f"{float(abs(value)):.3g} is no normal number of {self.name}")
+            raise OverflowError(f"a number near 2^{exponent} is no normal number of {self.name}")
         step = Fraction(2) ** (exponent - self.bits + 1)
         units = value / step
         return float(_whole(units, direction) * step)

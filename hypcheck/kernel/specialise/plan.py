@@ -125,7 +125,7 @@ def _stages(setting: Setting, question: str, form: Format) -> Stages:
         "discriminant": float(by_delta.sum() / len(R)),
         "search": float((~by_delta).sum() / len(R)),
     }
-    bound = searching.backward_bound(first)
+    bound = searching.backward_bound()
     omitted = _omissions(setting, question, delta, constants)
     return Stages(
         setting, first, constants, None, None, tuple(lines), sides, delta, search(scale, form), shares, omitted, bound

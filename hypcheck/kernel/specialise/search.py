@@ -22,8 +22,9 @@ from math import isqrt
 
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.listing import program_of
-from hypcheck.derivation.program import Program, Step, cut
+from hypcheck.derivation.program import Program, cut
 from hypcheck.derivation.rounding import relative_error_counts
+from hypcheck.kernel.specialise.entry import UNSCALED, entry
 from hypcheck.kernel.specialise.formats import Format
 from hypcheck.kernel.specialise.scale import Scaled
 
@@ -126,23 +127,19 @@ def _root(value: Fraction, form: Format) -> float:
     return form.rounded(Fraction(whole) / Fraction(2) ** (exponent // 2))
 
 
-def backward_bound(entry: Program) -> Fraction:
-    """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ."""
-    steps = (*entry.steps, *(step for step in START.steps if step.name in {"P", "Q"}), *PHI.steps)
-    inputs = tuple(
-        dict.fromkeys(name for name in (*entry.inputs, "PR", "QZ", "lambda_", "A_plus_lambda", "B_minus_lambda"))
-    )
-    whole = Program("bound", inputs, tuple(step for step in steps if not _is_comparison(step)))
+def backward_bound() -> Fraction:
+    """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ.
+
+    Products by the units of scale.py are by powers of two and round nothing, so the unscaled entry is what is counted.
+    """
+    first, _ = entry(UNSCALED)
+    steps = (*first.steps, *(step for step in START.steps if step.name in {"P", "Q"}), *PHI.steps)
+    inputs = (*first.inputs, "PR", "QZ", "lambda_", "A_plus_lambda", "B_minus_lambda")
+    whole = Program("bound", inputs, tuple(step for step in steps if step.name != "above_zero"))
     positive = frozenset({"PR", "QZ", "A_plus_lambda", "B_minus_lambda"})
     counts = relative_error_counts(whole, ("P_term", "Q_term", "one_plus_lambda"), positive, input_roundings=1).counts
     sums = 2  # P_term − Q_term and the last subtraction
-    distances = (
-        1  # of λ, A + λ and B − λ one is exact and one, or the sum of two, may carry a rounding more than an input
-    )
+    distances = 1  # λ and a distance to a pole carry three roundings together at most; two are counted as inputs
     on_terms = max(counts["P_term"], counts["Q_term"]) + distances + sums
     on_others = counts["one_plus_lambda"] + 1
     return Fraction(on_terms + on_others, 2)
-
-
-def _is_comparison(step: Step) -> bool:
-    return step.operation in {"gt", "lt", "ge", "le", "eq", "ne", "and", "or", "not", "select"}

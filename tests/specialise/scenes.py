@@ -1,0 +1,31 @@
+"""Scenes to try plans and kernels on: the shipped tower, and any number of random ones."""
+
+from __future__ import annotations
+
+import math
+import random
+
+from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, Scene, Span
+
+
+def scene(sizes=(2.0, 17.8, 0.25, 0.15), question="position", **spans):
+    """One hyperboloid at the origin and one mover."""
+    alpha, gamma, b, d = sizes
+    return Scene("a scene", question, (Hyperboloid("h", alpha, gamma),), Mover(b, d), Region(**spans))
+
+
+def random_scene(seed):
+    """Sizes of many ratios in metres, every regime and border, with an open, bounded or fixed height."""
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+
+    def length(low, high):
+        return float(f"{10 ** draw.uniform(low, high):.{draw.choice([1, 3, 16])}g}")
+
+    alpha, gamma, wide = length(-3, 4), length(-3, 4), draw.choice([1.5, 4, 7])
+    b, d = (min(1e6, max(1e-6, size * 10 ** draw.uniform(-wide, wide))) for size in (alpha, gamma))
+    if draw.random() < 0.2:
+        d = gamma / math.sqrt(alpha / b)
+    height = length(-2, 3)
+    z = draw.choice([None, None, Span(-height, height), Span(height, height), Span(0.0, 0.0)])
+    x = draw.choice([None, None, None, Span(alpha / 2, 3 * alpha)])
+    return scene((alpha, gamma, b, d), draw.choice(QUESTIONS), x=x, y=x, z=z)
