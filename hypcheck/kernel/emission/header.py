@@ -8,6 +8,7 @@ from fractions import Fraction
 from textwrap import wrap
 
 from hypcheck.derivation.counting import Operations, count
+from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.plan import Plan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.rows import CANNOT_SAY
@@ -92,6 +93,8 @@ def operations_before(stages: Stages) -> Operations:
     steps = [step for step in stages.entry.steps if step.operation != "abs"]
     for line in stages.lines:
         steps += line.program.steps
+    if stages.centre:
+        steps += CENTRE.steps
     if stages.discriminant is not None:
         steps += stages.discriminant.program.steps
     return count(steps)
