@@ -1,0 +1,198 @@
+"""Turning in place: where a part on an arm stands to the hyperboloid all through a turn, by a bound that is proved.
+
+The part's centre goes along an arc of radius l about the mover's centre (x0, y0, z0), at one height. Only its squared
+distance from the axis changes, R(t) = x0² + y0² + l² + 2 l e(t), with
+
+    e(t) = x0 cos(θ + t) + y0 sin(θ + t),  t from 0 to the angle of the turn.
+
+At one height a spheroid that is exterior stays so where R grows, and one that is interior where R falls
+(docs/mathematics.md, "Monotone in every input"). So the least R of the turn decides about exterior, the largest about
+interior, and if neither holds there is contact on the way. e(t) is ρ cos(t − t*), ρ² = x0² + y0²: over less than half a
+turn its extremes are at the ends, or ±ρ where its slope has changed its sign in between. Sines, cosines and roots are
+enclosed between rationals, and so is R; the answer is given where it is the same at both ends of the enclosures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from mpmath import MPContext, MPIntervalContext, mpf
+from mpmath.ctx_iv import ivmpf
+
+from hypcheck.errors import InputError
+from hypcheck.pairs import Lengths, Position
+from hypcheck.truth import exact
+from hypcheck.truth.motion import Rational, checked, integers
+
+PRECISIONS = (128, 512, 2048)
+"""Bits with which enclosures are made, each tried where the one before does not tell."""
+
+WHOLE_TURN = 6.5
+"""An angle that is more than a whole turn: the arc is the circle."""
+
+_PIECE = Fraction(1, 2)
+"""Radians: far below half a turn."""
+
+Enclosure = tuple[Fraction, Fraction]
+
+
+def turning(
+    sizes: Sequence[Rational],
+    center: Sequence[Rational],
+    arm: Rational,
+    direction: Sequence[Rational],
+    angle: float,
+) -> Position | None:
+    """Where a part stands while it turns: EXTERIOR or INTERIOR all the way, or CONTACT where it meets it.
+
+    `sizes` are α, γ and the part's b, d; `center` is the mover's, from the hyperboloid's; the arm points into the
+    `direction` (x, y) ≠ (0, 0) of any length at first, and turns by `angle` (radians, counterclockwise, finite). None
+    where 2048 bits cannot tell: the turn then comes to a tangency to within 10⁻⁶⁰⁰. Raises InputError where a number is
+    not finite, a size not > 0, the arm < 0 or the direction (0, 0).
+    """
+    rationals = checked(sizes, center)
+    length, ahead, aside, _ = _checked_turn(arm, direction, angle)
+    for bits in PRECISIONS:
+        least, largest = squared_distances(rationals[4], rationals[5], length, (ahead, aside), angle, bits)
+        position = _all_the_way(rationals, least, largest, bits)
+        if position is not None:
+            return position
+    return None
+
+
+def _checked_turn(arm: Rational, direction: Sequence[Rational], angle: float) -> tuple[Fraction, ...]:
+    for name, number in (("arm", arm), ("direction", direction[0]), ("direction", direction[1]), ("angle", angle)):
+        if isinstance(number, float) and not math.isfinite(number):
+            raise InputError(f"{name} is {number!r}; it must be finite")
+    if arm < 0 or not any(direction):
+        what = f"arm is {arm!r}; it must be 0 or more" if arm < 0 else "direction is (0, 0); it must lead somewhere"
+        raise InputError(what)
+    return tuple(Fraction(number) for number in (arm, *direction, angle))
+
+
+def squared_distances(
+    x: Fraction, y: Fraction, arm: Fraction, direction: tuple[Fraction, Fraction], angle: float, bits: int
+) -> tuple[Enclosure, Enclosure]:
+    """Enclosures of the least and of the largest R of the turn."""
+    reach = _root(x * x + y * y, bits)
+    if abs(angle) >= WHOLE_TURN:
+        extremes = [(-reach[1], -reach[0]), reach]
+    else:
+        pieces = [_extremes(left, right, reach) for left, right in _pieces(x, y, direction, angle, bits)]
+        extremes = [
+            (min(low[0] for low, _ in pieces), min(low[1] for low, _ in pieces)),
+            (max(high[0] for _, high in pieces), max(high[1] for _, high in pieces)),
+        ]
+    base = x * x + y * y + arm * arm
+    least, largest = ((base + 2 * arm * low, base + 2 * arm * high) for low, high in extremes)
+    return least, largest
+
+
+State = tuple[Enclosure, Enclosure]
+"""e and its slope at one time."""
+
+
+def _pieces(
+    x: Fraction, y: Fraction, direction: tuple[Fraction, Fraction], angle: float, bits: int
+) -> Iterator[tuple[State, State]]:
+    """e and e′ at both ends of each piece of the turn."""
+    context, plain = MPIntervalContext(), MPContext()
+    context.prec = plain.prec = bits
+    length = _root(direction[0] ** 2 + direction[1] ** 2, bits)
+    along = _quotient(x * direction[0] + y * direction[1], length)
+    across = _quotient(y * direction[0] - x * direction[1], length)
+    whole = Fraction(angle)
+    count = max(1, math.ceil(abs(whole) / _PIECE))
+
+    def state(number: int) -> State:
+        time = whole * number / count
+        at = context.mpf(time.numerator) / time.denominator
+        cosine, sine = (_fractions(plain, value) for value in (context.cos(at), context.sin(at)))
+        value = _sum(_product(along, cosine), _product(across, sine))
+        slope = _sum(_product(across, cosine), _negative(_product(along, sine)))
+        return value, slope if whole >= 0 else _negative(slope)
+
+    last = state(0)
+    for number in range(1, count + 1):
+        here = state(number)
+        yield last, here
+        last = here
+
+
+def _extremes(left: State, right: State, reach: Enclosure) -> tuple[Enclosure, Enclosure]:
+    """Enclosures of the least and the largest e over one piece."""
+    (e0, slope0), (e1, slope1) = left, right
+    high = _summit(e0, e1, slope0, slope1, reach)
+    low = _negative(_summit(_negative(e0), _negative(e1), _negative(slope0), _negative(slope1), reach))
+    return low, high
+
+
+def _summit(e0: Enclosure, e1: Enclosure, slope0: Enclosure, slope1: Enclosure, reach: Enclosure) -> Enclosure:
+    """The largest of ρ cos over less than half a turn: ρ where the slope changes from plus to minus, else at an end."""
+    ends = (max(e0[0], e1[0]), max(e0[1], e1[1]))
+    if slope0[0] > 0 > slope1[1]:
+        return reach
+    if slope0[1] <= 0 or slope1[0] >= 0:
+        return ends
+    return ends[0], max(ends[1], reach[1])
+
+
+def _all_the_way(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclosure, bits: int) -> Position | None:
+    def at(squared: Fraction, *, up: bool) -> Position:
+        return _position(rationals, _root(squared, bits)[up])
+
+    if at(least[0], up=False) is Position.EXTERIOR:
+        return Position.EXTERIOR
+    if at(largest[1], up=True) is Position.INTERIOR:
+        return Position.INTERIOR
+    met = at(least[1], up=True) is not Position.EXTERIOR and at(largest[0], up=False) is not Position.INTERIOR
+    return Position.CONTACT if met else None
+
+
+def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
+    """The exact position at this distance from the axis."""
+    alpha, gamma, b, d, _, _, z = rationals
+    wide, thick, far = integers(alpha, b, radius)
+    tall, thin, high = integers(gamma, d, z)
+    return exact.position(Lengths(wide, thick, far, 0, tall, thin, high))
+
+
+def _root(square: Fraction, bits: int) -> Enclosure:
+    """√ of a number, of 0 for a number below it, to about `bits` bits."""
+    square = max(square, Fraction(0))
+    scale = max(0, bits + (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 1)
+    whole = math.isqrt((square.numerator << 2 * scale) // square.denominator)
+    exact_root = whole * whole * square.denominator == square.numerator << 2 * scale
+    return Fraction(whole, 1 << scale), Fraction(whole + (not exact_root), 1 << scale)
+
+
+def _fractions(context: MPContext, enclosure: ivmpf) -> Enclosure:
+    """The ends of an interval of mpmath, exactly."""
+    low, high = (context.mpf(end) for end in (enclosure.a, enclosure.b))
+    return _fraction(low), _fraction(high)
+
+
+def _fraction(number: mpf) -> Fraction:
+    """An mpf, exactly; its mantissa has no sign."""
+    size = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
+    return -size if number < 0 else size
+
+
+def _sum(first: Enclosure, second: Enclosure) -> Enclosure:
+    return first[0] + second[0], first[1] + second[1]
+
+
+def _negative(enclosure: Enclosure) -> Enclosure:
+    return -enclosure[1], -enclosure[0]
+
+
+def _product(first: Enclosure, second: Enclosure) -> Enclosure:
+    corners = [a * b for a in first for b in second]
+    return min(corners), max(corners)
+
+
+def _quotient(number: Fraction, positive: Enclosure) -> Enclosure:
+    low, high = sorted((number / positive[0], number / positive[1]))
+    return low, high

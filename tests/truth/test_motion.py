@@ -1,0 +1,271 @@
+"""The way between two positions: against exact decisions at many times, exact tangencies, the ring, known times."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from hypcheck.errors import InputError
+from hypcheck.pairs import Position
+from hypcheck.truth.motion import passage
+from tests.fractions_truth import TRIPLES, exact_position, sign
+
+EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
+HALF = Fraction(1, 2)
+
+_size = st.one_of(st.integers(64, 2**14).map(lambda n: n / 1024), st.integers(1, 6).map(float))
+_coordinate = st.one_of(st.integers(-20480, 20480).map(lambda n: n / 1024), st.integers(-14, 14).map(lambda n: n / 2))
+_sizes = st.tuples(_size, _size, _size, _size)
+_centers = st.tuples(_coordinate, _coordinate, _coordinate)
+
+
+def at(start, end, time):
+    return tuple(Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(start, end, strict=True))
+
+
+def truth(sizes, center):
+    return exact_position((*sizes, *center))
+
+
+def holds_first(found, time):
+    """Whether the enclosure holds this time of first contact."""
+    low, high = found.first
+    return low < time < high or low == time == high
+
+
+@settings(max_examples=200)
+@given(_sizes, _centers, _centers)
+def test_exact_decisions_on_the_way_agree(sizes, start, end):
+    found = passage(sizes, start, end)
+    assert found.start == truth(sizes, start)
+    assert found.end == truth(sizes, end)
+    for number in range(33):
+        time = Fraction(number, 32)
+        position = truth(sizes, at(start, end, time))
+        if found.clear or time <= found.first[0] < found.first[1]:
+            assert position == found.start
+        elif position == 0:
+            assert found.first[0] <= time
+        elif position != found.start:
+            assert found.first[0] < time
+
+
+@given(_sizes, _centers, _centers)
+def test_the_first_contact_is_where_the_position_changes(sizes, start, end):
+    """Just before the enclosure the spheroid is clear; just behind it, unless it grazes or goes on, it is not."""
+    found = passage(sizes, start, end)
+    assume(not found.clear and found.start is not CONTACT)
+    low, high = found.first
+    assert 0 <= low <= high <= 1
+    assert high - low <= low / 2**60
+    assert truth(sizes, at(start, end, low - (low == high) * low / 2**80)) in (found.start, 0)
+    if low < high and not found.grazes:
+        assert truth(sizes, at(start, end, high)) == 0
+    assert found.first_lower <= low <= high <= found.first_upper
+    assert found.first_upper <= math.nextafter(math.nextafter(found.first_lower, math.inf), math.inf)
+
+
+@given(_sizes, _centers, _centers, st.fractions(0, 1, max_denominator=9))
+def test_a_way_is_clear_where_both_its_parts_are(sizes, start, end, time):
+    middle = at(start, end, time)
+    whole, there, back = passage(sizes, start, end), passage(sizes, start, middle), passage(sizes, end, middle)
+    assert whole.clear == (there.clear and back.clear)
+    if not there.clear and whole.start is not CONTACT:
+        assert whole.first[0] <= there.first[1] * time
+        assert there.first[0] * time <= whole.first[1]
+
+
+@st.composite
+def tangent_places(draw):
+    """Sizes and a centre at exactly `steps` radii along a rational normal; docs/mathematics.md, "Double roots"."""
+    first, second, hypotenuse = draw(st.sampled_from(TRIPLES))
+    cosine, sine = Fraction(first, hypotenuse), Fraction(second, hypotenuse)
+    k, v = (draw(st.sampled_from([1, 3, 5])) * Fraction(2) ** draw(st.integers(-3, 3)) for _ in "kv")
+    u = 1 / (k * k * v)
+    assume(u != v)
+    u, v = min(u, v), max(u, v)
+    a, c = (u + v) / (2 * cosine), (v - u) / (2 * sine)
+    steps = draw(st.sampled_from([1, -1])) * (1 + draw(st.sampled_from([0, 0, 1, -1])) * Fraction(1, 2**12))
+    assume(-a * a < steps / k < c * c)
+    b, d = draw(st.sampled_from([Fraction(1), Fraction(1, 4)])), draw(st.sampled_from([Fraction(1), Fraction(3)]))
+    center = (a * a * k * cosine + steps * cosine, c * c * k * sine - steps * sine)
+    return (a * b, c * d, b, d), center, (cosine, sine), steps
+
+
+@given(tangent_places(), st.integers(6, 9).map(lambda n: Fraction(1, 2**n)))
+def test_a_way_beside_the_surface_grazes_it_where_it_is_tangent_and_nowhere_else(place, half):
+    """Outside, along the circle of the surface's horizontal section; inside, along the meridian's tangent.
+
+    The surface bends away from the spheroid in that direction, so the point of tangency is the nearest on the way.
+    """
+    (alpha, gamma, b, d), (r, z), (cosine, sine), steps = place
+    if steps > 0:
+        start, end = (r * b, -half * b, z * d), (r * b, half * b, z * d)
+    else:
+        along, up = sine * half, cosine * half
+        start, end = ((r - along) * b, 0, (z - up) * d), ((r + along) * b, 0, (z + up) * d)
+        assume(r - along > 0)
+    start, end = (tuple(map(Fraction, each)) for each in (start, end))
+    found = passage((alpha, gamma, b, d), start, end)
+    if abs(steps) == 1:
+        assert found.grazes
+        assert holds_first(found, HALF)
+        assert found.start is found.end is (EXTERIOR if steps > 0 else INTERIOR)
+    else:
+        assert not found.grazes
+        assert found.clear == (abs(steps) > 1)
+
+
+def slanting_ways():
+    """Ways through an exterior tangency at the middle that meet z = 0 at another time: there the ring would be."""
+    for triple, k, v, when in itertools.product(
+        TRIPLES,
+        map(Fraction, ("1/4", "1/3", "1/2", "2/3", "3/4", "1", "3/2", "2")),
+        range(1, 24),
+        map(Fraction, ("1/4", "-1/2", "3/4")),
+    ):
+        cosine, sine = (Fraction(leg, triple[2]) for leg in triple[:2])
+        u, w = sorted((4 / (k * k * v), Fraction(v, 4)))
+        a, c = (u + w) / (2 * cosine), (w - u) / (2 * sine)
+        if 1 < k * c * c:
+            z = c * c * k * sine - sine
+            slope = -z / cosine / when  # along the meridian's tangent
+            if z and abs(slope) <= Fraction(1, 8):
+                center, way = (a * a * k * cosine + cosine, 0, z), (slope * sine, 1, slope * cosine)
+                yield (a, c, 1, 1), *(tuple(at + n * by for at, by in zip(center, way, strict=True)) for n in (-1, 1))
+
+
+def test_a_tangency_is_not_taken_for_the_ring_where_z_is_zero_nearby():
+    grazing = 0
+    for sizes, start, end in slanting_ways():
+        found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
+        assert not found.clear
+        assert found.first[0] <= HALF
+        if found.grazes:
+            grazing += 1
+            assert holds_first(found, HALF)
+    assert grazing > 10
+
+
+@given(tangent_places())
+def test_a_way_along_the_normal_touches_at_one_radius(place):
+    (alpha, gamma, b, d), (r, z), (cosine, sine), steps = place
+    side = sign(steps)
+    foot = (r - steps * cosine, z + steps * sine)
+    far, near = ((foot[0] + side * n * cosine, foot[1] - side * n * sine) for n in (1 + Fraction(1, 64), HALF))
+    assume(far[0] > 0)
+    start, end = ((x * b, Fraction(0), h * d) for x, h in (far, near))
+    assume(truth((alpha, gamma, b, d), start) == side)
+    found = passage((alpha, gamma, b, d), start, end)
+    assert not found.grazes
+    assert found.end is CONTACT
+    assert holds_first(found, Fraction(1, 64) / (HALF + Fraction(1, 64)))
+
+
+RINGS = [((1, 2, 1, 1), Fraction(5, 2)), ((7, 7, 1, 1), Fraction(10)), ((14, 21, 2, 3), Fraction(20))]
+
+
+@pytest.mark.parametrize(("sizes", "radius"), RINGS)
+@pytest.mark.parametrize("way", [(1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 1), (3, 4, 2), (1, 0, 0.1)])
+def test_the_ring_is_no_contact(sizes, radius, way):
+    """The discriminant is 0 there and the spheroid far away, whichever way it comes through."""
+    center = (radius, Fraction(0), Fraction(0))
+    start, end = (tuple(c + n * Fraction(w) / 8 for c, w in zip(center, way, strict=True)) for n in (-1, 2))
+    assert passage(sizes, start, end).clear
+    assert passage(sizes, center, end).clear
+    assert passage(sizes, start, center).clear
+
+
+@pytest.mark.parametrize(
+    ("sizes", "start", "end", "first"),
+    [
+        ((2, 3, 1, 1), (-4, 3, 0), (4, 3, 0), HALF),  # a + 1 = 3 from the axis: touched beside it, between two rings
+        ((2, 3, 1, 1), (0, 0, 0), (4, 0, 0), Fraction(1, 4)),  # from inside, a − 1
+        ((2, 3, 1, 1), (5, 0, 0), (0, 0, 0), Fraction(2, 5)),  # from outside, a + 1
+        ((2, 3, 1, 1), (5, 0, 0), (3, 0, 0), Fraction(1)),  # at the very end
+        ((2, 3, 1, 1), (Fraction(7, 2), 0, 0), (3, 0, 0), Fraction(1)),  # … with no ring on the way
+        ((2, 3, 1, 1), (3, 0, 0), (5, 0, 0), Fraction(0)),  # at the very beginning
+        ((2, 3, 1, 1), (1, 0, -2), (1, 0, 2), HALF),  # up along the throat, touched at the waist
+        ((2, 1, 1, 1), (6, 0, 0), (0, 0, 0), (6 - math.sqrt(10)) / 6),  # c² < a: two points, r² = (c²+1)(a²+c²)/c²
+        ((4, 1, 2, 1), (-4, 6, 0), (4, 6, 0), None),  # … which 6 < 2√10 undercuts: contact
+        (
+            (1, 1, 1, 1),
+            (0, 0, 3),
+            (0, 0, -3),
+            (3 - math.sqrt(0)) / 6,
+        ),  # a = 1 on the axis: the waist is touched all round
+    ],
+)
+def test_known_times(sizes, start, end, first):
+    found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
+    assert not found.clear
+    if isinstance(first, Fraction):
+        assert holds_first(found, first)
+    elif first is not None:
+        assert found.first_lower == pytest.approx(first, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "start", "end", "grazes"),
+    [
+        ((2, 3, 1, 1), (-4, 3, 0), (4, 3, 0), True),
+        ((2, 3, 1, 1), (-4, 2, 0), (4, 2, 0), False),
+        ((2, 3, 1, 1), (1, 0, -2), (1, 0, 2), True),
+        ((2, 3, 1, 1), (3, 0, 0), (5, 0, 0), True),
+        ((2, 3, 1, 1), (3, 0, 0), (Fraction(7, 2), 0, 0), True),
+        ((2, 3, 1, 1), (0, 0, 0), (9, 0, 0), False),
+        ((2, 3, 1, 1), (2, 0, 0), (2, 0, 0), False),
+        ((1, 1, 1, 1), (0, 0, 3), (0, 0, -3), True),
+    ],
+)
+def test_grazing_is_contact_for_an_instant(sizes, start, end, grazes):
+    assert passage(sizes, start, end).grazes is grazes
+
+
+def test_who_does_not_move_stays_where_it_is():
+    for x, position in ((5, EXTERIOR), (2, CONTACT), (0, INTERIOR)):
+        found = passage((2, 3, 1, 1), (x, 0, 0), (x, 0, 0))
+        assert found.start is found.end is position
+        assert found.clear is (position is not CONTACT)
+
+
+def test_a_clear_way_has_no_time_of_contact():
+    found = passage((2, 3, 1, 1), (5, 0, 0), (6, 0, 0))
+    assert found.first is None
+    assert found.first_lower == found.first_upper == math.inf
+
+
+@settings(max_examples=25)
+@given(*[st.tuples(*[st.floats(0.01, 100)] * 4), *[st.tuples(*[st.floats(-100, 100)] * 3)] * 2])
+def test_any_floats_are_decided(sizes, start, end):
+    found = passage(sizes, start, end)
+    assert all(truth(sizes, at(start, end, Fraction(n, 8))) == found.start or not found.clear for n in range(9))
+    assert passage(sizes, end, start).clear == found.clear
+
+
+@given(st.sampled_from([2.0**-1000, 2.0**-99, 2.0**1000]), st.sampled_from([2.0**-600, 1.0, 2.0**600]))
+def test_any_magnitude_is_decided(wide, tall):
+    start, end = (-4 * wide, 3 * wide, 0.0), (4 * wide, 3 * wide, tall * 2.0**-200)
+    found = passage((2 * wide, 3 * tall, wide, tall), start, end)
+    assert found.start is found.end is EXTERIOR
+    assert not found.clear  # a hair below z = 0 it would be tangent; the tangency is crossed by what z adds
+
+
+@pytest.mark.parametrize(
+    ("sizes", "start", "end", "message"),
+    [
+        ((2.0, 0.0, 1.0, 1.0), (0.0,) * 3, (1.0,) * 3, "gamma is 0.0; a semi-axis must be greater than 0"),
+        ((2.0, Fraction(-1, 3), 1.0, 1.0), (0.0,) * 3, (1.0,) * 3, "gamma is -1/3"),
+        ((2.0, 3.0, 1.0, math.inf), (0.0,) * 3, (1.0,) * 3, "d is inf; it must be finite"),
+        ((2.0, 3.0, 1.0, 1.0), (0.0, math.nan, 0.0), (1.0,) * 3, "y is nan; it must be finite"),
+        ((2.0, 3.0, 1.0, 1.0), (0.0,) * 3, (0.0, 0.0, math.inf), "z is inf; it must be finite"),
+    ],
+)
+def test_what_is_no_length_is_refused(sizes, start, end, message):
+    with pytest.raises(InputError, match=message):
+        passage(sizes, start, end)
