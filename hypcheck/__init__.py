@@ -2,8 +2,9 @@
 
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z) -> int8 (n,)
+    hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
 
-Both are loaded, and numpy with them, when first used.
+All are loaded, and numpy with them, when first used.
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hypcheck.kernel.classify import classify, classify_scene
+    from hypcheck.kernel.world.scene import Scene
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
-__all__ = ["__version__", "classify", "classify_scene"]
+__all__ = ["Scene", "__version__", "classify", "classify_scene"]
 
 
 def __getattr__(name: str) -> object:
@@ -23,6 +25,10 @@ def __getattr__(name: str) -> object:
         from hypcheck import version  # noqa: PLC0415
 
         return version.VERSION
+    if name == "Scene":
+        from hypcheck.kernel.world import scene  # noqa: PLC0415
+
+        return scene.Scene
     if name in __all__:
         from hypcheck.kernel import classify as module  # noqa: PLC0415
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from fractions import Fraction
 
 from hypcheck.errors import InputError
 
@@ -109,7 +110,7 @@ def trouble_with(name: str, value: object) -> str | None:
     return None
 
 
-def to_integers(values: Sequence[float]) -> tuple[int, ...]:
+def to_integers(values: Sequence[float | Fraction]) -> tuple[int, ...]:
     """The values multiplied by one power of two that makes each an integer: exact, since floats are dyadic."""
     ratios = [value.as_integer_ratio() for value in values]
     unit = max(denominator for _, denominator in ratios)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import Program
+from hypcheck.errors import InputError
 from hypcheck.kernel.specialise import search as searching
 from hypcheck.kernel.specialise import thresholds as two_thresholds
 from hypcheck.kernel.specialise.centre import CENTRE, centre_constants
@@ -26,6 +27,9 @@ from hypcheck.kernel.specialise.settings import Setting, always, settings_of
 from hypcheck.kernel.specialise.thresholds import Thresholds, thresholds
 from hypcheck.pairs import Position
 from hypcheck.scene.model import Scene, Span
+
+MOST_SETTINGS = 64
+"""Different pairs of sizes in a plan: a kernel must stay readable."""
 
 USEFUL = 0.5
 """Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
@@ -88,9 +92,15 @@ class Plan:
 
 
 def plan_of(scene: Scene, precision: str = "float64") -> Plan:
-    """The plan for a scene's own question. Raises InputError for another format, or for sizes that leave it."""
+    """The plan for a scene's own question. Raises InputError for another format and for too many sizes."""
     form = format_of(precision)
-    found = tuple(_stages(setting, scene.question, form) for setting in settings_of(scene))
+    settings = settings_of(scene)
+    if len(settings) > MOST_SETTINGS:
+        raise InputError(
+            f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {MOST_SETTINGS} "
+            "(hypcheck.Scene asks any number)"
+        )
+    found = tuple(_stages(setting, scene.question, form) for setting in settings)
     return Plan(scene, scene.question, form, found)
 
 

@@ -1,0 +1,134 @@
+"""A scene that is asked again and again: prepared once, then exact answers about the mover wherever it stands.
+
+The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
+hyperboloid beyond whose modelled height the centre lies says nothing, and where all say nothing, so does the scene.
+Parts of the mover are asked where the mover itself is in contact: what all parts say alike is then the answer.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.kernel.world import offsets
+from hypcheck.kernel.world.grid import Grid, grid_of
+from hypcheck.kernel.world.reach import reaches
+from hypcheck.pairs import CENTER
+from hypcheck.rows import CANNOT_SAY, Positions
+from hypcheck.scene import model
+from hypcheck.scene.reading import parse_scene, read_scene
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+NOTHING_SAID = 2
+CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`."""
+
+    model: model.Scene
+
+    @classmethod
+    def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
+        """The scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
+        return cls(read_scene(os.fspath(path)))
+
+    @classmethod
+    def from_text(cls, text: str) -> Scene:
+        """The scene that a TOML text describes. Raises InputError naming key and line."""
+        return cls(parse_scene(text))
+
+    def classify(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, heading: ArrayLike = 0.0) -> Positions:
+        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,).
+
+        `x`, `y`, `z` are (n,) each or single numbers, `heading` the mover's direction in degrees, which places its
+        parts. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no; 2 is said beyond every modelled
+        height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded centre is.
+        Raises InputError for numbers that are not finite.
+        """
+        columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(each, np.float64)) for each in (x, y, z, heading)))
+        centres = np.stack(columns[:3], axis=1)
+        if centres.ndim != 2:
+            raise InputError(f"x, y, z have shape {columns[0].shape}; each must be (n,) or a single number")
+        for name, values in zip((*CENTER, "heading"), columns, strict=True):
+            if not np.isfinite(values).all():
+                index = int(np.argmin(np.isfinite(values)))
+                raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
+        query, body = self._pairs(centres)
+        said = self._said(query, body, centres, columns[3])
+        return self._answers(_combined(said, query, len(centres)))
+
+    def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
+        """Which hyperboloids have to be asked about which centres."""
+        height = self.model.region.z
+        if height is not None and not ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
+            count = len(self.model.hyperboloids)  # outside its region the grid promises nothing
+            return np.repeat(np.arange(len(centres)), count), np.tile(np.arange(count), len(centres))
+        near = [self._grid.near(x, y) for x, y in centres[:, :2].tolist()]
+        counts = [len(each) for each in near]
+        return np.repeat(np.arange(len(centres)), counts), np.concatenate([*near, np.empty(0, np.int64)])
+
+    def _said(self, query: Indices, body: Indices, centres: Floats, heading: Floats) -> Positions:
+        """What each hyperboloid says about its centre."""
+        shapes, origins, heights = self._bodies
+        mover = self.model.mover
+        result = _positions(shapes[body], (mover.b, mover.d), centres[query], origins[body])
+        for pair in np.flatnonzero(result == CONTACT) if mover.parts else ():
+            result[pair] = self._of_parts(
+                shapes[body[pair]], origins[body[pair]], centres[query[pair]], heading[query[pair]]
+            )
+        level = centres[query, 2] - origins[body, 2]
+        result[(level < heights[body, 0]) | (level > heights[body, 1])] = NOTHING_SAID
+        return result
+
+    def _of_parts(self, shape: Floats, origin: Floats, centre: Floats, heading: float) -> int:
+        """The position that all parts have in common, else contact."""
+        found = set()
+        for part in self.model.mover.parts:
+            turn = np.deg2rad(heading + part.angle)
+            place = centre + part.arm * np.array([np.cos(turn), np.sin(turn), 0.0])
+            found.add(int(_positions(shape[None], (part.b, part.d), place[None], origin[None])[0]))
+            if len(found) > 1 or CONTACT in found:
+                return CONTACT
+        return found.pop()
+
+    def _answers(self, positions: Positions) -> Positions:
+        question = self.model.question
+        if question == "position":
+            return positions
+        yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
+        return np.where(positions == NOTHING_SAID, CANNOT_SAY, positions == yes).astype(np.int8)
+
+    @cached_property
+    def _grid(self) -> Grid:
+        _, origins, _ = self._bodies
+        return grid_of(origins[:, 0], origins[:, 1], reaches(self.model))
+
+    @cached_property
+    def _bodies(self) -> tuple[Floats, Floats, Floats]:
+        """α and γ (m, 2), centres (m, 3) and modelled heights (m, 2) of all hyperboloids."""
+        bodies = self.model.hyperboloids
+        heights = [(-np.inf, np.inf) if body.height is None else (body.height.low, body.height.high) for body in bodies]
+        shapes = np.array([(body.alpha, body.gamma) for body in bodies])
+        return shapes, np.array([body.center for body in bodies], np.float64), np.array(heights)
+
+
+def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, origins: Floats) -> Positions:
+    sizes = np.concatenate([shapes, np.broadcast_to(spheroid, (len(shapes), 2))], axis=1)
+    return offsets.positions(sizes, centres, origins)
+
+
+def _combined(said: Positions, query: Indices, count: int) -> Positions:
+    """One answer a centre: contact before interior before exterior; where nobody was near, exterior."""
+    rank = np.select([said == CONTACT, said == INTERIOR, said == EXTERIOR], [3, 2, 1], 0).astype(np.int8)
+    highest = np.full(count, -1, np.int8)
+    np.maximum.at(highest, query, rank)
+    return np.array([NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT, EXTERIOR], np.int8)[highest]
