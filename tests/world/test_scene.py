@@ -72,7 +72,7 @@ def centres_about(scene, count, seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
     scene = forest(60, seed)
-    centres = centres_about(scene, 300, seed)
+    centres = centres_about(scene, 120, seed)
     found = Scene(scene).classify(*centres.T)
     assert found.dtype == np.int8
     for centre, answer in zip(centres.tolist(), found.tolist(), strict=True):
