@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from hypcheck import judge
 from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.plan import BenchPlan, chosen
-from hypcheck.bench.ways import SINGLES
 from hypcheck.bench.workloads import WORKLOADS, Workload
 from hypcheck.judge import Mistake
 from hypcheck.methods.method import Answers
@@ -103,7 +102,7 @@ def _answered(plan: BenchPlan, contender: Contender, answer: Any, workload: Work
         places,
         answer(rows[places]),
         print_of(answer(part)),
-        print_of(answer(part[:SINGLES])),
+        print_of(answer(part[: contender.singles])),
     )
 
 

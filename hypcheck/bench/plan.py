@@ -56,7 +56,9 @@ class BenchPlan:
 
     `specs` name implementations to be measured beside the built-in methods; `methods` and `workloads` are names and
     globs that choose (none: all). Times come from `rounds` rounds in each of `processes` fresh processes. `baseline` is
-    a record to be held to: a method may be `max_slowdown` times slower against the reference than it was there.
+    a record to be held to: a method may be `max_slowdown` times slower against the reference than it was there. What is
+    made on the way goes into `folder`, `compiled` among it: the library of methods in C, where there is one;
+    `missing` is what methods may need and is not here.
     """
 
     specs: tuple[str, ...] = ()
@@ -70,6 +72,9 @@ class BenchPlan:
     baseline: Path | None = None
     max_slowdown: float = 1.1
     kernel: bool = False
+    folder: Path = Path()
+    compiled: Path | None = None
+    missing: tuple[str, ...] = ()
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
@@ -84,9 +89,13 @@ class BenchPlan:
     @property
     def options(self) -> dict[str, Any]:
         """The plan as the record's header shows it."""
-        shown = {name: value for name, value in asdict(self).items() if name != "limits"}
+        shown = {name: value for name, value in asdict(self).items() if name not in _FOUND_OUT}
         baseline = None if self.baseline is None else str(self.baseline)
         return {"command": "bench", **shown, "baseline": baseline, "reference": REFERENCE}
+
+
+_FOUND_OUT = ("limits", "folder", "compiled", "missing")
+"""What is no option of a user's."""
 
 
 def chosen(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:

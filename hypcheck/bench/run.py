@@ -9,6 +9,7 @@ from typing import Any
 from hypcheck.bench import accuracy, speed
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
 from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.needs import prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
 from hypcheck.processes import processes
@@ -55,8 +56,9 @@ class _Run:
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
-    run = _Run(plan, recorder, outcome, contenders(plan))
     workloads = len(chosen_workloads(plan))
+    plan = prepared(plan, recorder)
+    run = _Run(plan, recorder, outcome, contenders(plan))
     return (
         Stage("methods", 1, lambda advance: _introduce(run, advance)),
         Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),

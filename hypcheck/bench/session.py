@@ -9,9 +9,9 @@ import numpy as np
 
 from hypcheck.bench.accuracy import chosen_workloads, print_of, timed_rows
 from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.contenders.ways import Empty, Prepared, Way
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.rounds import Entry, Samples, measure
-from hypcheck.bench.ways import Empty, Prepared, Way
 from hypcheck.bench.workloads import Workload
 from hypcheck.rows import Rows
 
@@ -89,6 +89,8 @@ def _field(
     field = _Field((workload.name, mode), {}, {}, {}, [])
     for name, way in ways.items():
         rows = timed_rows(session.plan, found[name], workload)
+        if mode == "single":
+            rows = rows[: found[name].singles]
         ready = MODES[mode](way, rows)
         if ready is None:
             continue

@@ -35,6 +35,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     was timed, 3 when one is slower than allowed, 4 when the machine was too noisy to tell, 5 when a SPEC could not be
     started.
     """
+    from dataclasses import replace
+    from tempfile import TemporaryDirectory
+
     from hypcheck.bench import run
     from hypcheck.bench.plan import BenchPlan
     from hypcheck.cli.verify import names_in
@@ -55,10 +58,12 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         kernel=options["kernel"],
     )
     outcome = run.BenchOutcome()
-    record_and_report(
-        options["out"],
-        plan.options,
-        lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
-        lambda: outcome.exit_code,
-    )
+    with TemporaryDirectory(prefix="hypcheck-bench-") as folder:
+        here = replace(plan, folder=Path(folder))
+        record_and_report(
+            options["out"],
+            plan.options,
+            lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)],
+            lambda: outcome.exit_code,
+        )
     context.exit(outcome.exit_code)

@@ -49,8 +49,8 @@ def searched(rows: Rows, precision: str) -> dict[str, Floats]:
 
 
 def _searched(columns: Mapping[str, Floats | float], precision: str) -> dict[str, Floats]:
-    rounded = {name: np.asarray(columns[name], dtype=precision) for name in COLUMNS}
     with np.errstate(all="ignore"):
+        rounded = {name: np.asarray(columns[name], dtype=precision) for name in COLUMNS}
         return {**rounded, **dict(zip(DISTANCES, _best_multiplier(**rounded), strict=True))}
 
 

@@ -14,9 +14,6 @@ from hypcheck.methods.formula import ByScene
 from hypcheck.methods.method import Answers
 from hypcheck.rows import Rows
 
-SINGLES = 64
-"""Rows that are asked one by one in turn, so that no branch predictor learns the one answer."""
-
 Answering = Callable[[Rows], Answers]
 
 
@@ -53,7 +50,7 @@ class Way(Protocol):
         ...
 
     def single(self, rows: Rows) -> Prepared | None:
-        """The first SINGLES rows by a call each."""
+        """All rows by a call each."""
         ...
 
     def build(self, rows: Rows) -> Prepared | None:
@@ -86,7 +83,7 @@ class InPython:
 
     def single(self, rows: Rows) -> Prepared:
         """A call a row, by the entry for rows: who asks about one has no scene at hand."""
-        parts = [rows[place : place + 1] for place in range(min(SINGLES, len(rows)))]
+        parts = [rows[place : place + 1] for place in range(len(rows))]
         return each(self.function, parts)
 
     def build(self, rows: Rows) -> None:
@@ -96,7 +93,7 @@ class InPython:
         """A Python function that does nothing."""
         if mode == "batch":
             return Empty("Python", _prepared(1, _nothing))
-        return Empty("Python", each(_nothing_of, [rows[:1]] * min(SINGLES, len(rows))))
+        return Empty("Python", each(_nothing_of, [rows[:1]] * len(rows)))
 
     def close(self) -> None:
         """Nothing is held."""

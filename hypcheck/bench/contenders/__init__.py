@@ -1,0 +1,24 @@
+"""Everything that is compared, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from hypcheck.bench.contenders import c_tier, numpy_tier
+from hypcheck.bench.contenders.contender import Contender
+from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen
+
+__all__ = ["Contender", "contenders"]
+
+
+def contenders(plan: BenchPlan) -> dict[str, Contender]:
+    """All that this run compares and can, by name, the reference first. Raises InputError where the plan names none."""
+    found = {each.name: each for each in _everything(plan)}
+    names = chosen(list(found), plan.methods, "method")
+    return {name: found[name] for name in dict.fromkeys((REFERENCE, *names)) if found[name].needs not in plan.missing}
+
+
+def _everything(plan: BenchPlan) -> Iterable[Contender]:
+    """Every method, chosen or not."""
+    yield from numpy_tier.contenders()
+    yield from c_tier.contenders(plan.compiled)

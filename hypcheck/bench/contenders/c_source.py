@@ -1,0 +1,218 @@
+"""The methods in C, printed from the same programs that numpy runs, in one file that is compiled when bench begins.
+
+Each method is two functions, of rows and of one scene's centres, in a table; a driver calls through it as often as
+asked, so that neither Python nor an optimiser has a part in what is timed. The roots and the dual form's search are
+written here, since no straight-line program says them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.program import cut
+from hypcheck.kernel.printing.c import SUFFIXES, c_statements
+from hypcheck.methods.dual import DISTANCES
+from hypcheck.methods.formula import parts
+from hypcheck.pairs import COLUMNS, SIZES
+
+NUMBERS = {"float32": "float", "float64": "double", "longdouble": "long double"}
+"""C's type of numbers for each format."""
+
+DIGITS = {"float": "FLT_MANT_DIG", "double": "DBL_MANT_DIG", "long double": "LDBL_MANT_DIG"}
+LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
+
+
+@dataclass(frozen=True)
+class Body:
+    """What stands before the loop over centres and in it, in C, and the expression of the answer."""
+
+    name: str
+    number: str
+    before: tuple[str, ...]
+    inside: tuple[str, ...]
+    answer: str
+
+
+def source(bodies: Iterable[Body]) -> str:
+    """The whole file; the table begins with a method that does nothing."""
+    listed = list(bodies)
+    rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
+    scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
+    functions = "\n".join(_functions(each) for each in listed)
+    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}"
+
+
+def identifier(name: str) -> str:
+    """A method's name as C can have it."""
+    return name.replace("-", "_").replace(".", "_")
+
+
+def of_formula(name: str, format_name: str) -> Body:
+    """A formula as it is listed; what sizes alone decide stands before the loop."""
+    formula, number = FORMULAS[name], NUMBERS[format_name]
+    outside, inside = parts(formula)
+    known = tuple(step.name for step in outside.steps)
+    return Body(
+        f"{name}-{format_name}",
+        number,
+        c_statements(outside, known, number=number),
+        c_statements(inside, (formula.answer,), number=number),
+        formula.answer,
+    )
+
+
+def trigonometric(format_name: str) -> Body:
+    """The roots of g by the trigonometric form, taken where Δ > 0 alone; the rule is that of methods/roots.py."""
+    number = NUMBERS[format_name]
+    outside, inside = parts(_CUBIC)
+    known = tuple(step.name for step in outside.steps)
+    wanted = tuple(name for name in ("c0", "c1", "c2", "delta") if name not in known)
+    end = SUFFIXES[number]
+    return Body(
+        f"trigonometric-{format_name}",
+        number,
+        c_statements(outside, known, number=number),
+        (*c_statements(inside, wanted, number=number), *_TRIGONOMETRIC.format(N=number, f=end).strip().splitlines()),
+        "side",
+    )
+
+
+def dual(format_name: str) -> Body:
+    """The dual form: the search of methods/dual.py, step by step, and the program from there on."""
+    number = NUMBERS[format_name]
+    program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
+    search = _SEARCH.format(N=number, f=SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
+    return Body(
+        f"dual-{format_name}",
+        number,
+        (),
+        (*search.strip().splitlines(), *c_statements(program, ("phi",), number=number)),
+        "phi > 0 ? (lambda_ > 0) - (lambda_ < 0) : 0",
+    )
+
+
+_TABLE_2 = FORMULAS["table-2"]
+_CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
+
+
+def _functions(body: Body) -> str:
+    name, number = identifier(body.name), body.number
+    taken = "\n".join(f"        const {number} {each} = ({number})row[{place}];" for place, each in enumerate(COLUMNS))
+    sizes = "\n".join(f"    const {number} {each} = ({number})sizes[{place}];" for place, each in enumerate(SIZES))
+    centre = "\n".join(f"        const {number} {each} = ({number}){each}s[i];" for each in ("x", "y", "z"))
+    before, inside = _indented(body.before, 4), _indented(body.inside, 8)
+    return f"""
+static void {name}_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{{
+    for (size_t i = 0; i < n; i++) {{
+        const double *const row = rows + 7 * i;
+{taken}
+{_indented(body.before, 8)}
+{inside}
+        out[i] = (int8_t)({body.answer});
+    }}
+}}
+
+static void {name}_scene(const double *restrict sizes, size_t n, const double *restrict xs,
+                         const double *restrict ys, const double *restrict zs, int8_t *restrict out)
+{{
+{sizes}
+{before}
+    for (size_t i = 0; i < n; i++) {{
+{centre}
+{inside}
+        out[i] = (int8_t)({body.answer});
+    }}
+}}
+"""
+
+
+def _indented(lines: Iterable[str], depth: int) -> str:
+    return "\n".join(" " * depth + line for line in lines)
+
+
+_HEAD = """\
+/* Printed by hypcheck bench from derivation/formulas.py: what is compared is what was proved. */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+static void nothing_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{
+    (void)n, (void)rows, (void)out;
+}
+"""
+
+_DRIVER = """
+typedef void rows_function(size_t, const double *restrict, int8_t *restrict);
+typedef void scene_function(const double *restrict, size_t, const double *restrict, const double *restrict,
+                            const double *restrict, int8_t *restrict);
+
+static rows_function *volatile of_rows[] = {{nothing_rows, {rows}}};
+static scene_function *volatile of_scene[] = {{NULL, {scenes}}};
+
+void bench_rows(size_t which, size_t repeat, size_t n, const double *rows, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        of_rows[which](n, rows, out);
+}}
+
+void bench_scene(size_t which, size_t repeat, const double *sizes, size_t n, const double *x, const double *y,
+                 const double *z, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        of_scene[which](sizes, n, x, y, z, out);
+}}
+
+void bench_single(size_t which, size_t repeat, size_t n, const double *rows, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        for (size_t i = 0; i < n; i++)
+            of_rows[which](1, rows + 7 * i, out + i);
+}}
+"""
+
+_TRIGONOMETRIC = """
+int side = 0;
+if (delta > 0) {{
+    const {N} third = c2 / 3;
+    const {N} square = third * third - c1 / 3;
+    const {N} size = sqrt{f}(square);
+    const {N} cosine = (third * (third * third - c1 / 2) + c0 / 2) / (square * size);
+    const {N} angle = acos{f}(cosine < -1 ? -1 : cosine > 1 ? 1 : cosine);
+    const {N} lowest = -2 * size * cos{f}(angle / 3) - third;
+    const {N} middle = -2 * size * cos{f}((angle - ({N})6.283185307179586476925286766559L) / 3) - third;
+    const {N} mean = (lowest + middle) / 2;
+    side = (lowest > 0 && mean < B) - (middle < 0 && mean > -A);
+}}
+"""
+
+_SEARCH = """
+const {N} a = alpha / b, c = gamma / d, A = a * a, B = c * c;
+const {N} ar = a * hypot{f}(x / b, y / b), cz = c * fabs{f}(z / d);
+const {N} to_a_0 = ar / A, to_b_0 = cz / B;
+const int within = to_a_0 * to_a_0 <= to_b_0 * to_b_0 + 1;
+const {N} pole = within ? A : B, other = within ? B : A, half = pole / 2;
+int near_zero = 1;
+{N} low = half * {least}, high = half, mid = half;
+for (int step = -1; step < {digits} + 13; step++) {{
+    if (step >= 0)
+        mid = step < 10 ? sqrt{f}(low) * sqrt{f}(high) : (low + high) / 2;
+    const {N} to_pole = near_zero ? pole - mid : mid, to_other = other + (near_zero ? mid : pole - mid);
+    const {N} left = ar / (within ? to_pole : to_other), right = cz / (within ? to_other : to_pole);
+    const int past = (left * left <= right * right + 1) ^ within;
+    if (step < 0) {{
+        near_zero = past;
+    }} else {{
+        const int move_low = past ^ near_zero;
+        low = move_low ? mid : low;
+        high = move_low ? high : mid;
+    }}
+}}
+const {N} size = near_zero ? high : pole - high, lambda_ = within ? -size : size;
+const {N} to_pole = near_zero ? pole - high : high, to_other = other + (near_zero ? high : pole - high);
+const {N} A_plus_lambda = within ? to_pole : to_other, B_minus_lambda = within ? to_other : to_pole;
+"""

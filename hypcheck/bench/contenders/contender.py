@@ -1,0 +1,80 @@
+"""What is compared: a method, what it is written in, and how it is loaded in a process that measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.bench.contenders.ways import InPython, Way
+from hypcheck.methods.domain import Domain, representable
+from hypcheck.methods.formula import ByScene
+from hypcheck.methods.method import Method
+from hypcheck.rows import Rows
+
+
+@dataclass(frozen=True)
+class Contender:
+    """A method as it is compared.
+
+    `name`, `title`, `question`, `precision`, `exact` and `domain` are as a Method has them. `tier` is what it is
+    written in, and kin are compared inside one: "C", "numpy", "python", "FCL" or "foreign"; `kind` what it does.
+    `judged` rows of a workload are asked of it at most, and `timed` rows make a timed batch,
+    of which the first `singles` are asked one by one: enough that a branch predictor does not learn them. `amortised` says of a mesh
+    whether it is built once for a scene or for each row. `load` makes the way to call it; it `needs` what may be absent
+    here, or nothing ("").
+    """
+
+    name: str
+    title: str
+    tier: str
+    kind: str
+    precision: str
+    question: str
+    domain: Domain
+    load: Callable[[], Way]
+    exact: bool = False
+    judged: int | None = None
+    timed: int | None = None
+    singles: int = 64
+    amortised: str | None = None
+    accuracy_only: bool = False
+    note: str = ""
+    needs: str = ""
+
+    def asked(self, rows: Rows) -> NDArray[np.intp]:
+        """The places of the rows it is asked to be right about: inside its domain, and numbers of its format."""
+        return np.flatnonzero(self.domain.holds(rows) & representable(rows, self.precision))[: self.judged]
+
+
+def of_method(
+    method: Method,
+    tier: str,
+    kind: str,
+    *,
+    name: str = "",
+    scene: ByScene | None = None,
+    judged: int | None = None,
+    timed: int | None = None,
+    accuracy_only: bool = False,
+    note: str = "",
+) -> Contender:
+    """A built-in method as a contender."""
+    return Contender(
+        name=name or method.name,
+        title=method.title,
+        tier=tier,
+        kind=kind,
+        precision=method.precision,
+        question=method.question,
+        domain=method.domain,
+        load=partial(InPython, method.answer, scene),
+        exact=method.exact,
+        judged=judged,
+        timed=timed,
+        accuracy_only=accuracy_only,
+        note=note,
+    )

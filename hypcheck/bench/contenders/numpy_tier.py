@@ -1,0 +1,90 @@
+"""What is compared in numpy and in Python: the formulas, the fast path's fallback, roots, exact ways, other shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+
+from hypcheck.bench.contenders.contender import Contender, of_method
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.kernel import numpy_path
+from hypcheck.methods import bounding, roots
+from hypcheck.methods.builtin import builtin_methods
+from hypcheck.methods.dual import dual_by_scene
+from hypcheck.methods.formula import ByScene, by_scene
+from hypcheck.methods.method import Method
+
+ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
+PRECISIONS = ("float32", "float64")
+
+PAPER = "the paper's own formula: it answers whether the pair is exterior, no more"
+THIRTEEN = "the way that the paper attributes to its [13]"
+_UNSAID = "what does not converge is not said"
+
+Methods = dict[str, Method]
+
+
+def contenders() -> Iterable[Contender]:
+    """All of them, the reference among them."""
+    methods = builtin_methods()
+    yield from _formulas(methods)
+    yield from _fast(methods)
+    yield from _roots(methods)
+    yield from _exact(methods)
+    yield from _shapes(methods)
+
+
+def _formulas(methods: Methods) -> Iterable[Contender]:
+    """Table 2 in every format, and the others in two."""
+    listed = [("table-2", name) for name in ("float16", *PRECISIONS, "longdouble") if f"table-2-{name}" in methods]
+    for formula, format_name in [*listed, *((name, each) for name in ALGEBRAIC for each in PRECISIONS)]:
+        paper = formula == "table-2"
+        yield of_method(
+            methods[f"{formula}-{format_name}"],
+            "numpy",
+            "paper" if paper else "algebraic",
+            scene=_scene_of_formula(formula, format_name),
+            accuracy_only=format_name == "float16",
+            note=PAPER if paper else "",
+            timed=4096 if formula == "dual" else None,
+        )
+
+
+def _scene_of_formula(name: str, format_name: str) -> ByScene:
+    return partial(dual_by_scene, format_name) if name == "dual" else by_scene(FORMULAS[name], format_name)
+
+
+def _fast(methods: Methods) -> Iterable[Contender]:
+    yield of_method(
+        methods["fast"],
+        "numpy",
+        "certified",
+        name="fast-numpy",
+        scene=numpy_path.positions_of_scene,
+        timed=8192,
+        note="where its bound cannot tell, integers do",
+    )
+
+
+def _roots(methods: Methods) -> Iterable[Contender]:
+    for precision in PRECISIONS:
+        scene, method = roots.trigonometric_by_scene(precision), methods[f"trigonometric-{precision}"]
+        yield of_method(method, "numpy", "roots", scene=scene, note=THIRTEEN)
+    yield of_method(methods["numpy-roots"], "python", "roots", judged=2000, timed=96, note="one call a row")
+    for name in (name for name in methods if name.startswith("mpmath-roots-")):
+        yield of_method(methods[name], "python", "roots", judged=240, timed=4, note=_UNSAID)
+
+
+def _exact(methods: Methods) -> Iterable[Contender]:
+    yield of_method(methods["exact-integers"], "python", "exact", judged=3000, timed=192)
+    yield of_method(methods["exact-oracle"], "python", "exact", judged=3000, timed=192)
+    yield of_method(methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, note="tells the distance too")
+
+
+def _shapes(methods: Methods) -> Iterable[Contender]:
+    scenes: dict[str, ByScene] = {
+        "bounding-sphere": bounding.sphere_scene,
+        "bounding-cylinder": bounding.cylinder_scene,
+    }
+    for name, scene in scenes.items():
+        yield of_method(methods[name], "numpy", "bounding", scene=scene, note="another shape in the spheroid's place")

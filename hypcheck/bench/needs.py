@@ -1,0 +1,42 @@
+"""What methods need and may be absent here: looked for once, before anything is measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from types import MappingProxyType
+
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders.c_library import compiled
+from hypcheck.bench.contenders.c_tier import COMPILER
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.errors import UnavailableError
+from hypcheck.record import Recorder
+
+
+def prepared(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    """The plan with what is here and what is missing, which the record says too.
+
+    Raises InputError where the plan names a method that does not exist.
+    """
+    for need in sorted({each.needs for each in contenders(plan).values()} - {""}):
+        plan = _looked_for(need, plan, recorder)
+    return plan
+
+
+def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    try:
+        return _FINDERS[need](plan, recorder)
+    except UnavailableError as error:
+        recorder.add("absent", what=need, reason=str(error))
+        return replace(plan, missing=(*plan.missing, need))
+
+
+def _compiler(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    library, compiler = compiled(plan.folder)
+    recorder.add("compiler", **asdict(compiler))
+    return replace(plan, compiled=library)
+
+
+_FINDERS: Mapping[str, Callable[[BenchPlan, Recorder], BenchPlan]] = MappingProxyType({COMPILER: _compiler})
+"""Each raises UnavailableError where it finds nothing."""

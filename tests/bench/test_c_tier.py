@@ -1,0 +1,103 @@
+"""The methods in C answer what the same programs answer in numpy, to the bit."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import stat
+
+import numpy as np
+import pytest
+
+from hypcheck.bench.contenders import c_library, contenders
+from hypcheck.bench.contenders.c_library import FLAGS, compiled
+from hypcheck.bench.needs import prepared
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.casebook.families import FAMILIES, select
+from hypcheck.errors import UnavailableError
+from hypcheck.record import Recorder
+
+NAMES = [f"{body.name}-c" for body in c_library.bodies()]
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory):
+    return compiled(tmp_path_factory.mktemp("c"))[0]
+
+
+@pytest.fixture(scope="module")
+def methods(library):
+    return contenders(BenchPlan(compiled=library))
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return np.concatenate([family.rows(9, 120) for family in select(("*", "extreme"))])
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("trigonometric")])
+def test_a_method_in_c_is_the_method_in_numpy(name, methods, rows):
+    assert (methods[name].load().answer(rows) == methods[name.removesuffix("-c")].load().answer(rows)).all()
+
+
+@pytest.mark.parametrize("name", ["trigonometric-float32-c", "trigonometric-float64-c"])
+def test_the_cosines_of_libm_and_of_numpy_differ_by_units_that_matter_nowhere_in_the_tower(name, methods):
+    tower = FAMILIES["tower-body"].rows(2, 2000)
+    assert (methods[name].load().answer(tower) == methods[name.removesuffix("-c")].load().answer(tower)).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_by_scene_by_rows_and_one_by_one_are_the_same(name, methods):
+    way = methods[name].load()
+    tower = FAMILIES["tower-body"].rows(2, 700)
+    right = way.answer(tower)
+    batch, single = way.batch(tower), way.single(tower[:64])
+    assert (batch.answers() == right).all()
+    assert (single.answers() == right[:64]).all()
+    assert batch.run(3)[1] == right.sum(dtype=int)
+    assert single.run(2)[1] == right[:64].sum(dtype=int)
+    mixed = WORKLOADS["near-contact"].rows(1, 300)
+    assert (way.batch(mixed).answers() == way.answer(mixed)).all()
+
+
+def test_the_empty_call_answers_nothing(methods, rows):
+    for mode in ("batch", "single"):
+        empty = methods[NAMES[0]].load().empty(rows, mode)
+        assert empty.name == "C"
+        assert empty.ready.run(5)[1] == 0
+
+
+def test_nothing_that_changes_results_is_asked_of_the_compiler():
+    assert "-ffp-contract=off" in FLAGS
+    assert not {flag for flag in FLAGS if "fast" in flag or "unsafe" in flag or flag == "-Ofast"}
+
+
+def test_without_a_compiler_one_sentence_says_so(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CC", raising=False)
+    with pytest.raises(UnavailableError, match="no C compiler is found"):
+        compiled(tmp_path)
+
+
+def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
+    broken = tmp_path / "broken-cc"
+    broken.write_text("#!/bin/sh\necho 'no space left for code' >&2\nexit 1\n", encoding="ascii")
+    broken.chmod(broken.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("CC", str(broken))
+    monkeypatch.setenv("PATH", os.pathsep.join([str(tmp_path), os.environ["PATH"]]))
+    with pytest.raises(UnavailableError, match="no space left for code"):
+        compiled(tmp_path)
+
+
+def test_a_run_without_a_compiler_goes_on_with_the_rest_and_says_what_is_missing(tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        c_library, "_program", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
+    )
+    stream = io.StringIO()
+    plan = BenchPlan(methods=("table-2-float64*",), folder=tmp_path)
+    found = prepared(plan, Recorder(stream, {}))
+    assert list(contenders(found)) == ["table-2-float64"]
+    absent = json.loads(stream.getvalue().splitlines()[-1])
+    assert (absent["type"], absent["what"], absent["reason"]) == ("absent", "C compiler", "no C compiler is found")
