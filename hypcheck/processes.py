@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
@@ -11,6 +12,12 @@ from typing import TypeVar
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+
+
+def usable_processors() -> int:
+    """The processors this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 @contextmanager
@@ -52,6 +59,15 @@ def perform(
         running: dict[Future[Result], Task] = {executor.submit(function, task): task for task in tasks}
     for future in as_completed(running):
         yield running[future], future.result()
+
+
+def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:
+    """Each task with its result, in order, done by a process that has done nothing before; `workers` at a time."""
+    todo = list(tasks)
+    with _interrupts_held():  # the thread that starts further processes holds them as long as it lives
+        pool = get_context("spawn").Pool(max(1, workers), maxtasksperchild=1)
+    with pool:
+        yield from zip(todo, pool.imap(function, todo, chunksize=1), strict=True)
 
 
 @contextmanager

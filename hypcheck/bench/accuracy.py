@@ -110,7 +110,10 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
     """The rows of a timed batch: none where the workload or the method is not timed."""
     if contender.accuracy_only or not workload.timed:
         return np.empty((0, 7))
-    return workload.rows(plan.seed, min(plan.amounts.timed, contender.timed or plan.amounts.timed))
+    rows = workload.rows(plan.seed, plan.amounts.timed)
+    if contender.scenes is not None:
+        rows = rows[(rows[:, :4] == rows[0, :4]).all(axis=1)]
+    return rows[: contender.timed]
 
 
 def print_of(answers: Answers) -> str:

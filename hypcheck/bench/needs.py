@@ -11,6 +11,7 @@ from hypcheck.bench.contenders.c_library import compiled
 from hypcheck.bench.contenders.c_tier import COMPILER
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import UnavailableError
+from hypcheck.methods.engines import COAL, FCL, Engine
 from hypcheck.record import Recorder
 
 
@@ -38,5 +39,17 @@ def _compiler(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     return replace(plan, compiled=library)
 
 
-_FINDERS: Mapping[str, Callable[[BenchPlan, Recorder], BenchPlan]] = MappingProxyType({COMPILER: _compiler})
+def _engine(engine: Engine) -> Callable[[BenchPlan, Recorder], BenchPlan]:
+    def find(plan: BenchPlan, _recorder: Recorder) -> BenchPlan:
+        trouble = engine.trouble()
+        if trouble is not None:
+            raise UnavailableError(trouble)
+        return plan
+
+    return find
+
+
+_FINDERS: Mapping[str, Callable[[BenchPlan, Recorder], BenchPlan]] = MappingProxyType(
+    {COMPILER: _compiler, **{engine.title: _engine(engine) for engine in (FCL, COAL)}}
+)
 """Each raises UnavailableError where it finds nothing."""

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from hypcheck.bench import accuracy, speed
+from hypcheck.bench import accuracy, convergence, memory, places, shapes, speed, stability
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
+from hypcheck.bench.conditions import governor, load
 from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.needs import prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
-from hypcheck.processes import processes
+from hypcheck.methods.engines import FCL
+from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Recorder
 
 Advance = Callable[[int], object]
@@ -53,16 +55,36 @@ class _Run:
     found: dict[str, Contender]
     answers: list[Answered] = field(default_factory=list)
 
+    @property
+    def timed(self) -> list[str]:
+        """The methods that are timed."""
+        return [name for name, each in self.found.items() if not each.accuracy_only]
+
+    @property
+    def meshes(self) -> bool:
+        """Whether FCL is among what is compared."""
+        return any(each.needs == FCL.title for each in self.found.values())
+
+    @property
+    def shapes(self) -> bool:
+        """Whether other shapes than the spheroid are."""
+        return any(each.kind == "bounding" for each in self.found.values())
+
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
     workloads = len(chosen_workloads(plan))
     plan = prepared(plan, recorder)
     run = _Run(plan, recorder, outcome, contenders(plan))
+    maps = len(stability.mapped(run.found)) + len(places.mapped(run.found))
     return (
         Stage("methods", 1, lambda advance: _introduce(run, advance)),
         Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
+        Stage("maps", maps, lambda advance: _map(run, advance)),
+        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
         Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
+        Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
+        Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
     )
 
 
@@ -70,16 +92,16 @@ def _introduce(run: _Run, advance: Advance) -> None:
     for each in run.found.values():
         run.recorder.add("method", **introduction(each))
     for workload in chosen_workloads(run.plan):
-        rows = workload.rows(run.plan.seed, run.plan.amounts.timed)
+        count = run.plan.amounts.timed if workload.timed else run.plan.amounts.judged
         run.recorder.add(
             "workload",
             workload=workload.name,
             title=workload.title,
             text=workload.text,
-            rows=run.plan.amounts.timed if workload.timed else run.plan.amounts.judged,
+            rows=count,
             seed=run.plan.seed,
             timed=workload.timed,
-            scene=scene_of(rows),
+            scene=scene_of(workload.rows(run.plan.seed, count)),
         )
     advance(1)
 
@@ -91,16 +113,16 @@ def introduction(contender: Contender) -> dict[str, Any]:
 
 
 def _judge(run: _Run, advance: Advance) -> None:
+    truths: dict[str, Known] = {}
     with processes(run.plan.workers) as executor:
-        truths: dict[str, Known] = {}
         for truth in accuracy.known(run.plan, executor):
             truths[truth.workload.name] = truth
             advance(1)
         for answered in accuracy.asked(run.plan, list(run.found), executor):
             run.answers += answered
             advance(1)
-    order = {name: place for place, name in enumerate(run.found)}
-    run.answers.sort(key=lambda each: (list(truths).index(each.workload), order[each.method]))
+    methods, workloads = list(run.found), list(truths)
+    run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
     for each in run.answers:
         if not len(each.places):
             continue
@@ -110,9 +132,50 @@ def _judge(run: _Run, advance: Advance) -> None:
             run.outcome.wrong.append(f"{each.method} promises to be exact and is not, on {each.workload}")
 
 
+def _map(run: _Run, advance: Advance) -> None:
+    with processes(run.plan.workers) as executor:
+        bins = list(_counted(stability.lines(run.plan, stability.mapped(run.found), executor), advance))
+        maps = list(_counted(places.lines(run.plan, places.mapped(run.found), executor), advance))
+    order = list(run.found).index
+    for line in sorted(bins, key=lambda each: order(each["method"])):
+        run.recorder.add("stability", **line)
+    for found in sorted(maps, key=lambda each: order(each[0]["method"])):
+        for line in found:
+            run.recorder.add("places", **line)
+
+
+def _bound(run: _Run, advance: Advance) -> None:
+    if run.shapes:
+        for line in shapes.lines(run.plan):
+            run.recorder.add("bounding", **line)
+    advance(1)
+
+
 def _measure(run: _Run, advance: Advance) -> None:
+    before = load()
     found = speed.measured(run.plan, speed.expected(run.answers), advance)
+    run.recorder.add(
+        "conditions", governor=governor(), processors=usable_processors(), load_before=before, load_after=load()
+    )
     for kind, line in speed.lines(found):
         run.recorder.add(kind, **line)
         if kind == "refused":
             run.outcome.wrong.append(f"{line['method']}: {line['reason']}")
+
+
+def _refine(run: _Run, advance: Advance) -> None:
+    if run.meshes:
+        for line in _counted(convergence.lines(run.plan), advance):
+            run.recorder.add("convergence", **line)
+
+
+def _weigh(run: _Run, advance: Advance) -> None:
+    if run.plan.amounts.memory:
+        for line in _counted(memory.lines(run.plan, run.timed), advance):
+            run.recorder.add("memory", **line)
+
+
+def _counted(found: Iterable[Any], advance: Advance) -> Iterable[Any]:
+    for each in found:
+        advance(1)
+        yield each

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +24,10 @@ MODES: Mapping[str, Callable[[Way, Rows], Prepared | None]] = {
 
 AGAIN = f"{REFERENCE} again"
 """The reference a second time: what separates it from itself is noise."""
+
+BUILT_FOR = "uniform"
+BUILDS = 2
+"""Rounds in which meshes are built: the large ones take most of a second."""
 
 LEAST_NS = 0.01
 """What is left at least of a time from which an empty call was taken off."""
@@ -74,13 +78,20 @@ def run(session: Session) -> list[Measured]:
     measured = []
     try:
         for workload in chosen_workloads(session.plan):
-            for mode in MODES if workload.timed else ():
+            for mode in _modes(workload):
                 field = _field(session, found, ways, workload, mode)
                 measured += [*field.refused, *_measured(session, field)]
     finally:
         for way in ways.values():
             way.close()
     return measured
+
+
+def _modes(workload: Workload) -> Sequence[str]:
+    """A mesh is built for the first workload alone: it would be the same one for the others."""
+    if not workload.timed:
+        return ()
+    return tuple(MODES) if workload.name == BUILT_FOR else ("batch", "single")
 
 
 def _field(
@@ -134,5 +145,6 @@ def _rounds(session: Session, todo: Mapping[str, Prepared], where: tuple[str, st
     ]
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
-    *_, (_, samples) = measure(entries, session.plan.rounds, shortest, first)
+    rounds = BUILDS if where[1] == "build" else session.plan.rounds
+    *_, (_, samples) = measure(entries, rounds, shortest, first)
     return {each.name: each for each in samples}

@@ -96,5 +96,5 @@ def _noise(found: Found, workload: str, mode: str) -> dict[str, Any]:
 
 
 def samples_of(parts: list[Measured]) -> list[list[float]]:
-    """Nanoseconds a row of each round, process by process."""
-    return [each.samples.samples_ns for each in parts]
+    """Nanoseconds a row of each round, process by process; no clock tells more than six digits of them."""
+    return [[float(f"{sample:.6g}") for sample in each.samples.samples_ns] for each in parts]

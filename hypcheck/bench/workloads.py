@@ -56,17 +56,22 @@ def scene_of(rows: Rows) -> tuple[float, float, float, float] | None:
 
 
 def near_contact(seed: int, count: int) -> Rows:
-    """Centres one radius and a gap from the surface, on either side, in the scenes of NEAR_SCENES in turn."""
-    blocks = [_near_block(Draw("bench-near-contact", 1, seed, number), number) for number in range(-(-count // BLOCK))]
+    """Centres near touching, in the scenes of NEAR_SCENES in turn."""
+    scenes, numbers = np.array(NEAR_SCENES), range(-(-count // BLOCK))
+    turns = ((number * BLOCK + np.arange(BLOCK)) % len(scenes) for number in numbers)
+    blocks = [
+        near(Draw("bench-near-contact", 1, seed, number), Sizes(*scenes[turn].T), GAPS)
+        for number, turn in zip(numbers, turns, strict=True)
+    ]
     return np.concatenate([np.empty((0, 7)), *blocks])[:count]
 
 
-def _near_block(draw: Draw, number: int) -> Rows:
-    n = BLOCK
-    size = Sizes(*np.array(NEAR_SCENES)[(number * n + np.arange(n)) % len(NEAR_SCENES)].T)
+def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
+    """Centres one radius from the surface and a gap of m 2^e more or less, e in the range `gaps`, on either side."""
+    n = len(size.b)
     near_the_waist = draw.words(n) >> np.uint64(63) == 0
     height = draw.unit(n) * np.where(near_the_waist, np.minimum(size.c, 8.0), size.c)
-    gap = draw.signs(n) * draw.log_uniform(n, *GAPS)
+    gap = draw.signs(n) * draw.log_uniform(n, *gaps)
     # Inside, a ball touches a throat that is wider than itself alone.
     side = np.where(size.a >= 1, draw.signs(n), 1.0)
     return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))

@@ -41,7 +41,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from hypcheck.bench import run
     from hypcheck.bench.plan import BenchPlan
     from hypcheck.cli.verify import names_in
-    from hypcheck.verify.run import default_workers
+    from hypcheck.processes import usable_processors
 
     quick = options["quick"]
     plan = BenchPlan(
@@ -52,7 +52,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         seed=options["seed"],
         processes=options["processes"] or (3 if quick else 5),
         rounds=options["rounds"] or (3 if quick else 5),
-        workers=options["workers"] or default_workers(),
+        workers=options["workers"] or usable_processors(),
         baseline=options["baseline"],
         max_slowdown=options["max_slowdown"],
         kernel=options["kernel"],

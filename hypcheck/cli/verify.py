@@ -95,6 +95,7 @@ def _refuse_others(
 
 
 def _ourselves(options: dict[str, Any]) -> int:
+    from hypcheck.processes import usable_processors
     from hypcheck.verify import run
     from hypcheck.verify.plan import Plan
 
@@ -106,7 +107,7 @@ def _ourselves(options: dict[str, Any]) -> int:
         roots=options["roots"],
         meshes=options["meshes"],
         seed=options["seed"],
-        workers=options["workers"] or run.default_workers(),
+        workers=options["workers"] or usable_processors(),
         tolerance=Fraction(options["tolerance"]),
     )
     outcome = run.Outcome()

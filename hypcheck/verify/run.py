@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
@@ -174,9 +173,3 @@ def _time(plan: Plan, recorder: Recorder, advance: Advance) -> None:
 def options(plan: Plan) -> Mapping[str, Any]:
     """The plan as the record's header shows it."""
     return {**asdict(plan), "tolerance": float(plan.tolerance)}
-
-
-def default_workers() -> int:
-    """The processors this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1

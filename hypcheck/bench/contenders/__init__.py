@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hypcheck.bench.contenders import c_tier, numpy_tier
+from hypcheck.bench.contenders import c_tier, mesh_tier, numpy_tier
 from hypcheck.bench.contenders.contender import Contender
 from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen
 
@@ -15,10 +15,15 @@ def contenders(plan: BenchPlan) -> dict[str, Contender]:
     """All that this run compares and can, by name, the reference first. Raises InputError where the plan names none."""
     found = {each.name: each for each in _everything(plan)}
     names = chosen(list(found), plan.methods, "method")
-    return {name: found[name] for name in dict.fromkeys((REFERENCE, *names)) if found[name].needs not in plan.missing}
+    return {
+        name: found[name]
+        for name in dict.fromkeys((REFERENCE, *names))
+        if found[name].needs not in plan.missing and (found[name].quick or not plan.quick or plan.methods)
+    }
 
 
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
     """Every method, chosen or not."""
     yield from numpy_tier.contenders()
     yield from c_tier.contenders(plan.compiled)
+    yield from mesh_tier.contenders()

@@ -19,7 +19,7 @@ COMPILER = "C compiler"
 """What these need."""
 
 SINGLES = 4096
-"""A predictor learns the branches of 64 rows, and the dual form's search ran ten times as fast on those as on others."""
+"""A branch predictor learns the branches of 64 rows, and the dual form's search then runs several times as fast."""
 
 
 def contenders(library: Path | None) -> Iterable[Contender]:

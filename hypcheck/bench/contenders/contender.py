@@ -22,10 +22,11 @@ class Contender:
 
     `name`, `title`, `question`, `precision`, `exact` and `domain` are as a Method has them. `tier` is what it is
     written in, and kin are compared inside one: "C", "numpy", "python", "FCL" or "foreign"; `kind` what it does.
-    `judged` rows of a workload are asked of it at most, and `timed` rows make a timed batch,
-    of which the first `singles` are asked one by one: enough that a branch predictor does not learn them. `amortised` says of a mesh
+    `judged` rows of a workload are asked of it at most, and `timed` rows make a timed batch, of which the first
+    `singles` are asked one by one, enough that a branch predictor does not learn them. `amortised` says of a mesh
     whether it is built once for a scene or for each row. `load` makes the way to call it; it `needs` what may be absent
-    here, or nothing ("").
+    here, or nothing (""). It is asked about `scenes` pairs of sizes at most, and timed on one, where that is not None.
+    A `quick` run leaves those out that are too slow for it, unless they are named.
     """
 
     name: str
@@ -44,9 +45,13 @@ class Contender:
     accuracy_only: bool = False
     note: str = ""
     needs: str = ""
+    scenes: int | None = None
+    quick: bool = True
 
     def asked(self, rows: Rows) -> NDArray[np.intp]:
         """The places of the rows it is asked to be right about: inside its domain, and numbers of its format."""
+        if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
+            return np.empty(0, dtype=np.intp)
         return np.flatnonzero(self.domain.holds(rows) & representable(rows, self.precision))[: self.judged]
 
 

@@ -1,0 +1,75 @@
+"""Where in the plane of log α/b and log γ/d a method is wrong, far enough from touching for that to matter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from typing import Any
+
+import numpy as np
+
+from hypcheck import judge
+from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.workloads import near
+from hypcheck.casebook.draw import Draw
+from hypcheck.casebook.placing import sizes
+from hypcheck.processes import perform
+from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.truth import batch
+
+FIRST, LAST = -4, 15
+"""Half decades of α/b and of γ/d: from 1e-2 to 1e8."""
+
+GAPS = (-10, 1)
+"""Distances from touching, m 2^e radii with e in this range: from a thousandth of a radius to two."""
+
+KINDS = ("paper", "algebraic", "certified", "roots")
+ENOUGH = 2000
+"""Who can be asked so many rows of a workload can be asked for a map."""
+
+
+def mapped(found: dict[str, Contender]) -> list[str]:
+    """The methods of which a map is drawn. Those in C answer what the same ones in numpy do."""
+    return [
+        name
+        for name, each in found.items()
+        if each.kind in KINDS and each.tier in ("numpy", "python") and (each.judged or ENOUGH) >= ENOUGH
+    ]
+
+
+def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[dict[str, Any]]:
+    """A line for each of the methods."""
+    for _, line in perform(_line, [(plan, name) for name in names], executor):
+        yield line
+
+
+def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
+    plan, name = task
+    contender = contenders(plan)[name]
+    rows, cells = _rows(plan)
+    places = contender.asked(rows)
+    answers = contender.load().answer(rows[places])
+    right = judge.expected(batch.positions(rows[places]), contender.question)
+    wrong = (answers != right) & (answers != CANNOT_SAY)
+    asked = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
+    errors = np.bincount(cells[places][wrong], minlength=cells.max() + 1).tolist()
+    side = LAST - FIRST + 1
+    bins = [
+        [FIRST + cell // side, FIRST + cell % side, number, error]
+        for cell, (number, error) in enumerate(zip(asked, errors, strict=True))
+        if number
+    ]
+    return {"method": name, "precision": contender.precision, "bins": bins}
+
+
+def _rows(plan: BenchPlan) -> tuple[Rows, np.ndarray[tuple[int], np.dtype[np.intp]]]:
+    """As many rows for each cell, and the cell of each row."""
+    side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
+    cells = np.repeat(np.arange(side * side), plan.amounts.cell)
+    edges = np.sqrt(10.0) ** np.arange(FIRST, LAST + 2)
+    a, c = (
+        edges[place] + draw.unit(len(cells)) * (edges[place + 1] - edges[place])
+        for place in (cells // side, cells % side)
+    )
+    return near(draw, sizes(draw, a, c), GAPS), cells

@@ -1,0 +1,121 @@
+"""What is drawn of a method: stability over sizes, places about the tower, other shapes, convergence, memory."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.bench import convergence, memory, places, shapes, stability
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import QUICK, BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.methods import bounding
+from hypcheck.methods.builtin import builtin
+from hypcheck.methods.engines import FCL
+from hypcheck.truth import batch
+
+PLAN = BenchPlan(quick=True)
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    amounts = replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300)
+    monkeypatch.setattr(BenchPlan, "amounts", property(lambda plan: amounts))
+
+
+def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never_wrong():
+    found = {line["method"]: line for line in stability.lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
+    exact = found["fast-numpy"]["bins"]
+    assert len(exact) == 400
+    assert all(asked == 4 and wrong == 0 for _, _, asked, wrong in exact)
+    coarse = {(i, j): wrong / asked for i, j, asked, wrong in found["table-2-float32"]["bins"]}
+    assert coarse[0, 3] == 0.0  # α/b of 1 to 3, γ/d of 30 to 100
+    assert max(coarse[i, j] for i, j in coarse if i >= 10 and j >= 10) > 0.5  # both beyond 1e5
+
+
+def test_cells_hold_the_rows_of_their_sizes():
+    rows, cells = stability._rows(PLAN)
+    side = stability.LAST - stability.FIRST + 1
+    a, c = rows[:, 0] / rows[:, 2], rows[:, 1] / rows[:, 3]
+    assert (np.abs(2 * np.log10(a) - (stability.FIRST + cells // side + 0.5)) <= 0.5 + 1e-9).all()
+    assert (np.abs(2 * np.log10(c) - (stability.FIRST + cells % side + 0.5)) <= 0.5 + 1e-9).all()
+    assert set(Counter(batch.positions(rows).tolist())) == {-1, 0, 1}
+
+
+def test_the_maps_know_the_ring():
+    whole, ring = next(places.lines(PLAN, ["table-2-float32"], None))
+    assert (whole["region"], ring["region"]) == ("whole", "ring")
+    for line, columns in ((whole, 29), (ring, 15)):
+        assert len(line["wrong"]) == line["z"][2] == 15
+        assert {len(text) for text in line["wrong"]} == {columns} == {line["r"][2]}
+        assert line["z"][0] == -line["z"][1]
+    assert "w" in ring["wrong"][7]  # at z = 0 it calls contact what is clear
+    assert set("".join(whole["wrong"][:5])) == {"."}
+
+
+def test_a_map_has_a_letter_for_each_mistake():
+    r, z = places.regions(PLAN)["whole"]
+    rows = places.grid(r, z)
+    truth = batch.positions(rows)
+    lines = places.drawn(np.zeros_like(truth), rows, "position", r[2])
+    assert "".join(lines).count("w") == np.count_nonzero(truth)
+    lines = places.drawn(np.ones_like(truth), rows, "position", r[2])
+    assert "".join(lines).count("c") == np.count_nonzero(truth == 0)
+    assert "".join(lines).count("s") == np.count_nonzero(truth == -1)
+    assert set("".join(places.drawn(truth, rows, "position", r[2]))) == {"."}
+
+
+def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not():
+    lines = list(shapes.lines(PLAN))
+    assert {(line["shape"], line["workload"]) for line in lines} == {
+        (shape, workload) for shape in ("sphere", "cylinder") for workload in ("uniform", "flight")
+    }
+    for line in lines:
+        assert line["false_clear"] == 0
+        assert line["false_contact"] == sum(row[2] for row in line["overlap"])
+        assert line["asked"] == sum(row[1] for row in line["overlap"])
+    sphere = {row[0]: row for row in lines[0]["overlap"]}
+    assert sphere[1.0][2] == 0
+    assert sphere[1.0][3] is None
+    assert sphere[16.0][2] > sphere[2.0][2] >= 0
+    assert sphere[16.0][3] > 0
+
+
+def test_an_open_shape_is_found_to_be_dangerous():
+    rows = WORKLOADS["uniform"].rows(1, 300)
+    assert shapes.compared(rows, lambda some: np.ones(len(some), dtype=np.int8))["false_clear"] > 0
+    assert shapes.compared(rows, bounding.sphere)["false_clear"] == 0
+
+
+@pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
+def test_convergence_counts_triangles_against_errors():
+    lines = list(convergence.lines(PLAN))
+    assert [line["method"] for line in lines] == ["fcl-point"] * 2 + ["fcl-sphere"] * 2 + ["fcl-ellipsoid"] * 2
+    assert len(lines) == convergence.steps(PLAN)
+    assert lines[1]["deviation"] < lines[0]["deviation"]
+    assert lines[1]["wrong"] < lines[0]["wrong"] < lines[0]["asked"]
+    assert lines[0]["build_ns"] > 0
+    assert lines[0]["query_ns"] > 0
+
+
+def test_memory_is_what_a_batch_takes():
+    names = ["table-2-float64", "bounding-cylinder"]
+    found = {line["method"]: line for line in memory.lines(replace(PLAN, workers=2), names)}
+    answers = found["bounding-cylinder"]["rows"]
+    assert answers == QUICK.timed
+    # The cylinder makes arrays of all rows, Table 2 of a chunk at a time.
+    assert found["bounding-cylinder"]["peak_bytes"] > 2 * 8 * answers
+    assert found["table-2-float64"]["peak_bytes"] < 100_000_000
+
+
+def test_methods_that_are_mapped_can_answer_many_rows():
+    found = contenders(PLAN)
+    assert "table-2-float32" in stability.mapped(found)
+    assert "fast-numpy" in stability.mapped(found)
+    assert not {name for name in stability.mapped(found) if name.startswith(("mpmath", "fcl", "bounding"))}
+    assert {"bounding-sphere", "fcl-point-1000"} & set(places.mapped(found)) == {"bounding-sphere", "fcl-point-1000"}
+    assert not {name for name in places.mapped(found) if name.endswith("-c")}
+    assert builtin("mpmath-roots-15").most is not None
