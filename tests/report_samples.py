@@ -50,6 +50,7 @@ def worst(case, status, error_u, answer=0, truth=1, mistake="false-contact"):
 
 def group(method, precision, family, counts, cases=(), *, exact=False, mistakes=None, **others):
     asked = sum(number for status, number in counts.items() if status != "skipped")
+    not_right = counts.get("wrong", 0) + counts.get("tolerated", 0)
     return {
         "type": "group",
         "exact": exact,
@@ -62,8 +63,8 @@ def group(method, precision, family, counts, cases=(), *, exact=False, mistakes=
         "counts": counts,
         "mistakes": mistakes or {},
         "octaves": {"-inf": dict(counts)},
-        "size_bins": [[0, 1, asked, 0]],
-        "place_bins": [[20, 0, asked, 0]],
+        "size_bins": [[0, 1, asked, not_right]],
+        "place_bins": [[20, 0, asked, not_right]],
         "worst": list(cases),
         **others,
     }

@@ -105,7 +105,8 @@ def test_cases_that_the_record_did_not_keep_are_counted():
         ((UNPROVED,), 130, "FAILED with exit code 130: interrupted; 1 failed proof."),
         ((), 70, "FAILED with exit code 70: an internal error of hypcheck."),
         ((), 6, "FAILED with exit code 6: the oracles or a proof contradict each other."),
-        ((), 3, "FAILED with exit code 3: no line of the record says why."),
+        ((), 3, "FAILED with exit code 3: slower than the baseline allows."),
+        ((), 99, "FAILED with exit code 99: no line of the record says why."),
         ((UNPROVED,), 0, "CONTRADICTORY: the record ends with exit code 0, but holds 1 failed proof."),
     ],
 )

@@ -9,10 +9,12 @@ import pytest
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
 from hypcheck.report import junit, markdown, picture, summary
+from hypcheck.report.html import page
 from hypcheck.report.write import REPORTS, Around, write_reports
 from tests import report_samples as samples
 
-FILES = {"summary.json", "junit.xml", "map.svg", "report.md"}
+FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html"}
+TEXTS = ("json", "junit", "markdown")
 
 
 def test_all_of_them(tmp_path):
@@ -26,6 +28,7 @@ def test_all_of_them(tmp_path):
         "junit.xml": junit.render(record),
         "map.svg": picture.render(record),
         "report.md": markdown.render(record, Around(["map.svg"])),
+        "report.html": page.render(record),
     }
     assert b"](map.svg)" in contents["report.md"]
 
@@ -50,10 +53,10 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
 
 @pytest.mark.parametrize("kept", range(len(samples.lines()) + 1))
 def test_wherever_it_was_interrupted(kept, tmp_path):
-    written = write_reports(samples.record(samples.lines()[:kept], exit_code=None), tmp_path)
-    has_map = any(line["type"] == "map" for line in samples.lines()[:kept])
+    record = samples.record(samples.lines()[:kept], exit_code=None)
+    written = write_reports(record, tmp_path, [*TEXTS, *(["map", "html"] if kept % 6 == 0 else [])])
     assert not [each.path.name for each in written if each.skipped]
-    assert ("map.svg" in {each.path.name for each in written}) == has_map
+    assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of("map")))
 
 
 def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
@@ -62,9 +65,11 @@ def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
 
     write_reports(samples.record(), tmp_path)
     monkeypatch.setattr(picture, "render", unavailable)
+    monkeypatch.setattr(page, "render", unavailable)
     written = {each.path.name: each.skipped for each in write_reports(samples.record(), tmp_path)}
-    assert written == {"summary.json": None, "junit.xml": None, "map.svg": "matplotlib is not here", "report.md": None}
-    assert set(os.listdir(tmp_path)) == FILES - {"map.svg"}  # the picture of an earlier run would be of another record
+    gone = {"map.svg", "report.html"}  # those of an earlier run would be of another record
+    assert {name for name, reason in written.items() if reason == "matplotlib is not here"} == gone
+    assert set(os.listdir(tmp_path)) == FILES - gone
     assert "map.svg" not in (tmp_path / "report.md").read_text(encoding="utf-8")
 
 

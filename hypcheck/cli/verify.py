@@ -74,8 +74,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
     wrong by more than --tolerance units, 1 when one is or a case ended without an answer, 5 when it cannot be started.
 
-    Reports are written to --out: record.jsonl, summary.json, report.md, junit.xml. Options that are not given are those
-    of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
+    Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml. Options that are not
+    given are those of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
     """
     settings = context.find_object(Settings)
     chosen = specs or (settings.specs if settings is not None else ())

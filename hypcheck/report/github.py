@@ -11,9 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from hypcheck.record import Record
+from hypcheck.report.failure import Failure
 from hypcheck.report.markdown import render
 from hypcheck.report.text import counted
-from hypcheck.report.verdict import Failure, failures
+from hypcheck.report.verdict import failures
 from hypcheck.visible import visible
 
 MOST_ANNOTATIONS = 10

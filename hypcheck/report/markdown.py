@@ -33,7 +33,7 @@ def render(record: Record, around: Around | None = None) -> bytes:
     beside = around.beside if around else ()
     whole = content(record, around.against if around else None)
     lines = [f"# {text(whole.title)}", "", f"**{text(whole.verdict.sentence)}**", ""]
-    for section in whole.sections:
+    for section in (section for section in whole.sections if not section.page):
         lines += _section(section, beside)
     return ("\n".join(lines).rstrip() + "\n").encode("utf-8", "replace")
 

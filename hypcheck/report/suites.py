@@ -21,9 +21,10 @@ from hypcheck.report.digest import (
     under_test,
     worst_case,
 )
+from hypcheck.report.failure import Failure
 from hypcheck.report.replays import Replays
 from hypcheck.report.text import classify_command, counted, figure, from_hex
-from hypcheck.report.verdict import UNFINISHED, Failure, failures, verdict
+from hypcheck.report.verdict import UNFINISHED, failures, verdict
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,8 @@ from hypcheck.report.digest import (
     worst_case,
     worst_error_u,
 )
-from hypcheck.report.verdict import Failure, failures, verdict
+from hypcheck.report.failure import Failure
+from hypcheck.report.verdict import failures, verdict
 
 if TYPE_CHECKING:
     from hypcheck.report.write import Around

@@ -13,6 +13,7 @@ from itertools import chain
 
 from hypcheck.pairs import Position
 from hypcheck.record import Line, Record
+from hypcheck.report import benchmark
 from hypcheck.report.digest import (
     Implementation,
     OracleTotal,
@@ -24,12 +25,16 @@ from hypcheck.report.digest import (
     under_test,
     worst_error_u,
 )
+from hypcheck.report.failure import Failure
+from hypcheck.report.measured import measured
 from hypcheck.report.replays import Replays
 from hypcheck.report.text import classify_command, counted, figure, from_hex, listed
 
 MEANINGS = {
     1: "wrong answers, or findings other than the known ones",
     2: "nothing was judged",
+    3: "slower than the baseline allows",
+    4: "too noisy to tell",
     5: "an implementation could not be started or broke the protocol",
     6: "the oracles or a proof contradict each other",
     70: "an internal error of hypcheck",
@@ -41,31 +46,14 @@ MEANINGS = {
 UNFINISHED = (70, 130, 143)
 """The exit codes of runs that stopped before their end."""
 
+INCONCLUSIVE = 4
+"""The exit code of a run that neither passed nor failed."""
+
 HARMLESS = ("right", "skipped")
 """How a case may end under a method that promises to be exact."""
 
 FATAL = ("error", "crash", "timeout", "protocol", "nondeterministic", "not-run")
 """How no case may end under any method: it gave no answer that could be judged."""
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """One thing that fails a run.
-
-    `subject` is "proof", "oracle", "implementation" or "findings"; `name` says which, `group` the family or the
-    quantity, and `kind` is one word for what happened. `case` is the first case to look at, if there is one, `place`
-    where the record has it and `replay` the command that shows it; `count` is how many of its kind it stands for.
-    """
-
-    subject: str
-    name: str
-    group: str
-    kind: str
-    message: str
-    case: str | None = None
-    place: str | None = None
-    replay: str | None = None
-    count: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +74,7 @@ def failures(record: Record) -> list[Failure]:
             _implementations(record),
             _abstentions(record),
             _drift(record),
+            benchmark.failures(record),
         )
     )
 
@@ -178,6 +167,8 @@ def verdict(record: Record) -> Verdict:
         return _held(record)
     reason = "; ".join(part for part in (MEANINGS.get(code, "") if code in UNFINISHED else "", _named(found)) if part)
     reason = reason or MEANINGS.get(code, "no line of the record says why")
+    if code == INCONCLUSIVE:
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {reason}. A quieter machine or more rounds would tell.")
     return Verdict(False, f"FAILED with exit code {code}: {reason}.")
 
 
@@ -188,6 +179,7 @@ def _named(found: list[Failure]) -> str:
         "proof": "failed proof|failed proofs",
         "implementation": "implementation failure|implementation failures",
         "findings": "drift from the known findings|drifts from the known findings",
+        "measurement": "failed measurement|failed measurements",
     }
     counts = [(sum(each.count for each in found if each.subject == subject), noun) for subject, noun in nouns.items()]
     return listed([f"{number:,} {noun.split('|')[number != 1]}" for number, noun in counts if number])
@@ -196,7 +188,8 @@ def _named(found: list[Failure]) -> str:
 def _held(record: Record) -> Verdict:
     totals = [total for total in oracle_totals(record) if total.asked]
     tested = [each for each in implementations(record) if each.asked]
-    if not totals and not tested:
+    compared = [each for each in measured(record) if each.asked or each.speed]
+    if not totals and not tested and not compared:
         return Verdict(False, "NOTHING was asked and nothing was judged: this is no pass.")
     proofs = len(record.of("proof"))
     clauses = [
@@ -204,6 +197,7 @@ def _held(record: Record) -> Verdict:
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
         *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
         *(_gated_clause(each) for each in tested if each.gated),
+        *benchmark.clauses(record),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 

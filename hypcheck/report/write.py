@@ -55,6 +55,7 @@ REPORTS = {
     "junit": Report("junit.xml", "junit"),
     "map": Report("map.svg", "picture", shows="map"),
     "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
+    "html": Report("report.html", "html.page", compares=True),
 }
 """Every format by its name, in the order in which they are written."""
 

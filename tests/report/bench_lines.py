@@ -195,6 +195,7 @@ def comparison(name, after, verdict):
         "ci95": [after * 0.98, after * 1.02],
         "verdict": verdict,
         "allowed": 1.1,
+        "gates": verdict == "same",
     }
 
 

@@ -128,11 +128,16 @@ class Bullets:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """The plots of that name, where they can be drawn and shown; `file` is that of a report beside this one."""
+    """The plots of that name, where they can be drawn and shown; `file` is that of a report beside this one.
+
+    `small` ones stand many in a row; `legend` says what the roles of their colours mean.
+    """
 
     name: str
-    alt: str
+    alt: str = ""
     file: str | None = None
+    small: bool = False
+    legend: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,11 +161,15 @@ Block = Paragraph | Bullets | Table | Figures | Details | Either
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A part of a report under a heading; `level` 2 is a part of the whole, 3 a part of the section before it."""
+    """A part of a report under a heading; `level` 2 is a part of the whole, 3 a part of the section before it.
+
+    `page` says that the page alone has it, and a text has not.
+    """
 
     title: Text
     blocks: tuple[Block, ...]
     level: int = 2
+    page: bool = False
 
 
 def table(name: str, columns: Iterable[Column | str], rows: Iterable[Iterable[Cell | Text]]) -> Table:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hypcheck.record import Record
-from hypcheck.report.content.blocks import Bullets, Code, Column, Either, Section, Strong, Table, Text, bullets, table
+from hypcheck.report.content.blocks import Bullets, Code, Either, Section, Strong, Table, Text, bullets, table
+from hypcheck.report.failure import Failure
 from hypcheck.report.text import counted
-from hypcheck.report.verdict import Failure, failures
+from hypcheck.report.verdict import failures
 
 LISTED = 50
 """Failures that a text shows one by one."""
@@ -33,20 +34,17 @@ def _list(found: list[Failure]) -> Bullets:
 
 
 def _table(found: list[Failure]) -> Table:
-    columns = ("what", "which", "where", "what happened", Column("cases", number=True), "look at it with")
     rows = [
         (
-            failure.subject,
             Code(failure.name),
             failure.group,
             (failure.message, *((" (", Code(failure.place), ")") if failure.place else ())),
-            str(failure.count),
             Code(failure.replay) if failure.replay else "",
         )
         for failure in found[:IN_TABLE]
     ]
-    rest = [("", "", "", text, "", "") for text in _rest(len(found) - IN_TABLE)]
-    return table("failures", columns, [*rows, *rest])
+    rest = [("", "", text, "") for text in _rest(len(found) - IN_TABLE)]
+    return table("failures", ("which", "where", "what happened", "look at it with"), [*rows, *rest])
 
 
 def _rest(left_out: int) -> list[Text]:

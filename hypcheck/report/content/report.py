@@ -6,16 +6,41 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from hypcheck.record import Record
-from hypcheck.report.content import changed, failed, gated, maps, methods, oracles, paper, run, timings
+from hypcheck.report.content import (
+    changed,
+    choosing,
+    compared,
+    errors,
+    failed,
+    gated,
+    judged,
+    maps,
+    methods,
+    oracles,
+    paper,
+    peers,
+    run,
+    speeds,
+    targets,
+    timings,
+)
 from hypcheck.report.content.blocks import Section
 from hypcheck.report.verdict import Verdict, verdict
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     failed.sections,
+    targets.baseline,
+    choosing.sections,
+    errors.sections,
+    peers.sections,
+    speeds.sections,
+    targets.sections,
+    compared.sections,
     oracles.sections,
     paper.sections,
     gated.sections,
     methods.sections,
+    judged.sections,
     maps.sections,
     timings.sections,
     run.sections,

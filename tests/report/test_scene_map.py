@@ -15,6 +15,8 @@ from matplotlib.colors import to_rgb
 
 from hypcheck.errors import UnavailableError
 from hypcheck.report import picture
+from hypcheck.report.plots import scene_map
+from hypcheck.report.plots.style import styled
 from tests import report_samples as samples
 
 
@@ -23,8 +25,8 @@ def maps(body=None):
 
 
 def of_figure(body=None):
-    with picture._style():
-        return picture.draw(maps(body))
+    with styled():
+        return scene_map.together(samples.record(body)).figure
 
 
 def test_it_is_svg_without_a_date():
@@ -35,7 +37,7 @@ def test_it_is_svg_without_a_date():
 
 
 def test_each_grid_point_has_its_colour():
-    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in picture.REGIONS.items()}
+    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in scene_map.REGIONS.items()}
     panels = [axes for axes in of_figure().axes if axes.images]
     assert len(panels) == len(maps())
     for axes, line in zip(panels, maps(), strict=True):
@@ -43,8 +45,8 @@ def test_each_grid_point_has_its_colour():
         assert axes.images[0].origin == "lower"  # the first line is the lowest z
         for up, text in enumerate(line["lines"]):
             for across, letter in enumerate(text):
-                wanted = to_rgb(picture.WRONG) if letter.isupper() else colours[letter]
-                assert np.allclose(image[up, across], wanted)
+                wanted = to_rgb(scene_map.WRONG) if letter.isupper() else colours[letter]
+                assert np.allclose(image[up, across], [*wanted, 1])
 
 
 def test_a_grid_point_stands_where_its_coordinates_are():
@@ -81,7 +83,7 @@ def test_colours_differ_in_lightness():
     """Whoever sees no colours, or prints without them, still tells them apart."""
     lightness = sorted(
         float(np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)))
-        for colour in (picture.WRONG, *(colour for _, colour in picture.REGIONS.values()))
+        for colour in (scene_map.WRONG, *(colour for _, colour in scene_map.REGIONS.values()))
     )
     assert min(np.diff(lightness)) > 0.11
     assert lightness[1] - lightness[0] > 0.25  # what is wrong stands out

@@ -1,0 +1,81 @@
+"""Which method to use when, as a benchmark's figures say it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hypcheck.record import Record
+from hypcheck.report.choice import Advice, beaten, choice
+from hypcheck.report.content.blocks import (
+    Block,
+    Cell,
+    Code,
+    Column,
+    Paragraph,
+    Section,
+    Text,
+    bullets,
+    joined,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.content.changed import with_interval
+from hypcheck.report.measured import reference, workloads
+from hypcheck.report.text import listed
+
+_HOW = prose(
+    "The fastest method that fills the need, by its ratio to the run's reference; behind it those that the intervals or"
+    " the noise of the run do not tell from it. *Reliable above* a flip distance: at most 1 in 1000 answers beyond it"
+    " is wrong, on every workload that is spoken of. What was not measured is not spoken of either: gate a method on"
+    " your own scene before you rely on it."
+)
+
+
+def sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing was timed."""
+    chosen = choice(record)
+    if not chosen.advice:
+        return
+    known = workloads(record)
+    timed = [line for name, line in known.items() if any(each["workload"] == name for each in record.of("speed"))]
+    scenes = listed([str(line["title"]) for line in timed])
+    against = reference(record)
+    said: list[Text] = [f"Everyday scenes are the workloads that were timed: {scenes}."]
+    if against is not None:
+        said.append(("The reference, of ratio 1, is ", Code(against), "."))
+    said += [(f"Nothing measured gives {each}.") for each in chosen.unmet]
+    worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in beaten(record)]
+    if worse:
+        lead = "Beaten by a method of the same tier that is faster beyond doubt and errs no farther from contact: "
+        said.append((lead, joined(worse), "."))
+    blocks: tuple[Block, ...] = (Paragraph(_HOW), _table(merged(chosen.advice)), bullets(said))
+    yield Section("Which method to use when", blocks)
+
+
+def merged(advice: tuple[Advice, ...]) -> list[tuple[str, Advice]]:
+    """Needs that differ only in how strict they are and lead to the same method share the strictest one's line."""
+    kept: dict[tuple[object, ...], tuple[str, Advice]] = {}
+    for each in advice:
+        words = each.need.partition(", ")[2] if each.need.startswith("errors closer") else each.need
+        kept.setdefault((words, each.use.name, each.errs), (each.need, each))
+    return list(kept.values())
+
+
+def _table(advice: list[tuple[str, Advice]]) -> Block:
+    columns: tuple[Column | str, ...] = ("you need", "use", number("time ratio"), number("judged"), "not relied on for")
+    return table("which method to use when", columns, [_row(need, each) for need, each in advice])
+
+
+def _row(need: str, each: Advice) -> tuple[Cell, ...]:
+    line = each.use.speed[each.workload, each.mode]
+    interval = line["ratio_ci95"]
+    alike: Text = (" or ", joined([Code(other.name) for other in each.alike])) if each.alike else ()
+    ratio = with_interval(float(line["ratio"]), interval and (interval[0], interval[1]))
+    return (
+        Cell(need),
+        Cell((Code(each.use.name), alike)),
+        Cell(ratio, float(line["ratio"])),
+        Cell(f"{each.use.asked:,}", each.use.asked),
+        Cell(", ".join(each.errs)),
+    )

@@ -1,0 +1,96 @@
+"""The errors of a benchmark's methods: by distance, by workload, by size and by place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from hypcheck.record import Line, Record
+from hypcheck.report.content.blocks import (
+    Block,
+    Cell,
+    Code,
+    Column,
+    Details,
+    Figures,
+    Paragraph,
+    Section,
+    bullets,
+    count,
+    joined,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.content.judged import HEAT
+from hypcheck.report.measured import measured, workloads
+from hypcheck.report.plots.places import MISTAKES, right
+from hypcheck.report.text import figure
+
+_DISTANCE = prose(
+    "The *flip distance* of a case is the least relative change of its inputs that leads to another position: a method"
+    " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
+)
+_FRONT = prose(
+    "Lower is right nearer to contact, farther left is faster. Every mark tells what it is; the names are those of the"
+    " methods that no other beats in both."
+)
+_TABLE = prose(
+    "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
+    " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
+)
+_PLACES = tuple((role, words) for words, role in MISTAKES.values())
+
+
+def sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of these."""
+    if record.of("accuracy"):
+        blocks: tuple[Block, ...] = (Paragraph(_FRONT), Figures("pareto", "error against run time", "pareto.svg"))
+        if record.of("speed"):
+            yield Section("Error against run time", blocks)
+        figures = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
+        others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
+        yield Section("Wrong answers by distance", (Paragraph(_DISTANCE), figures, others))
+        yield Section("Wrong answers by workload", (Paragraph(_TABLE), _table(record)))
+    yield from _maps(record)
+
+
+def _table(record: Record) -> Block:
+    numbers = map(
+        number, ("asked", "wrong", "false clear", "false contact", "wrong side", "abstained", "reliable above")
+    )
+    columns: tuple[Column | str, ...] = ("method", "workload", *numbers, "case farthest from contact")
+    titles = {name: str(line["title"]) for name, line in workloads(record).items()}
+    rows = [
+        (Cell(Code(each.name)), Cell(titles[name]), *_row(line))
+        for each in measured(record)
+        for name, line in each.accuracy.items()
+    ]
+    return table("wrong answers by workload", columns, rows)
+
+
+def _row(line: Line) -> tuple[Cell, ...]:
+    worst = max(line["worst"], key=lambda case: float(case["flip_distance"]), default=None)
+    reliable = float(line["reliable_above"])
+    counts = [count(line[name]) for name in ("false_contact", "wrong_side", "abstained")]
+    return (
+        count(line["asked"]),
+        count(line["wrong"]),
+        count(line["false_clear"], bad=True),
+        *counts,
+        Cell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
+        Cell(Code(worst["case"]) if worst else ""),
+    )
+
+
+def _maps(record: Record) -> Iterator[Section]:
+    if record.of("stability"):
+        words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
+        blocks = (Paragraph(words), Figures("stability", small=True, legend=HEAT))
+        yield Section("Stability", blocks, page=True)
+    if record.of("places"):
+        words = "Grid points of the half plane, distance from the axis across and height up, in metres."
+        never = [Code(name) for name in right(record)]
+        items = [("Wrong at none of the grid points: ", joined(never), ".")] if never else []
+        blocks_ = (Paragraph(words), Figures("places", small=True, legend=_PLACES), bullets(items))
+        yield Section("Where the wrong answers lie", blocks_, page=True)

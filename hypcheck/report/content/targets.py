@@ -1,0 +1,114 @@
+"""What a benchmark was held to: the paper's claims of cost, the kernels' targets, an earlier run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from hypcheck.record import Line, Record
+from hypcheck.report.content.blocks import (
+    Block,
+    Cell,
+    Code,
+    Column,
+    Paragraph,
+    Section,
+    Strong,
+    Table,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.content.changed import with_interval
+from hypcheck.report.text import figure
+
+_TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "good"}
+_BASELINE = prose(
+    "Ratios to the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
+    " *Slower* is what exceeds what is allowed even at the interval's lower end; *inconclusive*, what the noise does"
+    " not let tell."
+)
+
+
+def baseline(record: Record) -> Iterator[Section]:
+    """The comparison with an earlier run, which stands behind what failed; none where there is no baseline."""
+    if record.of("comparison"):
+        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of("comparison"))))
+
+
+def sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of the others."""
+    if record.of("cost"):
+        yield Section("The paper's claims of cost", tuple(_claims(record.of("cost"))))
+    if record.of("kernel"):
+        yield Section("The kernels' targets", (_kernels(record.of("kernel")),))
+
+
+def _interval(value: float, ends: list[float] | None) -> Cell:
+    return Cell(with_interval(value, None if ends is None else (ends[0], ends[1])), value)
+
+
+def _baseline(lines: list[Line]) -> Table:
+    numbers = map(number, ("before", "after", "change", "allowed"))
+    columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
+    ranked = sorted(lines, key=lambda line: ["slower", "inconclusive", "faster", "same"].index(line["verdict"]))
+    rows = [
+        (
+            Cell(Code(line["method"])),
+            Cell(line["workload"]),
+            Cell(line["mode"]),
+            Cell(figure(line["before"]), line["before"]),
+            Cell(figure(line["after"]), line["after"]),
+            _interval(line["change"], line["ci95"]),
+            Cell(figure(line["allowed"]), line["allowed"]),
+            Cell(line["verdict"], tone=_TONES.get(line["verdict"], "")),
+        )
+        for line in ranked
+    ]
+    return table("against the baseline", columns, rows)
+
+
+def _claims(lines: list[Line]) -> Iterator[Block]:
+    columns: tuple[Column | str, ...] = ("claim", "scene", "verdict", "what was measured")
+    rows = [
+        (
+            Cell(line["claim"]),
+            Cell(line["scene"]),
+            Cell(Strong(line["verdict"]), tone=_TONES.get(line["verdict"], "")),
+            Cell(line["says"]),
+        )
+        for line in lines
+    ]
+    yield table("claims of cost", columns, rows)
+    columns = ("claim", "compared", *map(number, ("ratio", "ns")), "operations")
+    compared = [
+        (
+            Cell(line["claim"]),
+            Cell(each["name"]),
+            Cell("–") if each["ratio"] is None else _interval(each["ratio"], each["ratio_ci95"]),
+            Cell("–") if each["median_ns"] is None else Cell(figure(each["median_ns"]), each["median_ns"]),
+            Cell(_operations(each["operations"])),
+        )
+        for line in lines
+        for each in line["compared"]
+    ]
+    yield table("what was compared", columns, compared)
+
+
+def _operations(counts: Mapping[str, int] | None) -> str:
+    return "" if counts is None else ", ".join(f"{number_} {name}" for name, number_ in counts.items())
+
+
+def _kernels(lines: list[Line]) -> Table:
+    columns: tuple[Column | str, ...] = ("kernel", "target", *map(number, ("wanted", "measured")), "met", "which says")
+    rows = [
+        (
+            Cell(line["name"]),
+            Cell(line["target"]),
+            Cell(figure(line["wanted"]), line["wanted"]),
+            _interval(line["measured"], line["ci95"]),
+            Cell("yes", tone="good") if line["met"] else Cell(Strong("no"), tone="bad"),
+            Cell(line["says"]),
+        )
+        for line in sorted(lines, key=lambda line: bool(line["met"]))
+    ]
+    return table("targets of the kernels", columns, rows)

@@ -1,0 +1,124 @@
+"""report.html: one file that needs no other and no network, for people with any screen, keyboard, paper or colours.
+
+Its content security policy lets no style and no script run but its own, which it names by their hashes; templates
+escape whatever is put into them.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from hypcheck.errors import UnavailableError
+from hypcheck.record import Record
+from hypcheck.report.content.blocks import Block, Bullets, Details, Either, Figures, Paragraph, Section, Table, plain
+from hypcheck.report.content.report import content
+from hypcheck.report.plots.table import draw
+from hypcheck.version import VERSION
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    import jinja2
+
+    from hypcheck.report.write import Around
+
+_KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", Table: "table"}
+
+
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    """A block as the templates take it: its kind, and for those that hold others or plots what is in them."""
+
+    kind: str
+    value: Any
+    blocks: tuple[_Shown, ...] = ()
+    plots: tuple[dict[str, Any], ...] = ()
+    missing: str = ""
+
+
+def render(record: Record, around: Around | None = None) -> bytes:
+    """The page in UTF-8. Raises UnavailableError where jinja2 is missing; without matplotlib it has no plots."""
+    environment = _environment()
+    from hypcheck.report.plots.svg import css  # noqa: PLC0415
+
+    whole = content(record, around.against if around else None)
+    style, script = css() + _template("style.css"), _template("script.js")
+    page: str = environment.get_template("page.html").render(
+        title=whole.title,
+        verdict=whole.verdict,
+        sections=list(_sections(whole.sections, record)),
+        version=VERSION,
+        style=_own(style),
+        script=_own(script),
+        style_hash=_hash(style),
+        script_hash=_hash(script),
+    )
+    return (page + "\n").encode("utf-8", "replace")
+
+
+def _template(name: str) -> str:
+    return resources.files("hypcheck.report.html").joinpath("templates", name).read_text(encoding="utf-8").strip()
+
+
+def _hash(text: str) -> str:
+    """As a content security policy names a text."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
+
+
+def _own(text: str) -> Any:  # noqa: ANN401 - Markup, whose module is an extra
+    """Our own text, or what svg.py made of foreign text, which needs no escaping."""
+    from markupsafe import Markup  # noqa: PLC0415
+
+    return Markup(text)  # noqa: S704
+
+
+def _environment() -> jinja2.Environment:
+    try:
+        import jinja2  # noqa: PLC0415
+
+        from hypcheck.report.html.text import text  # noqa: PLC0415
+    except ImportError as error:
+        reason = f"jinja2 cannot be imported ({visible(error)}); pip install 'hypcheck[report]' brings it"
+        raise UnavailableError(reason) from None
+    environment = jinja2.Environment(
+        loader=jinja2.FunctionLoader(_template),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"text": text, "plain": plain}
+    return environment
+
+
+def _sections(sections: tuple[Section, ...], record: Record) -> Iterator[dict[str, Any]]:
+    for number, section in enumerate(sections):
+        words = re.sub(r"[^a-z0-9]+", "-", plain(section.title).lower())[:40].strip("-")
+        blocks = [_shown(block, record) for block in section.blocks]
+        anchor = f"s{number}-{words}"
+        yield {"title": section.title, "level": section.level, "anchor": anchor, "blocks": blocks}
+
+
+def _shown(block: Block, record: Record) -> _Shown:
+    if isinstance(block, Either):
+        return _shown(block.page, record)
+    if isinstance(block, Details):
+        return _Shown("details", block, tuple(_shown(each, record) for each in block.blocks))
+    if isinstance(block, Figures):
+        return _figures(block, record)
+    return _Shown(_KINDS[type(block)], block)
+
+
+def _figures(block: Figures, record: Record) -> _Shown:
+    from hypcheck.report.plots.svg import inline  # noqa: PLC0415
+
+    try:
+        plots = tuple({"title": plot.title, "svg": _own(inline(plot))} for plot in draw(block.name, record))
+    except UnavailableError as error:
+        return _Shown("figures", block, missing=f"The plots are missing: {error}")
+    return _Shown("figures", block, plots=plots)

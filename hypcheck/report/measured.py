@@ -1,0 +1,92 @@
+"""What a benchmark's lines come to: each method with its errors, times and memory by workload."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hypcheck.record import Line, Record
+
+BATCH, SINGLE, BUILD = "batch", "single", "build"
+
+TIERS = ("C", "numpy", "python", "FCL", "foreign")
+"""What methods are written in, the fastest first; only those of one tier compare as algorithms."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A method and its lines: of its errors by workload, of its times by workload and mode, of its memory."""
+
+    name: str
+    line: Line
+    accuracy: Mapping[str, Line]
+    speed: Mapping[tuple[str, str], Line]
+    memory: Line | None
+
+    @property
+    def tier(self) -> str:
+        """What it is written in."""
+        return str(self.line["tier"])
+
+    @property
+    def exact(self) -> bool:
+        """Whether it promises never to be wrong."""
+        return bool(self.line["exact"])
+
+    @property
+    def asked(self) -> int:
+        """The answers that were judged, on all workloads."""
+        return sum(line["asked"] for line in self.accuracy.values())
+
+    @property
+    def wrong(self) -> int:
+        """Those that were wrong."""
+        return sum(line["wrong"] for line in self.accuracy.values())
+
+    @property
+    def reliable_above(self) -> float:
+        """The flip distance above which at most 1 answer in 1000 is wrong, on every workload."""
+        return max((float(line["reliable_above"]) for line in self.accuracy.values()), default=math.inf)
+
+    def ratio(self, workload: str, mode: str = BATCH) -> float | None:
+        """Its time by that of the reference method; None where it was not timed or not compared."""
+        line = self.speed.get((workload, mode))
+        return None if line is None or line["ratio"] is None else float(line["ratio"])
+
+
+def measured(record: Record) -> list[Measured]:
+    """Every method of a benchmark in the order of the record."""
+    accuracy: dict[str, dict[str, Line]] = {}
+    speed: dict[str, dict[tuple[str, str], Line]] = {}
+    for line in record.of("accuracy"):
+        accuracy.setdefault(line["method"], {})[line["workload"]] = line
+    for line in record.of("speed"):
+        speed.setdefault(line["method"], {})[line["workload"], line["mode"]] = line
+    memory = {line["method"]: line for line in record.of("memory")}
+    return [
+        Measured(name, line, accuracy.get(name, {}), speed.get(name, {}), memory.get(name))
+        for line in record.of("method")
+        for name in (line["method"],)
+    ]
+
+
+def workloads(record: Record) -> dict[str, Line]:
+    """The workloads by name, in the order of the record; also those that are measured and not described."""
+    found = {line["workload"]: line for line in record.of("workload")}
+    for line in (*record.of("accuracy"), *record.of("speed")):
+        name = line["workload"]
+        found.setdefault(name, {"workload": name, "title": name, "text": "", "rows": 0, "seed": 0})
+    return found
+
+
+def reference(record: Record) -> str | None:
+    """The method by whose time every other's is divided, where the record says which."""
+    named = record.header["options"].get("reference")
+    return None if named is None else str(named)
+
+
+def noise_floor(record: Record, workload: str, mode: str) -> float | None:
+    """The relative difference below which two times of this run are not told apart."""
+    floors = [line["floor"] for line in record.of("noise") if (line["workload"], line["mode"]) == (workload, mode)]
+    return float(floors[0]) if floors else None

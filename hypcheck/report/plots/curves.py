@@ -1,0 +1,193 @@
+"""Shares of wrong answers against flip distance: one curve a method.
+
+Where none of n answers was wrong the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
+three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn, as a hollow triangle that points down.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from hypcheck.report.plots.style import LIMIT, NONE_WRONG, WIDTH, Look, colour, log_axis, look, new_figure, power_of_ten
+from hypcheck.report.plots.svg import Plot
+from hypcheck.report.text import counted, figure
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+TANGENT = -math.inf
+AT_MOST = 8
+"""Curves in one plot; there are as many looks that differ in colour, marker and dashes."""
+
+STEP, MANY = 3, 16
+"""Octaves in one point of a curve, where it would have more than so many points."""
+
+_LABEL = 24
+"""Characters of a name that stand beside another name in a legend of two columns."""
+
+_LONGEST = 48
+"""Characters of a name that a legend shows."""
+
+_DOTS = (0, (1, 2.5))
+"""The dashes of a line that is an upper limit."""
+
+_LOG2_10 = math.log2(10)
+
+
+@dataclass(frozen=True, slots=True)
+class Octave:
+    """Cases whose flip distance is in [2^exponent, 2^(exponent + width)), or which are exact tangencies (TANGENT)."""
+
+    exponent: float
+    asked: int
+    wrong: int
+    width: int = 1
+
+    @property
+    def middle(self) -> float:
+        """The log2 of the flip distance in its middle."""
+        return self.exponent + self.width / 2
+
+    @property
+    def share(self) -> float:
+        """The share that is drawn: what was measured, or its upper limit where none was wrong."""
+        return self.wrong / self.asked if self.wrong else min(1.0, 3 / self.asked)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A method's octaves, ascending, each with cases."""
+
+    name: str
+    octaves: tuple[Octave, ...]
+
+    @property
+    def asked(self) -> int:
+        """All cases."""
+        return sum(octave.asked for octave in self.octaves)
+
+    @property
+    def wrong(self) -> int:
+        """All wrong answers."""
+        return sum(octave.wrong for octave in self.octaves)
+
+
+def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
+    """A method's curve of [asked, wrong] by octave. Where there are many octaves, STEP of them make one point.
+
+    Points of few cases each would hide the curve behind their scatter.
+    """
+    finite = [exponent for exponent in octaves if exponent != TANGENT]
+    width = STEP if finite and max(finite) - min(finite) > MANY else 1
+    asked: Counter[float] = Counter()
+    wrong: Counter[float] = Counter()
+    for exponent, (cases, errors) in octaves.items():
+        start = exponent if exponent == TANGENT else exponent // width * width
+        asked[start] += cases
+        wrong[start] += errors
+    points = (Octave(start, asked[start], wrong[start], width) for start in sorted(asked) if asked[start])
+    return Curve(name, tuple(points))
+
+
+def in_parts(curves: Sequence[Curve]) -> Iterator[Sequence[Curve]]:
+    """The curves in parts that a plot can show, as even as possible."""
+    parts = -(-len(curves) // AT_MOST)
+    for part in range(parts):
+        yield curves[part * len(curves) // parts : (part + 1) * len(curves) // parts]
+
+
+def plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
+    """At most AT_MOST curves with their legend below them."""
+    columns = 2 if all(len(visible(curve.name)) <= _LABEL for curve in curves) else 1
+    rows = -(-len(curves) // columns) + 1
+    drawn = new_figure(WIDTH, 250 + 15.5 * rows)
+    axes = drawn.subplots()
+    left = _axes(axes, curves)
+    tips: dict[str, list[str]] = {}
+    for place, curve in enumerate(curves):
+        tips |= _curve(axes, curve, f"{name}-{place}", look(place), (place, len(curves)), left)
+    _legend(drawn, curves, columns)
+    return Plot(name, title, _description(curves), drawn, tips)
+
+
+def _description(curves: Sequence[Curve]) -> str:
+    """What can be seen, in words."""
+    said = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
+    return f"Share of wrong answers against flip distance, both logarithmic. {'; '.join(said)}."
+
+
+def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
+    """Name the axes and their powers of ten; where exact tangencies stand on the axis of distances."""
+    octaves = [octave for curve in curves for octave in curve.octaves]
+    finite = [octave.exponent for octave in octaves if octave.exponent != TANGENT] or [-1.0]
+    low, high = min(finite), max(max(finite) + 1, 0)
+    step = max(1, math.ceil((high - low) / _LOG2_10 / 8))
+    decades = [k for k in range(math.ceil(low / _LOG2_10), math.floor(high / _LOG2_10) + 1) if k % step == 0]
+    ticks = [(k * _LOG2_10, power_of_ten(k)) for k in decades]
+    left = low - max(1.5, (high - low) / 16)
+    if any(octave.exponent == TANGENT for octave in octaves):
+        ticks = [(left, "0"), *(tick for tick in ticks if tick[0] > low)]
+        axes.axvline((left + low) / 2, color=colour("soft"), linewidth=0.8, linestyle=(0, (1, 3)))
+    axes.set_xticks([place for place, _ in ticks], [label for _, label in ticks])
+    axes.set_xlabel("flip distance (relative change of the inputs)")
+    log_axis(axes, "y", min((octave.share for octave in octaves), default=0.1) / 1.6, 1.5)
+    axes.set_ylabel("share of wrong answers")
+    return left
+
+
+def _curve(axes: Axes, curve: Curve, gid: str, how: Look, turn: tuple[int, int], left: float) -> dict[str, list[str]]:
+    """Draw one; the marks of its wrong octaves, and of those of the others that are its turn, have tooltips."""
+    at = [(left if octave.exponent == TANGENT else octave.middle, octave) for octave in curve.octaves]
+    finite = [pair for pair in at if pair[1].exponent != TANGENT]
+    for measured, dashes, width in ((True, how.dashes, 1.4), (False, _DOTS, 0.9)):
+        axes.plot(*_segments(finite, measured=measured), color=how.colour, linestyle=dashes, linewidth=width)
+    place, number = turn
+    wrong = [pair for pair in at if pair[1].wrong]
+    none = [
+        pair
+        for count, pair in enumerate(at)
+        if not pair[1].wrong and (count % number == place or (count and at[count - 1][1].wrong))
+    ]
+    tips = {}
+    for what, pairs, marks in (("wrong", wrong, {"marker": how.marker}), ("none", none, LIMIT)):
+        if pairs:
+            xs, ys = [x for x, _ in pairs], [octave.share for _, octave in pairs]
+            axes.plot(xs, ys, gid=f"{gid}-{what}", color=how.colour, linestyle="none", **marks)
+            tips[f"{gid}-{what}"] = [_tip(curve.name, octave) for _, octave in pairs]
+    return tips
+
+
+def _tip(name: str, octave: Octave) -> str:
+    distance = "exact tangencies" if octave.exponent == TANGENT else f"about {figure(2.0**octave.middle)}"
+    limit = "" if octave.wrong else f", so at most a share of {figure(octave.share)}"
+    return f"{name}, {distance}: {octave.wrong:,} of {octave.asked:,} wrong{limit}"
+
+
+def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tuple[list[float], list[float]]:
+    """The lines between neighbours one of which has wrong answers, or neither; broken by nan."""
+    xs, ys = [], []
+    for (x0, before), (x1, after) in pairwise(finite):
+        if bool(before.wrong or after.wrong) == measured:
+            xs += [x0, x1, math.nan]
+            ys += [before.share, after.share, math.nan]
+    return xs, ys
+
+
+def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
+    from matplotlib.lines import Line2D  # noqa: PLC0415
+
+    soft = colour("soft")
+    limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=NONE_WRONG, **LIMIT)
+    drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)
+    handles = []
+    for place, curve in enumerate(curves):
+        how, label = look(place), visible(curve.name, _LONGEST)
+        handles.append(Line2D([], [], color=how.colour, linestyle=how.dashes, marker=how.marker, label=label))
+    drawn.legend(handles=handles, loc="outside lower left", ncols=columns)

@@ -1,0 +1,80 @@
+"""Names beside points, where they cover neither each other nor a point; the others have their tooltips alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_PLACES = (
+    (7, 0, "left", "center"),
+    (-7, 0, "right", "center"),
+    (0, 7, "center", "bottom"),
+    (0, -7, "center", "top"),
+    (6, 6, "left", "bottom"),
+    (-6, 6, "right", "bottom"),
+    (6, -6, "left", "top"),
+    (-6, -6, "right", "top"),
+    (14, 14, "left", "bottom"),
+    (-14, 14, "right", "bottom"),
+    (14, -14, "left", "top"),
+    (-14, -14, "right", "top"),
+    (22, 22, "left", "bottom"),
+    (22, -22, "left", "top"),
+    (8, 30, "left", "bottom"),
+    (8, -30, "left", "top"),
+)
+"""Where a name may stand: points to the right and up, and which part of it stands there. The first that is free."""
+
+_MARK = 4.0
+"""Half the size of a point's mark, in points."""
+
+
+def place(
+    axes: Axes,
+    points: Sequence[tuple[float, float]],
+    names: Sequence[str | None],
+    lines: Sequence[tuple[tuple[float, float], tuple[float, float]]] = (),
+) -> None:
+    """Write each point's name, those of None left out, in that order of importance. The limits must be set before.
+
+    `lines` are level or upright and are kept free too.
+    """
+    from matplotlib.transforms import Bbox  # noqa: PLC0415
+
+    figure: Any = axes.figure
+    figure.canvas.draw()  # the layout decides where things are, and stays as it is from here on
+    figure.set_layout_engine("none")
+    renderer = figure.canvas.get_renderer()
+    scale = figure.dpi / 72
+    inside = axes.get_window_extent(renderer)
+    centres = [axes.transData.transform(point) for point in points]
+    half = _MARK * scale
+    taken = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in centres]
+    for start, end in lines:
+        (x0, y0), (x1, y1) = (axes.transData.transform(point) for point in (start, end))
+        taken.append(Bbox.from_extents(min(x0, x1) - 1, min(y0, y1) - 1, max(x0, x1) + 1, max(y0, y1) + 1))
+    for point, name in zip(points, names, strict=True):
+        if name is None:
+            continue
+        for right, up, across, upward in _PLACES:
+            text = axes.annotate(
+                name,
+                point,
+                xytext=(right, up),
+                textcoords="offset points",
+                horizontalalignment=across,
+                verticalalignment=upward,
+                fontsize=9,
+            )
+            box = text.get_window_extent(renderer)
+            if _within(box, inside) and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            text.remove()
+
+
+def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
+    return bool(box.x0 >= outer.x0 and box.x1 <= outer.x1 and box.y0 >= outer.y0 and box.y1 <= outer.y1)

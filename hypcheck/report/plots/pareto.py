@@ -1,0 +1,173 @@
+"""Error against run time: how near to contact a method can be trusted, and what it costs; the front is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from hypcheck.record import Record
+from hypcheck.report.measured import BATCH, TIERS, measured, workloads
+from hypcheck.report.plots import labels
+from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, new_figure, power_of_ten
+from hypcheck.report.plots.svg import Plot
+from hypcheck.report.text import figure
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Place = tuple[float, float]
+
+
+ENOUGH = 3000
+"""Answers of which none is wrong that show, at 95 %, that at most 1 in 1000 is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A method: nanoseconds a row, and the flip distance above which at most 1 answer in 1000 is wrong (0: none)."""
+
+    name: str
+    tier: str
+    time_ns: float
+    reliable_above: float
+    asked: int
+
+    @property
+    def shown(self) -> bool:
+        """Whether so many answers were judged that 1 wrong in 1000 would have shown (3/n ≤ 1/1000)."""
+        return self.asked >= ENOUGH
+
+
+def points(record: Record, workload: str) -> list[Point]:
+    """The methods that were judged and timed on the workload."""
+    return [
+        Point(each.name, each.tier, float(speed["median_ns"]), float(accuracy["reliable_above"]), accuracy["asked"])
+        for each in measured(record)
+        if (accuracy := each.accuracy.get(workload)) and (speed := each.speed.get((workload, BATCH)))
+        if speed["median_ns"] > 0
+    ]
+
+
+def front(found: Sequence[Point]) -> list[Point]:
+    """Those that no other beats: from the fastest on, each more reliable than all that are faster."""
+    best, kept = math.inf, []
+    for point in sorted(found, key=lambda point: (point.time_ns, point.reliable_above)):
+        if point.reliable_above < best:
+            best = point.reliable_above
+            kept.append(point)
+    return kept
+
+
+def plots(record: Record) -> Iterator[Plot]:
+    """A plot for each workload on which methods were timed."""
+    for place, (name, line) in enumerate(workloads(record).items()):
+        found = points(record, name)
+        if found:
+            yield _plot(f"pareto-{place}", f"Error against run time, {line['title']}", found)
+
+
+def _plot(name: str, title: str, found: Sequence[Point]) -> Plot:
+    drawn = new_figure(WIDTH, 375)
+    axes = drawn.subplots()
+    best = front(found)
+    heights = _axes(axes, found)
+    steps = _steps(best, heights, axes.get_xlim()[1])
+    for (x0, y0), (x1, y1) in steps:
+        axes.plot((x0, x1), (y0, y1), color=colour("soft"), linewidth=1.2, linestyle=DASHES[1], zorder=1.5)
+    tips = _marks(axes, found, heights, name)
+    _legend(drawn, found)
+    important = sorted(found, key=lambda point: (point not in best, point.time_ns))
+    names = [visible(point.name, 28) if point in best else None for point in important]
+    labels.place(axes, [(point.time_ns, heights[point.reliable_above]) for point in important], names, steps)
+    said = f"The front, from the fastest: {'; '.join(_tip(point) for point in best)}."
+    return Plot(name, title, said, drawn, tips)
+
+
+def _marks(axes: Axes, found: Sequence[Point], heights: dict[float, float], name: str) -> dict[str, list[str]]:
+    tips: dict[str, list[str]] = {}
+    for number, tier in enumerate(TIERS):
+        for shown in (True, False):
+            mine = [point for point in found if (point.tier, point.shown) == (tier, shown)]
+            if mine:
+                gid = f"{name}-{number}-{shown}"
+                xs, ys = [point.time_ns for point in mine], [heights[point.reliable_above] for point in mine]
+                axes.plot(xs, ys, gid=gid, linestyle="none", **_look(number, shown=shown))
+                tips[gid] = [_tip(point) for point in mine]
+    return tips
+
+
+def _look(number: int, *, shown: bool) -> dict[str, Any]:
+    own = colour(f"series-{number + 1}")
+    face = own if shown else colour("surface")
+    return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
+
+
+def _legend(drawn: Figure, found: Sequence[Point]) -> None:
+    from matplotlib.lines import Line2D  # noqa: PLC0415
+
+    tiers = {point.tier for point in found}
+    handles = [
+        Line2D([], [], linestyle="none", label=tier, **_look(number, shown=True))
+        for number, tier in enumerate(TIERS)
+        if tier in tiers
+    ]
+    drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
+    best = Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label="no method is faster and more reliable")
+    below = [best]
+    if not all(point.shown for point in found):
+        soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
+        few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"
+        below.append(Line2D([], [], linestyle="none", marker="o", markersize=6, label=few, **soft))
+    drawn.legend(handles=below, loc="outside lower left")
+
+
+def _axes(axes: Axes, found: Sequence[Point]) -> dict[float, float]:
+    """Name the axes; the height of each reliability: its log10, and heights of their own for 0 and infinity."""
+    finite = [math.log10(point.reliable_above) for point in found if 0 < point.reliable_above < math.inf] or [-1.0]
+    low, high = math.floor(min(finite)), math.ceil(max(finite))
+    span = max(high - low, 4)
+    never, always = low - 0.1 * span, high + 0.1 * span
+    heights = {0.0: never, math.inf: always}
+    heights |= {p.reliable_above: math.log10(p.reliable_above) for p in found if 0 < p.reliable_above < math.inf}
+    ticks = [(float(k), power_of_ten(k)) for k in decades(10.0**low, 10.0**high)]
+    if any(point.reliable_above == 0 for point in found):
+        ticks.insert(0, (never, "none wrong"))
+        axes.axhspan(never - 0.06 * span, never + 0.05 * span, color=colour("rule"), alpha=0.45, linewidth=0)
+    if any(point.reliable_above == math.inf for point in found):
+        ticks.append((always, "at no distance"))
+        axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
+    axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
+    axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
+    axes.set_ylabel("at most 1 in 1000 wrong above this flip distance")
+    times = [point.time_ns for point in found]
+    least, most = min(times) / 2, max(times) * 3
+    exponents = decades(least, most)
+    axes.set_xscale("log")
+    axes.set_xlim(least, most)
+    axes.set_xticks([10.0**k for k in exponents], [power_of_ten(k) for k in exponents])
+    axes.set_xticks([], minor=True)
+    axes.set_xlabel("time of a query in a batch (ns)")
+    return heights
+
+
+def _steps(best: Sequence[Point], heights: dict[float, float], end: float) -> list[tuple[Place, Place]]:
+    """The front's line, level from each point to the next one's time and then down to it."""
+    steps: list[tuple[Place, Place]] = []
+    for before, after in pairwise(best):
+        corner = (after.time_ns, heights[before.reliable_above])
+        steps.append(((before.time_ns, corner[1]), corner))
+        steps.append((corner, (after.time_ns, heights[after.reliable_above])))
+    last = (best[-1].time_ns, heights[best[-1].reliable_above])
+    return [*steps, (last, (end, last[1]))]
+
+
+def _tip(point: Point) -> str:
+    reliable = {0.0: "none wrong", math.inf: "reliable at no distance"}.get(
+        point.reliable_above, f"at most 1 in 1000 wrong above {figure(point.reliable_above)}"
+    )
+    return f"{point.name}, {figure(point.time_ns)} ns, {reliable} (of {point.asked:,})"

@@ -1,0 +1,190 @@
+"""What all plots have in common: colours by role, lines that differ without colour, sizes for a telephone, axes.
+
+Widths are in points of the picture, which a page scales: 380 of them are legible across a telephone and across half a
+screen. Colours are after Okabe and Ito (https://jfly.uni-koeln.de/color/), darkened on light ground where they would
+have less than 3:1 against it; each curve has a marker and dashes of its own besides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from hypcheck.errors import UnavailableError
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDTH = 380.0
+SMALL = 178.0
+"""Widths of a plot that stands alone, and of one of many that stand side by side."""
+
+ROLES = {
+    "surface": ("#ffffff", "#14181d"),
+    "ink": ("#1b2026", "#e7eaee"),
+    "soft": ("#57606b", "#a9b2bd"),
+    "rule": ("#d5dae0", "#39414b"),
+    "series-1": ("#0072b2", "#4aa8e0"),
+    "series-2": ("#d55e00", "#ff8a3d"),
+    "series-3": ("#008a62", "#2fc79b"),
+    "series-4": ("#b0568a", "#e495c3"),
+    "series-5": ("#a87400", "#f0b429"),
+    "series-6": ("#2d87ba", "#8accf5"),
+    "series-7": ("#6b6375", "#c3b8d4"),
+    "series-8": ("#1b2027", "#e7eaef"),
+    "share-0": ("#e3e8ec", "#2a313a"),
+    "share-1": ("#f2c14e", "#f2c14e"),
+    "share-2": ("#ee8434", "#ee8434"),
+    "share-3": ("#d1495b", "#d1495b"),
+    "share-4": ("#9c3fb5", "#9c3fb5"),
+    "clear": ("#d55e02", "#ff8a3e"),
+    "contact": ("#0073b3", "#4aa8e1"),
+    "side": ("#7a1c5b", "#e495c4"),
+}
+"""Every colour by what it means: on light ground, on dark ground. No colour on light ground stands for two roles."""
+
+MARKERS = "osD^vPX*"
+DASHES: tuple[Any, ...] = (
+    "-",
+    (0, (5, 2)),
+    (0, (2, 1.5)),
+    (0, (6, 2, 1.5, 2)),
+    (0, (8, 2)),
+    (0, (1, 1.2)),
+    (0, (4, 4)),
+    (0, (10, 2, 1, 2)),
+)
+
+LIMIT: dict[str, Any] = {"marker": "v", "markerfacecolor": "none", "markersize": 5.5}
+"""The mark of an upper limit: none of n was wrong."""
+
+NONE_WRONG = "none of n wrong: at most 3/n (95 %)"
+"""What a legend says of it."""
+
+SETTINGS = {
+    "font.family": "DejaVu Sans",  # wider than what a page uses in its place, so that what fits here fits there
+    "font.size": 10.5,
+    "axes.titlesize": 10.5,
+    "axes.labelsize": 10.5,
+    "axes.linewidth": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.edgecolor": ROLES["soft"][0],
+    "axes.labelcolor": ROLES["ink"][0],
+    "axes.titlecolor": ROLES["ink"][0],
+    "grid.color": ROLES["rule"][0],
+    "grid.linewidth": 0.6,
+    "text.color": ROLES["ink"][0],
+    "xtick.color": ROLES["soft"][0],
+    "ytick.color": ROLES["soft"][0],
+    "xtick.labelcolor": ROLES["ink"][0],
+    "ytick.labelcolor": ROLES["ink"][0],
+    "xtick.minor.visible": False,
+    "ytick.minor.visible": False,
+    "legend.frameon": False,
+    "legend.fontsize": 10,
+    "legend.handlelength": 2.6,
+    "legend.columnspacing": 1.2,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4.5,
+    "svg.fonttype": "none",  # text stays text: it can be read aloud, found and copied
+    "svg.hashsalt": "hypcheck",  # element ids: the same picture is the same file
+    "text.parse_math": False,  # a name with dollars in it is no formula
+}
+"""What differs from matplotlib's defaults; nobody's own settings are used."""
+
+
+class Look(NamedTuple):
+    """How one curve of several is told from the others."""
+
+    colour: str
+    marker: str
+    dashes: Any
+
+
+def colour(role: str) -> str:
+    """The colour that stands for a role while a plot is drawn (svg.py makes it a class)."""
+    return ROLES[role][0]
+
+
+def look(place: int) -> Look:
+    """The look of the curve at a place; after eight, markers and dashes are combined anew."""
+    number = len(MARKERS)
+    turn = place // number
+    return Look(
+        colour(f"series-{place % number + 1}"), MARKERS[(place + turn) % number], DASHES[(place + turn) % number]
+    )
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """While it lasts, matplotlib draws in the house style. Raises UnavailableError where matplotlib is missing."""
+    try:
+        from matplotlib import style  # noqa: PLC0415
+    except ImportError as error:
+        reason = f"matplotlib cannot be imported ({visible(error)}); pip install 'hypcheck[report]' brings it"
+        raise UnavailableError(reason) from None
+    with style.context(["default", SETTINGS]):
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """A figure of these many points, which finds room for its labels by itself."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+    from matplotlib.figure import Figure  # noqa: PLC0415
+
+    made = Figure(figsize=(width / 72, height / 72), layout="constrained")
+    FigureCanvasAgg(made)  # which can say how large a text is
+    return made
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def power_of_ten(exponent: int) -> str:
+    """A power of ten as an axis shows it: 0.01, 0.1, 1, 10, 100, else 10⁻¹²."""
+    if -2 <= exponent <= 2:
+        return f"{10.0**exponent:g}"
+    return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
+
+
+def _named(value: float) -> str:
+    """A number as an axis shows it, of one digit: 0.02, 5, 2·10⁻⁴."""
+    exponent = math.floor(math.log10(value) + 1e-9)
+    digit = round(value / 10.0**exponent)
+    if digit == 1:
+        return power_of_ten(exponent)
+    return f"{digit * 10.0**exponent:g}" if -3 <= exponent <= 2 else f"{digit}·{power_of_ten(exponent)}"
+
+
+def ticks(low: float, high: float, most: int = 7) -> list[tuple[float, str]]:
+    """Places and names on a logarithmic axis: powers of ten, and twos and fives between where those are few."""
+    powers = [10.0**exponent for exponent in decades(low, high, most)]
+    if len(powers) < 2:
+        first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+        finer = [digit * 10.0**exponent for exponent in range(first, last + 1) for digit in (1, 2, 5)]
+        powers = [value for value in finer if low <= value <= high]
+    return [(value, _named(value)) for value in powers]
+
+
+def decades(low: float, high: float, most: int = 7) -> list[int]:
+    """Exponents of the powers of ten from `low` to `high`, both positive, at most about `most` of them."""
+    first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
+    step = max(1, -(-(last - first) // most))
+    return [exponent for exponent in range(first, last + 1) if exponent % step == 0]
+
+
+def log_axis(axes: Axes, name: str, low: float, high: float, most: int = 7) -> None:
+    """Make the axis "x" or "y" logarithmic, with named marks."""
+    marks = ticks(low, high, most)
+    getattr(axes, f"set_{name}scale")("log")
+    getattr(axes, f"set_{name}lim")(low, high)
+    axis = getattr(axes, f"{name}axis")
+    axis.set_ticks([value for value, _ in marks], [label for _, label in marks])
+    axis.set_ticks([], minor=True)

@@ -1,0 +1,172 @@
+"""A figure as SVG for a page or for itself: colours by role, tooltips, a title and a description, nothing to load.
+
+matplotlib writes colours and sizes as style attributes, which a strict content security policy forbids, and ids that
+meet those of other figures on a page. Here colours become classes, which a page's style sheet gives their values on
+light and on dark ground, the rest become attributes, and ids carry the plot's name.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree as Xml
+
+from hypcheck.report.plots.style import ROLES
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_SVG = "{http://www.w3.org/2000/svg}"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+_ROLE: dict[str | None, str] = {light: role for role, (light, _) in ROLES.items()}
+_FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif"
+_PAINT = {"fill": "f", "stroke": "s"}
+_NUMBER = re.compile(r"-?\d+\.\d{3,}")
+_AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
+_REFERENCE = re.compile(r"#([\w.-]+)")
+_LONGEST = 1000
+"""Characters of a title, a description or a tooltip."""
+
+_MARKS = (f"{_SVG}use", f"{_SVG}path", f"{_SVG}image")
+
+
+@dataclass(frozen=True, slots=True)
+class Plot:
+    """A figure with its `name` (of letters, digits and hyphens; its own on the page), its title and its description.
+
+    `tips` are tooltips: for the gid of an artist one for each of its marks, in the order in which they are drawn.
+    """
+
+    name: str
+    title: str
+    description: str
+    figure: Figure
+    tips: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+
+def inline(plot: Plot) -> str:
+    """The plot as an element of an HTML page."""
+    return _text(_element(plot))
+
+
+def standalone(plot: Plot) -> bytes:
+    """The plot as a file, which follows the reader's scheme of colours."""
+    root = _element(plot)
+    root.set("font-family", _FONT)
+    style = Xml.Element(f"{_SVG}style")
+    style.text = css()
+    ground = Xml.Element(f"{_SVG}rect", {"width": "100%", "height": "100%", "class": "f-surface", "fill": "#ffffff"})
+    root[2:2] = [style, ground]  # behind title and description
+    return (_text(root) + "\n").encode("utf-8")
+
+
+def css() -> str:
+    """The rules that give each role its colour, on light and on dark ground; paper is light."""
+    light, dark = ("".join(f"--{role}:{both[ground]};" for role, both in ROLES.items()) for ground in (0, 1))
+    rules = "".join(f".f-{role}{{fill:var(--{role})}}.s-{role}{{stroke:var(--{role})}}" for role in ROLES)
+    return f":root{{{light}}}@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}"
+
+
+def _element(plot: Plot) -> Xml.Element:
+    stream = io.BytesIO()
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not
+        metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+        plot.figure.savefig(stream, format="svg", metadata=metadata, transparent=True, dpi=144)
+    root = Xml.fromstring(stream.getvalue())  # noqa: S314 - just written
+    for parent in list(root.iter()):
+        for child in list(parent):
+            if child.tag in (f"{_SVG}metadata", f"{_SVG}style"):
+                parent.remove(child)
+    for element in root.iter():
+        _unstyle(element)
+    _give_tips(root, plot)
+    _rename(root, plot.name)
+    _describe(root, plot)
+    return root
+
+
+def _unstyle(element: Xml.Element) -> None:
+    """Style attributes become attributes, colours classes; numbers lose digits that no screen shows."""
+    declarations = [part.partition(":") for part in element.attrib.pop("style", "").split(";") if part.strip()]
+    for name, _, value in declarations:
+        element.set(name.strip(), value.strip())
+    painted = {name: _ROLE[element.attrib.pop(name)] for name in _PAINT if element.get(name) in _ROLE}
+    classes = [f"{_PAINT[name]}-{role}" for name, role in painted.items()]
+    if element.tag == f"{_SVG}text":
+        for name in ("font", "font-family"):
+            element.attrib.pop(name, None)
+        if "fill" not in painted and element.get("fill") is None:
+            classes.append("f-ink")
+        if element.get("transform", "").startswith("rotate(-0 "):
+            del element.attrib["transform"]
+    if classes:
+        element.set("class", " ".join(classes))
+    _shorten(element)
+
+
+def _shorten(element: Xml.Element) -> None:
+    for name in ("d", "x", "y", "transform", "width", "height", "points"):
+        if name in element.attrib:
+            short = _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), element.attrib[name])
+            element.set(name, _AROUND_LETTERS.sub(r"\1", " ".join(short.split())) if name == "d" else short)
+    if _LINK in element.attrib:
+        element.set("href", element.attrib.pop(_LINK))
+
+
+def _give_tips(root: Xml.Element, plot: Plot) -> None:
+    groups = {element.get("id"): element for element in root.iter(f"{_SVG}g")}
+    for gid, tips in plot.tips.items():
+        definitions = {id(each) for defs in groups[gid].iter(f"{_SVG}defs") for each in defs.iter()}
+        marks = [each for each in groups[gid].iter() if each.tag in _MARKS and id(each) not in definitions]
+        if len(marks) != len(tips):
+            raise ValueError(f"{plot.name}: {gid} has {len(marks)} marks and {len(tips)} tooltips")
+        for mark, tip in zip(marks, tips, strict=True):
+            Xml.SubElement(mark, f"{_SVG}title").text = _shown(tip)
+
+
+def _shown(words: str) -> str:
+    return visible(words[:_LONGEST], _LONGEST)
+
+
+def _rename(root: Xml.Element, name: str) -> None:
+    """Ids that something refers to get the plot's name before them; the others go."""
+    used = {
+        found for element in root.iter() for value in element.attrib.values() for found in _REFERENCE.findall(value)
+    }
+    for element in root.iter():
+        identity = element.attrib.pop("id", None)
+        if identity in used:
+            element.set("id", f"{name}-{identity}")
+        for attribute in ("href", "clip-path"):
+            value = element.get(attribute)
+            if value is not None and not value.startswith("data:"):
+                element.set(attribute, _REFERENCE.sub(rf"#{name}-\1", value))
+
+
+def _describe(root: Xml.Element, plot: Plot) -> None:
+    for name in ("width", "height", "version"):
+        root.attrib.pop(name, None)
+    texts = (("title", plot.title), ("desc", plot.description))
+    for place, (tag, words) in enumerate(texts):
+        element = Xml.Element(f"{_SVG}{tag}", {"id": f"{plot.name}-{tag}"})
+        element.text = _shown(words)
+        root.insert(place, element)
+    root.set("class", "plot")
+    root.set("role", "img")
+    root.set("aria-labelledby", f"{plot.name}-title {plot.name}-desc")
+    root.set("stroke-linejoin", "round")
+
+
+def _text(root: Xml.Element) -> str:
+    Xml.register_namespace("", _SVG.strip("{}"))
+    for element in root.iter():  # what matplotlib puts between elements to be read by people
+        element.tail = None
+        if element.text is not None and not element.text.strip():
+            element.text = None
+    return Xml.tostring(root, encoding="unicode")

@@ -1,0 +1,51 @@
+"""Records in which every name and every sentence is what an attacker, or a program gone mad, would write."""
+
+from __future__ import annotations
+
+import json
+
+from tests import report_samples as samples
+from tests.report import bench_lines
+
+SCRIPT = "</script><script>alert(1)</script><img src=x onerror=alert(1)>"
+MARKS = "\"'><b>&amp;{{7*7}}{% raw %}\u202e\u200f\x00\x1b[31m\r\n\u2028\ud800"
+ENDLESS = "e" * 10**6
+
+FIELDS = (
+    "method",
+    "title",
+    "family",
+    "case",
+    "statement",
+    "finding",
+    "correction",
+    "reason",
+    "claim",
+    "says",
+    "note",
+    "name",
+)
+
+
+def spoilt(line, number):
+    """The line with its names and sentences made hostile; what must be one of a few words stays what it is."""
+    copy = json.loads(json.dumps(line))
+    _spoil(copy, number)
+    return copy
+
+
+def _spoil(value, number):
+    for field, inner in list(value.items()) if isinstance(value, dict) else list(enumerate(value)):
+        if isinstance(inner, (dict, list)):
+            _spoil(inner, number)
+        elif isinstance(inner, str) and field in FIELDS:
+            value[field] = f"{inner}{SCRIPT}{MARKS}"
+
+
+def hostile_record():
+    """A verification and a benchmark at once, with one name of a megabyte."""
+    kept = {each[0] for each in bench_lines.METHODS[:4]}
+    few = [line for line in bench_lines.lines() if line.get("method") in (None, *kept) or line["type"] == "places"]
+    lines = [spoilt(line, number) for number, line in enumerate([*samples.lines(), *few])]
+    lines.append({**samples.group(ENDLESS, "float64", "ring", {"wrong": 3}), "title": ENDLESS})
+    return samples.record(lines, exit_code=1)

@@ -1,0 +1,163 @@
+"""The page in a real browser: quiet, readable on a telephone and in the dark, sorted, filtered, printed, by keyboard.
+
+Each check is also shown to fail on a page that is broken in the way it looks for.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from hypcheck.report.html.page import render
+from tests import report_samples as samples
+from tests.report import browser, page_checks
+from tests.report.bench_lines import bench_record
+from tests.report.hostile import hostile_record
+
+
+def failing(number):
+    proof = {"type": "proof", "formula": "table-2", "holds": False, "statement": "c2 is not c2"}
+    return [{**proof, "quantity": f"c{place}"} for place in range(number)]
+
+
+def small_record():
+    """Failures, one method and one map: every kind of thing that a check looks at, and little of each."""
+    kept = [line for line in samples.lines() if line.get("method") == "table-2-float32"]
+    return samples.record([*kept, *failing(9)], exit_code=1)
+
+
+PAGES = {
+    "small": small_record,
+    "verify": samples.record,
+    "bench": bench_record,
+    "hostile": hostile_record,
+}
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser.opened() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pages")
+    found = {name: folder / f"{name}.html" for name in PAGES}
+    for name, path in found.items():
+        path.write_bytes(render(PAGES[name]()))
+    return found
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_everywhere(chromium, files, name):
+    """On a desk, then on a telephone, in the light and in the dark."""
+    with browser.Visit(chromium, files[name]) as visit:
+        assert page_checks.unreachable(visit) == []
+        assert page_checks.unsorted(visit) == []
+        assert page_checks.untold(visit) == []
+        assert page_checks.blank(visit) == []
+        assert page_checks.overlapping(visit) == []
+        visit.page.set_viewport_size({"width": 360, "height": 800})
+        assert page_checks.overflowing(visit) == []
+        for scheme in ("light", "dark"):
+            visit.page.emulate_media(color_scheme=scheme)
+            assert page_checks.faint(visit) == []
+        assert page_checks.quiet(visit) == []
+
+
+@pytest.mark.parametrize("name", ["small", "bench"])
+def test_filters_and_paper(chromium, files, name):
+    with browser.Visit(chromium, files[name]) as visit:
+        assert page_checks.folded_on_paper(visit) == []
+        assert page_checks.unfiltered(visit) == []
+
+
+def test_the_dark_scheme_is_dark_and_paper_is_light(chromium, files):
+    with browser.Visit(chromium, files["small"]) as visit:
+        ground = "getComputedStyle(document.body).backgroundColor"
+        visit.page.emulate_media(color_scheme="dark")
+        assert visit.page.evaluate(ground) == "rgb(20, 24, 29)"
+        visit.page.emulate_media(media="print")
+        assert visit.page.evaluate(ground) == "rgb(255, 255, 255)"
+
+
+def without(pattern, replacement=""):
+    return lambda page: re.sub(pattern, replacement, page, count=1, flags=re.DOTALL)
+
+
+def loosened(page):
+    """The page with a policy that lets a changed style or script run, so that the fault itself is what is found."""
+    return re.sub(r"'sha256-[^']+'", "'unsafe-inline'", page)
+
+
+BROKEN = {
+    "a script that is not ours": (page_checks.quiet, without("</main>", "<script>let x</script></main>")),
+    "a style that is not ours": (page_checks.quiet, without("<main", '<main style="color:red"')),
+    "a picture from elsewhere": (page_checks.quiet, without("</main>", '<img src="https://example.org/a.png"></main>')),
+    "an error in the script": (
+        page_checks.quiet,
+        lambda page: loosened(page).replace("function tipped(", "broken(); ("),
+    ),
+    "a long word": (page_checks.overflowing, without("</main>", f"<p><nobr>{'x' * 300}</nobr></main>")),
+    "a wide table": (page_checks.overflowing, without(r"\.table\{overflow-x:auto;", ".table{")),
+    "an empty plot": (page_checks.blank, without(r'(<svg[^>]*class="plot".*?</desc>).*?</svg>', r"\1</svg>")),
+    "no plots": (page_checks.blank, lambda page: re.sub(r'<svg[^>]*class="plot".*?</svg>', "", page, flags=re.DOTALL)),
+    "a label on another": (
+        page_checks.overlapping,
+        without(r'(<text x=")[\d.]+(" y=")[\d.]+(.*?<text x=")[\d.]+(" y=")[\d.]+', r"\g<1>99\g<2>99\g<3>99\g<4>99"),
+    ),
+    "a label outside": (page_checks.overlapping, without(r'<text x="[\d.]+"', '<text x="2000"')),
+    "faint text": (page_checks.faint, lambda page: page.replace("--soft:#57606b", "--soft:#c0c8d0")),
+    "text in a plot's ground": (
+        page_checks.faint,
+        lambda page: page.replace(".f-ink{fill:var(--ink)}", ".f-ink{fill:#eee}"),
+    ),
+    "no sorting": (page_checks.unsorted, lambda page: page.replace("  sortable(table);\n", "")),
+    "numbers as words": (
+        page_checks.unsorted,
+        lambda page: page.replace("return a - b;", "return `${a}` < `${b}` ? -1 : 1;"),
+    ),
+    "one direction": (
+        page_checks.unsorted,
+        lambda page: page.replace("? -1 : 1;\n  const rows", "? 1 : 1;\n  const rows"),
+    ),
+    "no order to come back to": (
+        page_checks.unsorted,
+        lambda page: page.replace(
+            '"none", "ascending", "descending"]', '"none", "ascending", "descending", "other"]'
+        ).replace("% 3]", "% 3 || 1]"),
+    ),
+    "a filter that hides nothing": (
+        page_checks.unfiltered,
+        lambda page: page.replace("row.hidden = !", "row.unseen = !"),
+    ),
+    "a filter that counts wrongly": (page_checks.unfiltered, lambda page: page.replace("row.hidden ? 0 : 1", "1")),
+    "no skip link": (page_checks.unreachable, without(r'<a class="skip".*?</a>')),
+    "no focus to be seen": (page_checks.unreachable, without(r"outline:3px solid var\(--link\)", "outline:none")),
+    "folds that stay on paper": (
+        page_checks.folded_on_paper,
+        lambda page: page.replace("each.open = true", "each.open = false"),
+    ),
+    "a printed menu": (page_checks.folded_on_paper, without(r"\.skip,nav,\.filter,\.tip\{display:none\}")),
+    "a plot without a title": (page_checks.untold, without(r'(class="plot".*?)<title id=.*?</title>', r"\1")),
+    "tooltips that are not told": (
+        page_checks.untold,
+        lambda page: page.replace("tip.textContent = title", "tip.unseen = title"),
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", BROKEN)
+def test_every_check_can_fail(chromium, files, tmp_path, fault):
+    check, break_it = BROKEN[fault]
+    page = files["small"].read_text(encoding="utf-8")
+    page = page if check is page_checks.quiet else loosened(page)
+    broken = break_it(page)
+    assert broken != page
+    path = tmp_path / "broken.html"
+    path.write_text(broken, encoding="utf-8")
+    width = 360 if check is page_checks.overflowing else 1280
+    with browser.Visit(chromium, path, width=width) as visit:
+        assert check(visit) != []

@@ -1,0 +1,164 @@
+"""report.html is one file that loads nothing, runs nothing but its own, and lets no foreign text be more than text."""
+
+from __future__ import annotations
+
+import base64
+import builtins
+import hashlib
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from hypcheck.errors import UnavailableError
+from hypcheck.report.content.blocks import LONGEST
+from hypcheck.report.html import page
+from hypcheck.report.plots.table import PLOTS, draw
+from hypcheck.report.write import Around
+from tests import report_samples as samples
+from tests.report.bench_lines import bench_record
+from tests.report.hostile import hostile_record
+
+VOID = {"meta", "link", "br", "img", "input", "rect", "use", "path", "image"}
+
+
+class Elements(HTMLParser):
+    """Every element's tag and attributes, and the text of scripts and styles; a tag that is not closed is an error."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.found, self.texts, self.open = [], {"script": [], "style": [], "code": []}, []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attributes):
+        """One that must be closed, if it is not of VOID."""
+        self.found.append((tag, dict(attributes)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        """One that is closed already."""
+        self.found.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        """The end of the one that was opened last."""
+        if tag in VOID:
+            return
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        """Text, kept where it is that of a script, a style or code."""
+        if self.open and self.open[-1] in self.texts:
+            self.texts[self.open[-1]].append(data)
+
+
+RECORDS = {"verify": samples.record, "bench": bench_record, "hostile": hostile_record}
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return {name: page.render(make()).decode("utf-8") for name, make in RECORDS.items()}
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_nothing_is_loaded(pages, name):
+    for tag, attributes in Elements(pages[name]).found:
+        for attribute in ("src", "href", "xlink:href", "action", "data", "poster", "srcset"):
+            value = attributes.get(attribute)
+            assert value is None or value.startswith(("#", "data:image/png;base64,")) or value == "data:,", (tag, value)
+        assert tag not in {"iframe", "object", "embed", "form", "base"}
+    assert "@import" not in pages[name]
+    assert "url(http" not in pages[name]
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_the_policy_lets_its_own_style_and_script_run_and_no_other(pages, name):
+    elements = Elements(pages[name])
+    policy = next(attributes["content"] for tag, attributes in elements.found if "http-equiv" in attributes)
+    rules = dict(part.strip().split(" ", 1) for part in policy.split(";"))
+    assert rules["default-src"] == "'none'"
+    assert rules["base-uri"] == rules["form-action"] == "'none'"
+    assert "unsafe" not in policy
+    for kind in ("script", "style"):
+        (text,) = elements.texts[kind]
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        assert rules[f"{kind}-src"] == f"'sha256-{digest}'"
+    for tag, attributes in elements.found:
+        assert "style" not in attributes, tag
+        assert not any(name.startswith("on") for name in attributes), tag
+
+
+def test_hostile_names_are_text(pages):
+    elements = Elements(pages["hostile"])
+    assert len(elements.texts["script"]) == len(elements.texts["style"]) == 1
+    assert not any(tag in {"b", "img"} for tag, _ in elements.found)
+    assert any("<script>alert(1)</script>" in text for text in elements.texts["code"])
+    assert "{{7*7}}" in pages["hostile"]  # no template of ours runs what is in a name
+    assert not re.search(
+        r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u200e\u200f\ud800-\udfff]", pages["hostile"]
+    )
+    assert r"\u202e" in pages["hostile"]
+
+
+def test_an_endless_name_is_cut_and_counted(pages):
+    assert "e" * (LONGEST + 1) not in pages["hostile"]
+    assert f"{'e' * 50}… (1,000,000 characters)" in pages["hostile"]
+    assert len(pages["hostile"]) < 1_500_000
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_ids_are_ones_own_and_links_lead_somewhere(pages, name):
+    found = Elements(pages[name]).found
+    ids = [attributes["id"] for _, attributes in found if "id" in attributes]
+    assert len(ids) == len(set(ids))
+    links = {attributes["href"][1:] for _, attributes in found if (attributes.get("href") or "").startswith("#")}
+    labels = {name for _, attributes in found for name in (attributes.get("aria-labelledby") or "").split()}
+    clips = {found for each in re.findall(r"url\(#([^)]+)\)", pages[name]) for found in [each]}
+    assert links | labels | clips <= set(ids)
+
+
+def test_what_failed_stands_before_what_holds():
+    proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": "x"}
+    text = page.render(samples.record([*samples.lines(), proof], exit_code=6)).decode("utf-8")
+    assert text.index("verdict failed") < text.index("What failed") < text.index("The oracles")
+    assert "verdict held" in page.render(samples.record()).decode("utf-8")
+    assert "TRUNCATED" in page.render(samples.record(exit_code=None)).decode("utf-8")
+
+
+def test_changes_stand_there_too():
+    text = page.render(bench_record(), Around(against=bench_record())).decode("utf-8")
+    assert text.index("What changed") < text.index("Which method to use when")
+
+
+def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
+    records = (samples.record(), bench_record())
+    drawn = {name: [plot.name for record in records for plot in draw(name, record)] for name in PLOTS}
+    assert all(drawn.values()), drawn
+    names = [each for found in drawn.values() for each in found]
+    assert len(names) == len(set(names))
+    for each in names:
+        assert f'"{each}-title"' in pages["verify"] + pages["bench"]
+
+
+@pytest.mark.parametrize(
+    ("module", "what"), [("jinja2", "jinja2 cannot be imported"), ("matplotlib", "The plots are missing")]
+)
+def test_without_an_extra(monkeypatch, module, what):
+    imported = builtins.__import__
+
+    def without(name, *arguments, **options):
+        if name.partition(".")[0] == module:
+            raise ImportError(f"No module named {name!r}")
+        return imported(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    if module == "jinja2":
+        with pytest.raises(UnavailableError, match=r"hypcheck\[report\]"):
+            page.render(samples.record())
+    else:
+        text = page.render(samples.record()).decode("utf-8")
+        assert what in text
+        assert "<table" in text
+        assert 'class="plot"' not in text
