@@ -13,6 +13,8 @@ _FIELD_OF = {
     "mul": "multiplications",
     "div": "divisions",
     "sqrt": "square_roots",
+    "cos": "functions",
+    "arccos": "functions",
     "gt": "comparisons",
     "lt": "comparisons",
     "ge": "comparisons",
@@ -29,20 +31,24 @@ _FIELD_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Operations:
-    """Operations by kind; a subtraction counts as an addition, a sign change as nothing."""
+    """Operations by kind; a subtraction counts as an addition, a sign change as nothing.
+
+    `functions` are cosines and their inverses.
+    """
 
     additions: int = 0
     multiplications: int = 0
     divisions: int = 0
     square_roots: int = 0
+    functions: int = 0
     comparisons: int = 0
     logical: int = 0
     selections: int = 0
 
     @property
     def rounded(self) -> int:
-        """Those that round: + − × ÷ √."""
-        return self.additions + self.multiplications + self.divisions + self.square_roots
+        """Those that round: + − × ÷ √, cos, arccos."""
+        return self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
 
 
 @dataclass(frozen=True, slots=True)

@@ -157,6 +157,14 @@ _DUAL = Decision(
     "the sign of λ where φ(λ) > 0 and −A < λ < B, else 0",
 )
 
+_ALL_POSITIVE = Decision(
+    "valid",
+    ("delta_27", "r1", "r2", "r3"),
+    tuple(product(SIGNS, repeat=4)),
+    lambda *signs: int(min(signs) > 0),
+    "valid ⟺ Δ > 0 and all three roots are positive",
+)
+
 _DECISIONS = {
     "table-2": (_PROPOSITION_3,),
     "procedure-1": (_PROPOSITION_3,),
@@ -169,4 +177,5 @@ _DECISIONS = {
     "shared": (_all_regimes_decision("delta_3"),),
     "local-maximum": (_LOCAL_MAXIMUM, _CHOICE),
     "dual": (_DUAL,),
+    "roots-trigonometric": (_ALL_POSITIVE,),
 }

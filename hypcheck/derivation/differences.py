@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import sympy
 
@@ -30,6 +31,7 @@ class Repair:
     one_place: bool
 
 
+@cache
 def difference(printed: sympy.Expr, derived: sympy.Expr) -> sympy.Expr:
     """printed − derived in lowest terms, given cosine² + sine² = 1.
 

@@ -17,7 +17,7 @@ class Arithmetic:
 
     `convert` brings an input or an integer constant into the arithmetic; for machine numbers it rounds, and it is the
     first operation. `operations` has a function for each operation the arithmetic knows, by its name in
-    program.OPERATIONS. `integers` turns an answer (an integer value or a truth value) into int or an int8 array.
+    program.KNOWN. `integers` turns an answer (an integer value or a truth value) into int or an int8 array.
     `guard` surrounds an evaluation.
     """
 

@@ -2,7 +2,8 @@
 
 Each ufunc call is one IEEE operation, rounded to nearest, and all operands have the one format, constants included,
 so that no promotion rule of any numpy version has a say. binary16 is computed by numpy in binary32 and rounded again,
-which is the correctly rounded result for + − × ÷ √, since 24 ≥ 2·11 + 2. Infinities and NaN go through in silence.
+which is the correctly rounded result for + − × ÷ √, since 24 ≥ 2·11 + 2; cosines are as good as numpy's. Infinities and
+NaN go through in silence.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ _UFUNCS: dict[str, Callable[..., Any]] = {
     "neg": np.negative,
     "abs": np.abs,
     "sqrt": np.sqrt,
+    "cos": np.cos,
+    "arccos": np.arccos,
     "gt": np.greater,
     "lt": np.less,
     "ge": np.greater_equal,

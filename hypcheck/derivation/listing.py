@@ -1,7 +1,7 @@
 """The written form of a program: one step a line, as `name = left + right`.
 
     h1 = c2_squared - three_c1      two arguments, with one of + - * / > < >= <= == != and or between them
-    root = sqrt h1                  one argument, after one of - abs sqrt not
+    root = sqrt h1                  one argument, after one of - abs sqrt not cos arccos
     side = inside ? -1 : 0          select: the condition, then what holds and what does not
     # a remark
 
@@ -10,10 +10,10 @@ Nothing nests: what is written is what is rounded, and in that order.
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import OPERATIONS, Argument, Program, Step
+from hypcheck.derivation.program import KNOWN, Argument, Program, Step
 
-_INFIX = {operation.sign: name for name, operation in OPERATIONS.items() if len(operation.takes) == 2}
-_PREFIX = {operation.sign: name for name, operation in OPERATIONS.items() if len(operation.takes) == 1}
+_INFIX = {operation.sign: name for name, operation in KNOWN.items() if len(operation.takes) == 2}
+_PREFIX = {operation.sign: name for name, operation in KNOWN.items() if len(operation.takes) == 1}
 
 
 def steps_of(text: str) -> tuple[Step, ...]:
@@ -34,7 +34,7 @@ def listing_of(program: Program) -> str:
 
 def line_of(step: Step) -> str:
     """One step in the written form."""
-    sign = OPERATIONS[step.operation].sign
+    sign = KNOWN[step.operation].sign
     if step.operation == "select":
         condition, left, right = step.arguments
         return f"{step.name} = {condition} ? {left} : {right}"

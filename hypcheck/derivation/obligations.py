@@ -108,6 +108,21 @@ def _four_rotors() -> Iterable[Obligation]:
         c1, c2 = next_rotor(c1), next_rotor(c2)
 
 
+def _trigonometric() -> Iterable[Obligation]:
+    """λ = (2 √h1 cos θ_k − c2)/3 with cos 3θ = w/(2 h1 √h1), a third of a turn from one θ_k to the next."""
+    h1 = hessian_coefficients()[0]
+    w = 9 * C1 * C2 - 2 * C2**3 - 27 * C0
+    root, three_theta = symbol("root"), symbol("three_theta")
+    yield Obligation("delta_27", 27 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
+    yield Obligation("root", sympy.sqrt(h1), ("c1", "c2"))
+    yield Obligation("cosine_of_three", w / (2 * h1 * root), (*_COEFFICIENTS, "root"))
+    for number, thirds in ((1, 0), (2, 1), (3, -1)):
+        cosine = sympy.cos(three_theta / 3 + thirds * 2 * sympy.pi / 3)
+        yield Obligation(f"cosine_{number}", cosine, ("three_theta",))
+        value = (2 * root * symbol(f"cosine_{number}") - C2) / 3
+        yield Obligation(f"r{number}", value, ("c2", "root", f"cosine_{number}"))
+
+
 def _all(*parts: Callable[[], Iterable[Obligation]]) -> Callable[[], Iterable[Obligation]]:
     return lambda: [obligation for part in parts for obligation in part()]
 
@@ -124,4 +139,5 @@ _OBLIGATIONS = {
     "shared": _all(_scaled_sizes, _shared, _coefficients, _hessian, _slopes),
     "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
     "dual": _all(_dual),
+    "roots-trigonometric": _all(_coefficients, _trigonometric),
 }

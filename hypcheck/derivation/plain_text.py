@@ -12,7 +12,7 @@ import re
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
-_GREEK = {"α": "alpha", "γ": "gamma", "λ": "lambda", "Δ": "delta"}
+_GREEK = {"α": "alpha", "γ": "gamma", "λ": "lambda", "φ": "phi", "Δ": "delta"}
 _SPELLED = {name: letter for letter, name in _GREEK.items()}
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _TO_DIGITS = str.maketrans(_RAISED, "0123456789")

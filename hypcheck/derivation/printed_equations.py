@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import sympy
 
@@ -30,13 +31,10 @@ class Claim:
     meanings: Meanings
 
 
-def printed_claims() -> Iterator[Claim]:
+@cache
+def printed_claims() -> tuple[Claim, ...]:
     """Every claim, in the paper's order; claims of one number follow each other."""
-    yield from _surfaces()
-    yield from _theorem_1()
-    yield from _cubic()
-    yield from _rotors()
-    yield from _appendix()
+    return (*_surfaces(), *_theorem_1(), *_cubic(), *_rotors(), *_appendix())
 
 
 def equality(number: str, statement: str, **meanings: sympy.Expr) -> Claim:
@@ -117,7 +115,8 @@ def _cubic() -> Iterator[Claim]:
     yield equality("14", "c2 = (α/b)² − (γ/d)² + 1 − (x0/b)² − (y0/b)² − (z0/d)²", c2=seven.c2)
 
 
-def _rotor_meanings() -> dict[str, sympy.Expr]:
+@cache
+def rotor_meanings() -> dict[str, sympy.Expr]:
     """What the letters of section 3.2 stand for: C(g_i) and B2 part (x_i² + y_i²)/b_s² into what turns and its mean."""
     x, y, z = rotor_centre()
     cubic, reach = rotor_cubic(), (x**2 + y**2) / ROTOR_B**2
@@ -141,7 +140,7 @@ def _rotor_meanings() -> dict[str, sympy.Expr]:
 
 
 def _rotors() -> Iterator[Claim]:
-    means = _rotor_meanings()
+    means = rotor_meanings()
     for statement in (
         "x_i = x0 + l·√2/2·(cosine − sine)",
         "x_i = x0 + l·√2/2·T1(g_i)",
@@ -180,7 +179,7 @@ def _coefficients(number: str, means: dict[str, sympy.Expr]) -> Iterator[Claim]:
 
 def _appendix() -> Iterator[Claim]:
     """The displays of Appendix A, A.1 to A.6 by position; A.2 has two equalities, and (22) and (23) carry numbers."""
-    means = _rotor_meanings()
+    means = rotor_meanings()
     yield equality("A.1", "c1(g_i) = (α/b_s)²·(1 − (γ/d_s)² − (z_i/d_s)²) + (γ/d_s)²·((x_i² + y_i²)/b_s² − 1)", **means)
     size_part, arm = "(α/b_s)²·(1 − (γ/d_s)² − (z0/d_s)²)", "l·√2·(T1(g_i)·x0 + T2(g_i)·y0)"
     yield equality("A.2a", f"c1(g_i) = {size_part} + (γ/d_s)²·((x0² + y0² + l² + {arm})/b_s² − 1)", **means)

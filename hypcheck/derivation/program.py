@@ -49,6 +49,16 @@ OPERATIONS = {
     "select": Operation((BOOLEAN, NUMBER, NUMBER), NUMBER, "?"),
 }
 
+FUNCTIONS = {
+    "cos": Operation((NUMBER,), NUMBER, "cos"),
+    "arccos": Operation((NUMBER,), NUMBER, "arccos"),
+}
+"""What the roots' way needs besides. No standard says how these round, so programs with them have no error bounds and
+are not printed as kernels: they are proved, evaluated in floats and counted."""
+
+KNOWN = {**OPERATIONS, **FUNCTIONS}
+"""All that a step may do."""
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -107,7 +117,7 @@ def kind_of(step: Step, kinds: dict[str, str]) -> str:
 
     Raises ValueError where the step is not well formed.
     """
-    operation = OPERATIONS.get(step.operation)
+    operation = KNOWN.get(step.operation)
     if operation is None:
         raise ValueError(f"there is no operation {step.operation!r}")
     if len(step.arguments) != len(operation.takes):

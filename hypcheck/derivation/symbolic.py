@@ -25,6 +25,8 @@ SYMBOLIC = Arithmetic(
         "neg": operator.neg,
         "abs": sympy.Abs,
         "sqrt": sympy.sqrt,
+        "cos": sympy.cos,
+        "arccos": sympy.acos,
         "gt": sympy.StrictGreaterThan,
         "lt": sympy.StrictLessThan,
         "ge": sympy.GreaterThan,

@@ -1,0 +1,73 @@
+"""A sign is shown by the form of an expression, or it is not shown: never a wrong one."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.derivation.plain_text import read, symbol
+from hypcheck.derivation.signs import RELATIONS, has_sign
+
+A, B, P, Q = (symbol(name) for name in "ABPQ")
+
+
+@pytest.mark.parametrize(
+    ("text", "relation", "positive", "nonnegative", "shown"),
+    [
+        ("A·B", ">", (A, B), (), True),
+        ("A·P", ">", (A,), (P,), False),
+        ("A·P", "≥", (A,), (P,), True),
+        ("A + P", ">", (A,), (P,), True),
+        ("−A·P·(A + B)", "≤", (A, B), (P,), True),
+        ("−A − 1", "<", (A,), (), True),
+        ("1/A − 1/(A + B)", ">", (A, B), (), True),
+        ("P/Q", "≥", (), (P, Q), False),  # Q = 0 has no sign
+        ("A/(−B)", "<", (A, B), (), True),
+        ("A − B", ">", (A, B), (), False),
+        ("A − B", "≥", (A, B), (), False),
+        ("(A − B)²", "≥", (A, B), (), False),  # true, but the form does not show it
+        ("A·Q", "≥", (A,), (), False),  # nothing is said about Q
+        ("3", ">", (), (), True),
+        ("−1", ">", (), (), False),
+        ("0·A", "≥", (A,), (), True),
+        ("0·A", ">", (A,), (), False),
+        ("√2·A", ">", (A,), (), True),
+        ("A²·P + B/A", ">", (A, B), (P,), True),
+    ],
+)
+def test_signs_are_read_off_the_form(text, relation, positive, nonnegative, shown):
+    assert has_sign(read(text), relation, positive, nonnegative) is shown
+
+
+def test_a_factor_that_is_no_power_of_a_letter_shows_nothing():
+    assert not has_sign(sympy.sin(A) + 2, ">", (A,), ())
+    assert not has_sign(sympy.sqrt(A), ">", (A,), ())
+
+
+def test_other_relations_are_refused():
+    with pytest.raises(ValueError, match="none of"):
+        has_sign(A, "=", (A,), ())
+
+
+terms = st.lists(
+    st.tuples(st.integers(-3, 3), st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), min_size=1, max_size=4
+)
+values = st.fractions(Fraction(1, 9), 9)
+
+
+@given(terms, terms, values, values, st.one_of(st.just(Fraction(0)), values))
+def test_what_is_shown_is_true_of_numbers(top, bottom, a, b, p):
+    numerator, denominator = (
+        sum((n * A**i * B**j * P**k for n, i, j, k in part), sympy.Integer(0)) for part in (top, bottom)
+    )
+    at = {A: sympy.Rational(a), B: sympy.Rational(b), P: sympy.Rational(p)}
+    if denominator == 0 or denominator.subs(at) == 0:
+        return
+    value = (numerator / denominator).subs(at)
+    true = {">": value > 0, "≥": value >= 0, "<": value < 0, "≤": value <= 0}
+    for relation in RELATIONS:
+        assert true[relation] or not has_sign(numerator / denominator, relation, (A, B), (P,))

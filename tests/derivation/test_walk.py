@@ -1,0 +1,44 @@
+"""The derivation shows every displayed formula of the paper, put right where it is misprinted."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+
+from hypcheck.derivation import pencil, walk
+from hypcheck.derivation.differences import difference
+from hypcheck.derivation.links import matrix_identity
+from hypcheck.derivation.printed import check_equations
+from hypcheck.derivation.printed_equations import printed_claims
+
+SHOWN = [part for section in walk.walk() for link in section.links for part in link.parts]
+
+
+def test_each_formula_that_holds_is_shown_as_it_is_printed():
+    texts = {part.text for part in SHOWN}
+    misprinted = {equation.number for equation in check_equations() if not equation.holds}
+    for claim in printed_claims():
+        assert (claim.statement in texts) == (claim.number not in misprinted), claim.number
+
+
+def test_a_misprinted_formula_is_shown_put_right():
+    for number, name in (("11", "f(λ)"), ("12", "g(λ)"), ("A.2b", "c1(g_i)")):
+        ((_, derived),) = next(claim.pairs for claim in printed_claims() if claim.number == number)
+        right = [part.right for part in SHOWN if part.text.startswith(f"{name} = ")]
+        assert any(difference(shown, derived) == 0 for shown in right if not isinstance(shown, sympy.MatrixBase))
+
+
+def test_matrices_are_read_as_they_are_shown():
+    hyperboloid, sphere = pencil.scaled_matrices()
+    text = "S = [1, 0, 0, −x_c; 0, 1, 0, −y_c; 0, 0, 1, −z_c; −x_c, −y_c, −z_c, x_c² + y_c² + z_c² − 1]"
+    assert matrix_identity(text, sphere).holds
+    assert not matrix_identity(text, hyperboloid).holds
+    assert not matrix_identity(text.replace("−y_c; 0, 0", "y_c; 0, 0"), sphere).holds
+    assert not matrix_identity("S = [1, 0; 0, 1]", sphere).holds
+
+
+def test_a_wrong_pencil_is_seen(monkeypatch):
+    right = pencil.scaled_cubic()
+    monkeypatch.setattr(pencil, "scaled_cubic", lambda: replace(right, c2=right.c2 + pencil.ZC**2))
+    assert [section.name for section in walk.walk() if not section.holds] == ["The pencil and its cubic"]
