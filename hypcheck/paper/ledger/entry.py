@@ -1,0 +1,111 @@
+"""What the ledger says of one claim of the paper, and what that rests on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hypcheck.derivation.chains.book import chains, proved
+from hypcheck.derivation.formulas import Formula
+from hypcheck.derivation.proofs import proofs_of
+from hypcheck.paper.ledger.facts import Facts
+from hypcheck.paper.ledger.search import Search, Statement, Witness, counterexample, witness
+
+PROVED, MISPRINT, FALSE, NOT_CHECKABLE = VERDICTS = ("proved", "misprint", "false", "not checkable")
+
+HOLDS = "right − left = 0"
+"""Why a displayed formula is proved."""
+
+KINDS = ("identity", "chain", "programs", "search", "count")
+"""What evidence can be: equal expressions, a chain of links, proved programs, a search of pairs, counted steps."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One reason for a verdict, in a sentence without a full stop, and whether it was found to hold just now."""
+
+    kind: str
+    text: str
+    holds: bool
+    witnesses: tuple[Witness, ...] = ()
+    chain: str = ""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One numbered statement of the paper.
+
+    `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
+    `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
+    statement put right, where something is wrong and can be; `printed` a formula's own text.
+    """
+
+    number: str
+    section: str
+    statement: str
+    verdict: str
+    why: str
+    follows: str
+    evidence: tuple[Evidence, ...] = ()
+    correction: str = ""
+    printed: str = ""
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether the evidence bears the verdict out; a verdict without any says that nothing can be checked."""
+        if self.verdict == NOT_CHECKABLE:
+            return not self.evidence
+        return bool(self.evidence) and all(evidence.holds for evidence in self.evidence)
+
+
+def by_chain(name: str) -> Evidence:
+    """That a chain of the derivation holds, with all it needs."""
+    links = len(chains()[name].links)
+    return Evidence("chain", f"{links} links of “{name}” hold", proved(name), chain=name)
+
+
+def by_programs(*formulas: Formula) -> Evidence:
+    """That programs compute and decide what they must."""
+    proofs = [proof for formula in formulas for proof in proofs_of(formula)]
+    names = ", ".join(formula.name for formula in formulas)
+    text = f"{len(proofs)} proofs of the program{'s' * (len(formulas) > 1)} {names}"
+    return Evidence("programs", text, bool(proofs) and all(proof.holds for proof in proofs))
+
+
+def without_counterexample(statement: Statement) -> Evidence:
+    """That no point of the whole space contradicts the statement."""
+    search = counterexample(statement)
+    return Evidence(
+        "search", f"no counterexample among {search.tried:,} pairs", search.found is None and search.tried > 0
+    )
+
+
+def with_counterexample(*statements: Statement) -> Evidence:
+    """That each statement is false: the simplest point which contradicts it, its position certified."""
+    searches = [(statement, counterexample(statement)) for statement in statements]
+    return _found([(search, f"contradicts “{statement.text}”") for statement, search in searches])
+
+
+def with_examples(*searches: tuple[Search, str]) -> Evidence:
+    """That what was looked for was found each time, with a certified position; the text says what the point shows."""
+    return _found(list(searches))
+
+
+def _found(searches: list[tuple[Search, str]]) -> Evidence:
+    witnesses = tuple(witness(search.found, shows) for search, shows in searches if search.found is not None)
+    tried = [search.tried for search, _ in searches]
+    holds = len(witnesses) == len(searches) > 0 and all(each.holds for each in witnesses)
+    text = "; ".join(described(each.facts) for each in witnesses) or f"nothing found among {sum(tried):,} pairs"
+    return Evidence("search", text, holds, witnesses)
+
+
+def described(facts: Facts) -> str:
+    """A point, its position and its numbers: "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18"."""
+    point = facts.point
+    return _minus(
+        f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, Δ = {facts.delta}, c2 = "
+        f"{facts.c2}, c1 = {facts.c1}"
+    )
+
+
+def _minus(text: str) -> str:
+    return text.replace("-", "−")
