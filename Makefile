@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify deep test lint cases check-cases mutants format clean
+.PHONY: help verify deep test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -25,6 +25,9 @@ cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
 
 check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its certificate
 	$(BIN)/hypcheck cases check
+
+paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
+	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
 	$(BIN)/python -m tests.mutants --out docs/mutants.md

@@ -19,6 +19,7 @@ COMMANDS = {
     "hunt": "hypcheck.cli.hunt:hunt",
     "minimise": "hypcheck.cli.minimise:minimise",
     "replay": "hypcheck.cli.replay:replay",
+    "derive": "hypcheck.cli.derive:derive",
     "report": "hypcheck.cli.report:report",
     "record": "hypcheck.cli.record:record_",
     "plan": "hypcheck.cli.plan:plan",

@@ -1,0 +1,134 @@
+"""The same for programs: one JSON object with a published schema (paper/schemas); rationals are strings, "-33/4"."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from typing import Any
+
+import sympy
+
+from hypcheck.classification.as_json import proof_as_json
+from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.counting import Operations
+from hypcheck.derivation.links import Cases, Chain, Identity, Link, Part, Sign
+from hypcheck.paper.derive.choosing import Chosen
+from hypcheck.paper.derive.tex import formula
+from hypcheck.paper.ledger.entry import Entry, Evidence
+from hypcheck.paper.ledger.search import Witness
+from hypcheck.version import VERSION
+
+SCHEMA = "1.0.0"
+
+
+def lines(chosen: Chosen) -> Iterator[str]:
+    """The object, indented."""
+    yield json.dumps(document(chosen), ensure_ascii=False, indent=1)
+
+
+def document(chosen: Chosen) -> dict[str, Any]:
+    """The object; a part that was not asked for is missing."""
+    parts: dict[str, Any] = {}
+    if "derivation" in chosen.parts:
+        parts["derivation"] = [_chain(section) for section in chosen.sections]
+    if "propositions" in chosen.parts or chosen.claim is not None:
+        parts["propositions"] = [_chain(chain) for chain in chosen.chains]
+    if "ledger" in chosen.parts or chosen.claim is not None:
+        parts["ledger"] = [_entry(entry) for entry in chosen.entries]
+    if "costs" in chosen.parts:
+        parts["costs"] = [_cost(cost) for cost in chosen.costs]
+    failing = list(chosen.failing)
+    return {
+        "hypcheck": VERSION,
+        "schema": SCHEMA,
+        "sympy": sympy.__version__,
+        "agrees": not failing,
+        "failing": failing,
+        **parts,
+    }
+
+
+def _chain(chain: Chain) -> dict[str, Any]:
+    return {
+        "name": chain.name,
+        "statement": chain.statement,
+        "needs": list(chain.needs),
+        "holds": chain.holds,
+        "links": [_link(link) for link in chain.links],
+    }
+
+
+def _link(link: Link) -> dict[str, Any]:
+    return {
+        "statement": link.statement,
+        "reason": link.reason,
+        "cites": link.cites or None,
+        "holds": link.holds,
+        "parts": [_part(part) for part in link.parts],
+    }
+
+
+def _part(part: Part) -> dict[str, Any]:
+    shown = {"text": part.text, "latex": formula(part.text), "holds": part.holds}
+    if isinstance(part, Identity):
+        return {"kind": "identity", **shown}
+    if isinstance(part, Sign):
+        return {"kind": "sign", **shown, "positive": list(part.positive), "nonnegative": list(part.nonnegative)}
+    assert isinstance(part, Cases)  # noqa: S101 - tells the type checker what is left
+    return {"kind": "cases", **shown, "cases": len(part.cases)}
+
+
+def _entry(entry: Entry) -> dict[str, Any]:
+    return {
+        "number": entry.number,
+        "section": entry.section,
+        "statement": entry.statement,
+        "verdict": entry.verdict,
+        "confirmed": entry.confirmed,
+        "why": entry.why,
+        "printed": entry.printed or None,
+        "correction": entry.correction or None,
+        "follows": entry.follows,
+        "evidence": [_evidence(evidence) for evidence in entry.evidence],
+    }
+
+
+def _evidence(evidence: Evidence) -> dict[str, Any]:
+    return {
+        "kind": evidence.kind,
+        "text": evidence.text,
+        "holds": evidence.holds,
+        "chain": evidence.chain or None,
+        "witnesses": [_witness(witness) for witness in evidence.witnesses],
+    }
+
+
+def _witness(witness: Witness) -> dict[str, Any]:
+    facts, pair = witness.facts, witness.facts.point.pair
+    point = {name: str(getattr(facts.point, name)) for name in ("a", "c", "r", "z")}
+    numbers = {name: str(getattr(facts, name)) for name in ("delta", "c2", "c1", "c0")}
+    return {
+        "shows": witness.shows,
+        "row": list(pair.row),
+        **point,
+        **numbers,
+        "position": int(facts.position),
+        "certified": witness.holds,
+        "proof": proof_as_json(pair, witness.certificate),
+    }
+
+
+def _cost(cost: Cost) -> dict[str, Any]:
+    return {
+        "name": cost.name,
+        "title": cost.title,
+        "source": cost.source,
+        "scene": _operations(cost.scene),
+        "query": _operations(cost.query),
+        "query_divisions_by_fixed": cost.by_fixed,
+    }
+
+
+def _operations(operations: Operations) -> dict[str, int]:
+    return {**asdict(operations), "rounded": operations.rounded}

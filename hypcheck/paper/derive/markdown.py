@@ -1,0 +1,103 @@
+"""The same in Markdown; docs/paper.md is the ledger and the costs in this form."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.links import Chain
+from hypcheck.paper.derive.asking import PARTS
+from hypcheck.paper.derive.choosing import Chosen
+from hypcheck.paper.derive.words import (
+    CHECKED,
+    COSTS_EXPLAINED,
+    FAILS,
+    QUERY_COLUMNS,
+    SCENE_COLUMNS,
+    cost_cells,
+    details,
+    verdict,
+)
+from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry
+
+_INTRODUCTION = """# The paper, claim by claim
+
+Written by `hypcheck derive --only ledger --only costs --format markdown`; a test keeps it fresh, so change the ledger
+and not this page. `hypcheck derive --claim "Proposition 3"` shows one claim with its proof link by link, its
+witnesses and their certificates; [mathematics.md](mathematics.md) has the proofs in words.
+
+**Proved** means that sympy found right − left = 0, or that every link of a chain of identities and signs was checked,
+and that no pair of a space of small rational numbers contradicts it. A **misprint** is put right by the derivation.
+**False** means that a search of that space found a pair which contradicts the statement, the simplest there is, and
+that an exact certificate proves the pair's position. a = α/b and c = γ/d are the semi-axes after Theorem 1, C is the
+centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a."""
+
+
+def lines(chosen: Chosen) -> Iterator[str]:
+    """The page."""
+    yield _INTRODUCTION
+    if "derivation" in chosen.parts:
+        yield from _heading("derivation")
+        for section in chosen.sections:
+            yield from _chain(section)
+    if "ledger" in chosen.parts or chosen.claim is not None:
+        yield from _heading("ledger")
+        yield from _ledger(chosen.entries)
+    if chosen.chains:
+        yield from _heading("propositions")
+        for chain in chosen.chains:
+            yield from _chain(chain)
+    if "costs" in chosen.parts:
+        yield from _heading("costs")
+        yield from _costs(chosen.costs)
+
+
+def _heading(part: str) -> Iterator[str]:
+    yield from ("", f"## {part.capitalize()}: {PARTS[part]}")
+
+
+def _chain(chain: Chain) -> Iterator[str]:
+    yield from ("", f"### {chain.name}", "", chain.statement, "")
+    for number, link in enumerate(chain.links, 1):
+        yield f"{number}. {link.statement} *({link.reason}{f': {link.cites}' if link.cites else ''})*"
+        for part in link.parts:
+            yield f"   - `{part.text}` {CHECKED if part.holds else FAILS}"
+
+
+def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
+    counts = Counter(entry.verdict for entry in entries)
+    yield from ("", f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}.")
+    brief = [entry for entry in entries if entry.why == HOLDS and entry.confirmed]
+    if brief:
+        yield from ("", "Formulas that hold as printed, right − left = 0:", "")
+        yield from _row("number", "what it is", "what follows")
+        yield "| --- | --- | --- |"
+        for entry in brief:
+            yield from _row(entry.number, entry.statement, entry.follows)
+    for entry in entries:
+        if entry not in brief:
+            yield from (
+                "",
+                f"### {entry.number}: {verdict(entry)}",
+                "",
+                entry.statement,
+                "",
+            )
+            yield from (f"- *{title}*: {text}" for title, text in details(entry))
+
+
+def _row(*cells: str) -> Iterator[str]:
+    escaped = (cell.replace("|", "\\|") for cell in cells)
+    yield f"| {' | '.join(escaped)} |"
+
+
+def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
+    yield from ("", COSTS_EXPLAINED, "")
+    yield from _row("", *(f"scene {name}" for name in SCENE_COLUMNS), *QUERY_COLUMNS)
+    yield f"| --- |{' ---: |' * (len(SCENE_COLUMNS) + len(QUERY_COLUMNS))}"
+    for cost in costs:
+        yield from _row(f"`{cost.name}`", *cost_cells(cost))
+    yield ""
+    for cost in costs:
+        yield f"- `{cost.name}`: {cost.title} ({cost.source})"

@@ -1,0 +1,176 @@
+"""The derivation, the propositions, the ledger and the costs for a person at a terminal, in 100 columns of Unicode."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+
+import sympy
+
+from hypcheck.classification.text import proof_lines
+from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.links import Chain, Identity, Link, Part
+from hypcheck.pairs import CENTER, SIZES, Pair
+from hypcheck.paper.derive.asking import PARTS
+from hypcheck.paper.derive.choosing import Chosen
+from hypcheck.paper.derive.layout import WIDTH, formula, matrix, padded, paragraph
+from hypcheck.paper.derive.words import (
+    CHECKED,
+    COST_COLUMNS,
+    COSTS_EXPLAINED,
+    FAILS,
+    QUERY_COLUMNS,
+    SCENE_COLUMNS,
+    cost_cells,
+    details,
+    verdict,
+)
+from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry, Evidence, described
+
+_NUMBER, _VERDICT, _TITLE = 28, 43, 8
+"""Columns of the ledger: where the number and the verdict end, and how wide the titles of further lines are."""
+
+
+def lines(chosen: Chosen) -> Iterator[str]:
+    """All that was chosen; each part says at its head what it is."""
+    if "derivation" in chosen.parts:
+        yield from _heading("derivation")
+        yield from paragraph(
+            f"Each formula marked “{CHECKED}” was held against what sympy {sympy.__version__} makes of the two "
+            "surfaces, now."
+        )
+        for number, section in enumerate(chosen.sections, 1):
+            yield ""
+            yield from _section(section, f"{number}.")
+    if "propositions" in chosen.parts:
+        yield from _heading("propositions")
+        yield from paragraph("A = a² = (α/b)², B = c² = (γ/d)², P = (x0² + y0²)/b², Q = (z0/d)².")
+        for chain in chosen.chains:
+            yield ""
+            yield from _chain(chain)
+    if "ledger" in chosen.parts:
+        yield from _ledger(chosen.entries)
+    if "costs" in chosen.parts:
+        yield from _heading("costs")
+        yield from _costs(chosen.costs)
+    if chosen.claim is not None:
+        yield from _in_full(chosen)
+
+
+def _heading(part: str) -> Iterator[str]:
+    title = f"{part.upper()}: {PARTS[part]}"
+    yield from ("", title, "═" * len(title), "")
+
+
+def _section(section: Chain, number: str) -> Iterator[str]:
+    yield f"{padded(number, 4)}{section.name}"
+    yield from paragraph(section.statement, 4)
+    for link in section.links:
+        yield ""
+        yield from paragraph(link.statement, 4)
+        yield from _parts(link.parts, 8)
+
+
+def _chain(chain: Chain) -> Iterator[str]:
+    yield chain.name.upper() + (f"   (with {' and '.join(chain.needs)})" if chain.needs else "")
+    yield from paragraph(chain.statement, 4)
+    for number, link in enumerate(chain.links, 1):
+        yield ""
+        yield from paragraph(f"{link.statement} [{_reason(link)}]", 4, f"{number}.")
+        yield from _parts(link.parts, 8)
+
+
+def _reason(link: Link) -> str:
+    return f"{link.reason}: {link.cites}" if link.cites else link.reason
+
+
+def _parts(parts: Iterable[Part], indent: int) -> Iterator[str]:
+    for part in parts:
+        remark = CHECKED if part.holds else FAILS
+        if isinstance(part, Identity) and part.text.endswith("]"):
+            yield from matrix(part.text, indent, remark)
+        else:
+            yield from formula(part.text, indent, remark)
+
+
+def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
+    yield from _heading("ledger")
+    counts = Counter(entry.verdict for entry in entries)
+    yield from paragraph(
+        f"{len(entries)} statements: {', '.join(f'{counts[verdict]} {verdict}' for verdict in VERDICTS)}. Formulas "
+        "without a reason have right − left = 0. a = α/b, c = γ/d, C is the centre in the scaled space; A.n is the "
+        "n-th display of Appendix A. `hypcheck derive --claim NUMBER` shows one with its proof."
+    )
+    before = False
+    for entry in entries:
+        brief = entry.why == HOLDS and entry.confirmed
+        if not (brief and before):
+            yield ""
+        yield from _entry(entry, brief=brief)
+        before = brief
+
+
+def _entry(entry: Entry, *, brief: bool) -> Iterator[str]:
+    """One line for a formula that holds as printed, a few for all else."""
+    head = padded(entry.number, _NUMBER) + padded(verdict(entry), _VERDICT - _NUMBER)
+    if brief:
+        yield from paragraph(f"{entry.statement}; {entry.follows}", _VERDICT, head)
+        return
+    yield from paragraph(entry.statement, _VERDICT, head)
+    yield from _details(details(entry), 4)
+
+
+def _details(said: Iterable[tuple[str, str]], start: int) -> Iterator[str]:
+    for title, text in said:
+        yield from paragraph(text, start + _TITLE, " " * start + title)
+
+
+def _in_full(chosen: Chosen) -> Iterator[str]:
+    """Claims one by one, with their evidence; then the chains, each once."""
+    for entry in chosen.entries:
+        yield ""
+        yield from paragraph(f"{entry.number} (section {entry.section}) — {verdict(entry).upper()}")
+        yield from paragraph(entry.statement, 4)
+        yield from _details(details(entry, in_full=True), 4)
+        for evidence in entry.evidence:
+            yield from _evidence(evidence)
+    for chain in chosen.chains:
+        yield from ("", "─" * WIDTH)
+        yield from _chain(chain)
+
+
+def _evidence(evidence: Evidence) -> Iterator[str]:
+    """A reason and whether it holds; witnesses as rows that can be asked about, each with its certificate."""
+    indent = 4 + _TITLE
+    if not evidence.witnesses:
+        yield from formula(f"{evidence.kind}: {evidence.text}", indent, CHECKED if evidence.holds else FAILS)
+    for witness in evidence.witnesses:
+        yield from formula(described(witness.facts), indent, CHECKED if evidence.holds and witness.holds else FAILS)
+        yield from paragraph(witness.shows, indent + 4)
+        yield f"{'':{indent + 4}}{_command(witness.facts.point.pair)}"
+        for line in proof_lines(witness.facts.point.pair, witness.certificate):
+            yield from paragraph(line, indent + 4)
+
+
+def _command(pair: Pair) -> str:
+    sizes = " ".join(f"--{name} {getattr(pair, name):g}" for name in SIZES)
+    return f"hypcheck classify {sizes} --center {' '.join(f'{getattr(pair, name):g}' for name in CENTER)}"
+
+
+def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
+    yield from paragraph(COSTS_EXPLAINED)
+    yield ""
+    left = 6 * len(SCENE_COLUMNS)
+    yield f"{'':22}{'a scene':>{left}}   {'a position':>{6 * len(QUERY_COLUMNS) + 2}}"
+    yield f"{'':22}{_cells(COST_COLUMNS)}"
+    for cost in costs:
+        yield f"{cost.name:22}{_cells(cost_cells(cost))}"
+    yield ""
+    for cost in costs:
+        yield from paragraph(f"{cost.title} ({cost.source})", 22, cost.name)
+
+
+def _cells(cells: Sequence[str]) -> str:
+    """Numbers, or their titles, in columns; a gap parts those of a scene from those of a position."""
+    scene, query = cells[: len(SCENE_COLUMNS)], cells[len(SCENE_COLUMNS) :]
+    return f"{''.join(f'{cell:>6}' for cell in scene)}   {''.join(f'{cell:>6}' for cell in query[:-1])}{query[-1]:>8}"

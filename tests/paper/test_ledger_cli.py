@@ -1,0 +1,153 @@
+"""`hypcheck derive`: options in, pages and an exit code out."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.cli.exits import Exit
+from hypcheck.cli.main import main
+from hypcheck.derivation.chains.book import chains
+from hypcheck.paper.derive import choosing
+from hypcheck.paper.derive.choosing import entries_of
+from hypcheck.paper.ledger import entries
+
+
+def told(capsys, *arguments):
+    code = main(["derive", *arguments])
+    output, errors = capsys.readouterr()
+    return code, output, errors
+
+
+def test_without_options_everything_is_shown_and_holds(capsys):
+    code, output, errors = told(capsys)
+    assert code == Exit.HELD
+    assert errors == ""
+    for title in ("DERIVATION:", "PROPOSITIONS:", "LEDGER:", "COSTS:"):
+        assert f"\n{title}" in output
+
+
+def test_parts_are_shown_in_their_order_whatever_the_order_of_the_options(capsys):
+    _, output, _ = told(capsys, "--only", "costs", "--only", "derivation")
+    assert output.index("DERIVATION:") < output.index("COSTS:")
+    assert "LEDGER:" not in output
+
+
+@pytest.mark.parametrize(
+    ("claim", "numbers"),
+    [
+        ("12", ["(12)"]),
+        ("(12)", ["(12)"]),
+        ("eq. 12", ["(12)"]),
+        ("Equation 1", ["(1)"]),
+        ("A.2b", ["A.2b"]),
+        ("appendix A.2b", ["A.2b"]),
+        ("theorem 1", ["Theorem 1"]),
+        ("Proposition 5", ["Proposition 5.1", "Proposition 5.2"]),
+        ("prop 5.1", ["Proposition 5.1"]),
+        ("Table 1", ["Table 1", "Table 1, caption"]),
+        ("Table 4, caption", ["Table 4, caption"]),
+        ("Section 4", ["Section 4, regime", "Section 4, contact", "Section 4, cost"]),
+    ],
+)
+def test_a_claim_is_found_by_what_people_call_it(claim, numbers):
+    assert [entry.number for entry in entries_of(claim)] == numbers
+
+
+def test_every_number_finds_its_own_entry():
+    for entry in entries():
+        assert entry in entries_of(entry.number)
+
+
+@pytest.mark.parametrize(
+    ("claim", "advice"),
+    [
+        ("Proposition 7", "did you mean 'Proposition"),
+        ("Lemma", "give an equation's number"),
+        ("", "give an equation's"),
+    ],
+)
+def test_an_unknown_claim_is_one_sentence(capsys, claim, advice):
+    code, output, errors = told(capsys, "--claim", claim)
+    assert code == Exit.USAGE
+    assert output == ""
+    assert errors.count("\n") == 1
+    assert errors.startswith(f"hypcheck: error: there is no claim {claim!r} in the ledger; ")
+    assert advice in errors
+
+
+def test_a_claim_and_parts_exclude_each_other(capsys):
+    code, _, errors = told(capsys, "--claim", "12", "--only", "costs")
+    assert code == Exit.USAGE
+    assert "use one of them" in errors
+
+
+def test_output_goes_to_a_file_that_is_whole(capsys, tmp_path):
+    target = tmp_path / "derivation.json"
+    code, output, _ = told(capsys, "--only", "costs", "--format", "json", "--output", str(target))
+    assert (code, output) == (Exit.HELD, "")
+    assert json.loads(target.read_text(encoding="utf-8"))["agrees"]
+    code, _, errors = told(capsys, "--only", "costs", "--output", str(tmp_path / "no" / "where"))
+    assert code == Exit.USAGE
+    assert errors.startswith("hypcheck: error: cannot write")
+
+
+def test_nothing_is_left_where_a_claim_does_not_exist(capsys, tmp_path):
+    target = tmp_path / "claim.txt"
+    target.write_text("before")
+    code, _, _ = told(capsys, "--claim", "Lemma 9", "--output", str(target))
+    assert code == Exit.USAGE
+    assert target.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+@pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
+def test_a_link_that_fails_ends_with_6_and_is_shown(capsys, monkeypatch, form):
+    chain = chains()["Proposition 3, repaired"]
+    link = chain.links[0]
+    wrong = replace(link.parts[0], relation="<")
+    broken = replace(chain, links=(replace(link, parts=(wrong, *link.parts[1:])), *chain.links[1:]))
+    monkeypatch.setattr(choosing, "chains", lambda: {**chains(), chain.name: broken})
+    code, output, errors = told(capsys, "--only", "propositions", "--format", form)
+    assert code == Exit.ORACLES_DISAGREE
+    assert errors == ("hypcheck: our derivation disagrees with what it is said to show: Proposition 3, repaired\n")
+    assert ("FAILS" in output) == (form != "json")
+    if form == "json":
+        document = json.loads(output)
+        assert document["agrees"] is False
+        assert document["failing"] == ["Proposition 3, repaired"]
+
+
+@pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
+def test_a_verdict_that_is_not_borne_out_ends_with_6(capsys, monkeypatch, form):
+    changed = tuple(
+        replace(entry, verdict="proved", evidence=()) if entry.number == "Table 2" else entry for entry in entries()
+    )
+    monkeypatch.setattr(choosing, "entries", lambda: changed)
+    code, output, errors = told(capsys, "--only", "ledger", "--format", form)
+    assert code == Exit.ORACLES_DISAGREE
+    assert errors.endswith("to show: Table 2\n")
+    assert ("FAILS: proved" in output) == (form != "json")
+
+
+HEAVY = ("sympy", "numpy", "mpmath", "fcl", "matplotlib")
+
+
+def loaded(code):
+    """Which of HEAVY a fresh interpreter holds after running `code`."""
+    report = f"import sys; {code}; print(*(name for name in {HEAVY!r} if name in sys.modules), file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", report], capture_output=True, check=True, text=True)
+    return set(done.stderr.split())
+
+
+def test_help_loads_nothing_heavy():
+    assert loaded("from hypcheck.cli.main import main; main(['derive', '--help'])") == set()
+
+
+def test_the_ledger_needs_neither_fcl_nor_matplotlib():
+    modules = "hypcheck.paper.ledger, hypcheck.paper.derive.text, hypcheck.paper.derive.latex"
+    assert loaded(f"import {modules}, hypcheck.paper.derive.as_json") <= {"sympy", "numpy", "mpmath"}

@@ -1,0 +1,185 @@
+"""What is printed: 100 columns of text, LaTeX that is well formed, JSON by its schema, and a fresh page for the web."""
+
+from __future__ import annotations
+
+import json
+import re
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from matplotlib.mathtext import MathTextParser
+
+from hypcheck.derivation.chains.book import chains
+from hypcheck.derivation.counting import Operations
+from hypcheck.derivation.walk import walk
+from hypcheck.paper.derive import as_json, latex, markdown, text
+from hypcheck.paper.derive.asking import FORMATS, PARTS, writer
+from hypcheck.paper.derive.choosing import Chosen
+from hypcheck.paper.derive.layout import WIDTH, broken, columns, paragraph
+from hypcheck.paper.derive.tex import UnknownCharacterError, formula, sentence
+from hypcheck.paper.ledger import entries
+from tests.json_schema import violations
+
+ALL = Chosen(tuple(PARTS))
+CLAIM = Chosen((), "Proposition 3")
+SCHEMA = json.loads(
+    resources.files("hypcheck.paper").joinpath("schemas", f"derive-{as_json.SCHEMA}.json").read_text(encoding="utf-8")
+)
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "paper.md"
+
+
+def written(module, chosen):
+    return list(module.lines(chosen))
+
+
+@pytest.mark.parametrize("chosen", [ALL, CLAIM], ids=["all", "claim"])
+def test_text_fits_into_100_columns_and_says_what_was_checked(chosen):
+    lines = written(text, chosen)
+    assert max(map(columns, lines)) <= WIDTH
+    assert not any(line != line.rstrip() for line in lines)
+    assert "FAILS" not in "\n".join(lines)
+    parts = sum(len(link.parts) for chain in (*chosen.sections, *chosen.chains) for link in chain.links)
+    assert sum(line.endswith(" checked") for line in lines) >= parts
+
+
+def test_text_has_every_part_and_every_entry():
+    lines = written(text, ALL)
+    for part in PARTS:
+        assert any(line.startswith(f"{part.upper()}: ") for line in lines)
+    for entry in entries():
+        assert any(line.startswith(entry.number) for line in lines)
+
+
+def test_a_claim_is_shown_with_its_witness_a_command_and_a_certificate():
+    shown = "\n".join(written(text, CLAIM))
+    assert "hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0" in shown or "--center 5 0 0" in shown
+    assert "is above 0;" in shown
+    assert "PROPOSITION 3, REPAIRED" in shown
+    assert "RULE" in shown
+    assert "PROPOSITION 5, REPAIRED" not in shown
+
+
+def test_an_equation_is_shown_as_printed():
+    shown = " ".join(" ".join(written(text, Chosen((), "12"))).split())
+    assert "printed g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c²)·λ²" in shown
+    assert "lacks − z_c²" in shown
+
+
+@pytest.mark.parametrize("chosen", [ALL, CLAIM], ids=["all", "claim"])
+def test_latex_is_ascii_with_balanced_braces_and_environments(chosen):
+    document = "\n".join(written(latex, chosen))
+    assert document.isascii()
+    bare = re.sub(r"\\[{}]", "", document)
+    depth = 0
+    for character in bare:
+        depth += (character == "{") - (character == "}")
+        assert depth >= 0
+    assert depth == 0
+    opened = []
+    for kind, name in re.findall(r"\\(begin|end)\{(\w+\*?)\}", document):
+        if kind == "begin":
+            opened.append(name)
+        else:
+            assert opened.pop() == name
+    assert opened == []
+    assert document.count("$") % 2 == 0
+    assert document.startswith(r"\documentclass")
+
+
+def formulas():
+    """Everything that is set in math mode, once."""
+    shown = [(chain.statement, chain.links) for chain in (*walk(), *chains().values())]
+    texts = [text for statement, links in shown for text in (statement, *(link.statement for link in links))]
+    texts += [text for each in entries() for text in (each.statement, each.why, each.follows, each.correction)]
+    inline = {match for each in texts for match in re.findall(r"\$(.*?)\$", sentence(each))}
+    return inline | {formula(part.text) for _, links in shown for link in links for part in link.parts}
+
+
+def test_every_formula_can_be_typeset():
+    parser = MathTextParser("path")
+    for each in sorted(formulas()):
+        parser.parse(f"${each}$")
+
+
+@pytest.mark.parametrize(
+    ("plain", "tex"),
+    [
+        ("x_c² + y_c²", "x_{c}^{2} + y_{c}^{2}"),
+        ("c0_s = −(α/b_s)²·(γ/d_s)²", r"c_{0,s} = -(\alpha/b_{s})^{2}\,(\gamma/d_{s})^{2}"),
+        ("H = A⁻¹·H̄·A⁻¹", r"H = A^{-1}\,\bar{H}\,A^{-1}"),
+        ("g''(λm) = −2√h1", r"g''(\lambda_{m}) = -2\sqrt{h_{1}}"),
+        ("φ' without P = 0", r"\varphi'\text{ without }P = 0"),
+        ("cosine − sine", r"\cos g_{i} - \sin g_{i}"),
+    ],
+)
+def test_formulas_in_latex(plain, tex):
+    assert formula(plain) == tex
+
+
+@pytest.mark.parametrize(
+    ("plain", "tex"),
+    [
+        ("a rotor's axis", "a rotor's axis"),
+        ("where a = 1 and c² > a", "where $a = 1$ and $c^{2} > a$"),
+        ("“⟸” is 14 % of `hypcheck derive`", r"``$\Longleftarrow $'' is $14$ \% of \texttt{hypcheck derive}"),
+        ("A cubic in A and B", "A cubic in $A$ and $B$"),
+        ("Procedure 2.a, i.e. one", "Procedure 2.a, i.e. one"),
+    ],
+)
+def test_sentences_in_latex(plain, tex):
+    assert sentence(plain) == tex
+
+
+def test_a_character_without_latex_is_refused():
+    with pytest.raises(UnknownCharacterError):
+        formula("☃ = 1")
+
+
+@pytest.mark.parametrize(
+    "chosen", [ALL, CLAIM, Chosen(("costs",)), Chosen(("ledger", "derivation"))], ids=["all", "claim", "costs", "two"]
+)
+def test_json_fits_its_schema(chosen):
+    document = json.loads("\n".join(written(as_json, chosen)))
+    assert violations(document, SCHEMA, closed=True) == []
+    assert document["agrees"] is True
+    assert document["failing"] == []
+    parts = ("propositions", "ledger") if chosen.claim else chosen.parts
+    assert {part for part in PARTS if part in document} == set(parts)
+
+
+def test_json_counts_what_operations_has():
+    assert set(SCHEMA["$defs"]["operations"]["required"]) == {*Operations.__dataclass_fields__, "rounded"}
+
+
+def test_the_page_for_the_web_is_fresh():
+    """`make paper` writes it anew."""
+    fresh = "\n".join(markdown.lines(Chosen(("ledger", "costs")))) + "\n"
+    assert PAGE.read_text(encoding="utf-8") == fresh
+
+
+def test_markdown_has_every_part():
+    page = "\n".join(written(markdown, ALL))
+    for part in PARTS:
+        assert f"## {part.capitalize()}: " in page
+    assert page.count("\n### ") > 40
+
+
+def test_every_format_can_be_written():
+    assert {name: writer(name) for name in FORMATS} == {
+        "text": text.lines,
+        "latex": latex.lines,
+        "json": as_json.lines,
+        "markdown": markdown.lines,
+    }
+
+
+def test_paragraphs_part_no_comparison_from_its_sides():
+    lines = list(paragraph("word " * 18 + "c1 = 18 and (1, 0, 0) " * 5))
+    assert not any(line.endswith((" =", "(1,", "0,")) or line.startswith(("=", "0")) for line in lines)
+
+
+def test_long_formulas_are_broken_before_outer_signs_first():
+    lines = broken("f = (a + b + c)·x + (d − e)·y − z", 20)
+    assert lines == ["f = (a + b + c)·x", "+ (d − e)·y − z"]
+    assert broken("f = (aaaa + bbbb + cccc)·x", 12) == ["f", "= (aaaa", "+ bbbb", "+ cccc)·x"]
