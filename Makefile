@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify deep test lint cases check-cases paper mutants format clean
+.PHONY: help verify deep attack test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -32,6 +32,9 @@ paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
 	$(BIN)/python -m tests.mutants --out docs/mutants.md
 
+attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
+	$(BIN)/python -m tests.attack
+
 lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -46,17 +49,18 @@ clean: ## remove the environment, caches and the latest reports
 	rm -rf $(VENV) build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache reports/latest
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# The environment is made once and used again; a change of pyproject.toml installs anew.
+# The environment is made once and used again; a change of pyproject.toml or of the compiled kernel installs anew.
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { \
 		echo "hypcheck needs Python 3.10 or later; $(PYTHON) is $$($(PYTHON) --version 2>&1). Name another: make PYTHON=python3.12" >&2; exit 2; }
 	@$(PYTHON) -m venv $(VENV) || { \
 		echo "$(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv" >&2; rm -rf $(VENV); exit 2; }
 
-$(VENV)/ready: pyproject.toml | $(BIN)/python
+KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/hypcheck.h
+$(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report]'
 	@touch $@
 
-$(VENV)/ready-dev: pyproject.toml | $(BIN)/python
+$(VENV)/ready-dev: pyproject.toml $(KERNEL) | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,dev]'
 	@touch $(VENV)/ready $@

@@ -1,10 +1,14 @@
-"""Ships the folder cases/ inside the package, as hypcheck/cases; everything else is said in pyproject.toml."""
+"""Ships the folder cases/ inside the package, as hypcheck/cases, and compiles the kernel where there is a compiler.
+
+Everything else is said in pyproject.toml.
+"""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import Extension, setup
 from setuptools.command.build_py import build_py
 
 CASES = sorted(path for path in Path("cases").rglob("*") if path.is_file())
@@ -33,4 +37,15 @@ class BuildWithCases(build_py):
         return [Path(self.build_lib, "hypcheck", path) for path in CASES]
 
 
-setup(cmdclass={"build_py": BuildWithCases})
+CORE = "hypcheck/kernel/core"
+KERNEL = Extension(
+    "hypcheck.kernel._compiled",
+    sources=[f"{CORE}/binding.c"],
+    depends=[f"{CORE}/hypcheck.h"],
+    include_dirs=[CORE],
+    # FMA may replace a product and a sum: the bounds hold with and without. Never -ffast-math: hypcheck.h refuses it.
+    extra_compile_args=[] if os.name == "nt" else ["-O3", "-ffp-contract=fast"],
+    optional=True,  # without a compiler numpy gives the same answers; `hypcheck info` says which it is
+)
+
+setup(cmdclass={"build_py": BuildWithCases}, ext_modules=[KERNEL])

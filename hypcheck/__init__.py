@@ -2,38 +2,42 @@
 
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z) -> int8 (n,)
+    hypcheck.position(alpha, gamma, b, d, x, y, z) -> int
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
 
-All are loaded, and numpy with them, when first used.
+They are loaded when first used, and numpy with all but position.
 """
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hypcheck.kernel.classify import classify, classify_scene
+    from hypcheck.kernel.scalar import position
     from hypcheck.kernel.world.scene import Scene
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
-__all__ = ["Scene", "__version__", "classify", "classify_scene"]
+__all__ = ["Scene", "__version__", "classify", "classify_scene", "position"]
+
+_HOMES = {
+    "__version__": ("hypcheck.version", "VERSION"),
+    "Scene": ("hypcheck.kernel.world.scene", "Scene"),
+    "classify": ("hypcheck.kernel.classify", "classify"),
+    "classify_scene": ("hypcheck.kernel.classify", "classify_scene"),
+    "position": ("hypcheck.kernel.scalar", "position"),
+}
 
 
 def __getattr__(name: str) -> object:
-    """Load a public name when it is first asked for."""
-    if name == "__version__":
-        from hypcheck import version  # noqa: PLC0415
-
-        return version.VERSION
-    if name == "Scene":
-        from hypcheck.kernel.world import scene  # noqa: PLC0415
-
-        return scene.Scene
-    if name in __all__:
-        from hypcheck.kernel import classify as module  # noqa: PLC0415
-
-        return getattr(module, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    """Load a public name when it is first asked for, and keep it: a call of position is shorter than a look-up here."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, attribute = _HOMES[name]
+    value: object = getattr(import_module(module), attribute)
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:

@@ -8,43 +8,57 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.kernel import numpy_path
-from hypcheck.pairs import CENTER, REFUSED, SIZES, trouble_with
-from hypcheck.rows import Positions, as_rows, invalid, require_valid
+from hypcheck.kernel.answering import kernel
+from hypcheck.kernel.question import Question, require_known
+from hypcheck.pairs import CENTER, SIZES, trouble_with
+from hypcheck.rows import Positions, as_rows, require_valid
 
 
 def classify(
-    rows: ArrayLike, *, out: Positions | None = None, on_invalid: Literal["raise", "flag"] = "raise"
+    rows: ArrayLike,
+    *,
+    out: Positions | None = None,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
+    threads: int | None = None,
 ) -> Positions:
     """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
 
     `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
     converts to it. `out`, int8 (n,), is filled and returned in place of a new array; it may overlap `rows`.
+    `question` "exterior", "interior" or "contact" asks for 1 (yes) or 0 (no) instead. `threads` is how many threads
+    share the work; by default one, and more for millions of rows (HYPCHECK_THREADS limits them).
 
     A row is valid when its sizes are finite and > 0 and its centre finite. The first that is not raises InputError
     (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are marked 127.
     """
     if on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
+    _require_sense(question, threads)
     queries = as_rows(rows)
     _require_fitting(out, len(queries))
-    if on_invalid == "raise":
+    result, refused = kernel().answer_rows(queries, question, threads)
+    if refused and on_invalid == "raise":
         require_valid(queries)
-        return _into(out, numpy_path.positions(queries))
-    refused = invalid(queries)
-    result = np.full(len(queries), REFUSED, dtype=np.int8)
-    result[~refused] = numpy_path.positions(queries[~refused])
     return _into(out, result)
 
 
 def classify_scene(
-    sizes: tuple[float, float, float, float], x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None = None
+    sizes: tuple[float, float, float, float],
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
+    out: Positions | None = None,
+    *,
+    question: Question = "position",
+    threads: int | None = None,
 ) -> Positions:
-    """The exact position of one spheroid at many centres; int8 (n,), numbers as in classify.
+    """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
 
     `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre.
     The first centre that is not finite raises InputError (its index counted from 0) and `out` is left alone.
     """
+    _require_sense(question, threads)
     four = _sizes(sizes)
     try:
         u, v, w = (np.atleast_1d(column) for column in np.broadcast_arrays(*map(_numbers, CENTER, (x, y, z))))
@@ -52,9 +66,17 @@ def classify_scene(
         raise InputError(f"x, y, z do not go together: {error}") from None
     if u.ndim != 1:
         raise InputError(f"x, y, z have shape {u.shape}; each must be (n,) or a single number")
-    _require_finite(u, v, w)
     _require_fitting(out, len(u))
-    return _into(out, numpy_path.positions_of_scene(four, u, v, w))
+    result, refused = kernel().answer_scene(four, (u, v, w), question, threads)
+    if refused:
+        _require_finite(u, v, w)
+    return _into(out, result)
+
+
+def _require_sense(question: str, threads: int | None) -> None:
+    require_known(question)
+    if threads is not None and (isinstance(threads, bool) or not isinstance(threads, int) or threads < 1):
+        raise InputError(f"threads is {threads!r}; it must be a whole number greater than 0")
 
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:

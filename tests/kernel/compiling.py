@@ -10,6 +10,11 @@ from pathlib import Path
 
 import pytest
 
+import hypcheck.kernel.core
+
+HEADER = Path(hypcheck.kernel.core.__file__).with_name("hypcheck.h")
+IMPLEMENTATION = '#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n'
+
 COMPILER = shutil.which(os.environ.get("CC", "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 
@@ -25,3 +30,31 @@ def shared_library(folder: Path, source: str, *options: str) -> ctypes.CDLL:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return ctypes.CDLL(str(library))
+
+
+def compiled_source(
+    folder: Path, source: str, *options: str, compiler: str | None = None, suffix: str = ".c"
+) -> subprocess.CompletedProcess[str]:
+    """What the compiler says of the source, without linking; hypcheck.h is found."""
+    path = folder / f"source{suffix}"
+    path.write_text(source, encoding="utf-8")
+    command = [
+        str(compiler or COMPILER),
+        *options,
+        f"-I{HEADER.parent}",
+        "-c",
+        str(path),
+        "-o",
+        str(folder / "source.o"),
+    ]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def program(folder: Path, source: str, *options: str) -> Path:
+    """The program that the C source makes with hypcheck.h. Fails the test with what the compiler said."""
+    path, target = folder / "program.c", folder / "program"
+    path.write_text(source, encoding="utf-8")
+    command = [str(COMPILER), *options, f"-I{HEADER.parent}", str(path), "-o", str(target), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return target

@@ -1,0 +1,21 @@
+"""The compiled kernel (core/binding.c). Absent where it could not be compiled at install."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+def ask(question: int, rows: NDArray[np.generic], answers: NDArray[np.generic], /) -> int: ...
+def ask_scene(
+    question: int,
+    sizes: tuple[float, float, float, float],
+    x: NDArray[np.generic],
+    y: NDArray[np.generic],
+    z: NDArray[np.generic],
+    answers: NDArray[np.generic],
+    /,
+) -> int: ...
+def position(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float, /) -> int: ...
+def set_slow_position(function: Callable[..., int], /) -> None: ...
+def level() -> str: ...
+def use_level(name: str, /) -> bool: ...

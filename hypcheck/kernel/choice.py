@@ -1,0 +1,76 @@
+"""Which kernel answers: the compiled one where it was built and loads, otherwise numpy; the answers are the same.
+
+Environment variables, read when a kernel is first asked for:
+
+    HYPCHECK_KERNEL   "compiled" or "numpy" forces that one
+    HYPCHECK_LEVEL    "avx512", "avx2", "sse2" or "plain" forces the instruction set of the compiled one
+    HYPCHECK_THREADS  the most threads it may use; by default the processors this process may run on
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
+
+from hypcheck.errors import InputError
+
+KERNELS = ("compiled", "numpy")
+LEVELS = ("avx512", "avx2", "sse2", "plain")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The kernel in use, a name in KERNELS, the instruction set of the compiled one, and the reason as words."""
+
+    kernel: str
+    level: str | None
+    reason: str
+
+
+@cache
+def choice() -> Choice:
+    """The choice that all calls of this process follow.
+
+    Raises InputError where an environment variable asks for what is not there.
+    """
+    wanted = os.environ.get("HYPCHECK_KERNEL", "")
+    if wanted not in ("", *KERNELS):
+        raise InputError(f"HYPCHECK_KERNEL is {wanted!r}; it must be {' or '.join(KERNELS)}, or unset")
+    if wanted == "numpy":
+        return Choice("numpy", None, "HYPCHECK_KERNEL asks for it")
+    try:
+        module = compiled()
+    except ImportError as error:
+        if wanted:
+            raise InputError(f"HYPCHECK_KERNEL is 'compiled', but there is no compiled kernel: {error}") from None
+        return Choice("numpy", None, f"there is no compiled kernel: {error}")
+    reason = "HYPCHECK_KERNEL asks for it" if wanted else "it was compiled at install"
+    return Choice("compiled", _level(module), reason)
+
+
+def compiled() -> ModuleType:
+    """The extension module. Raises ImportError where it was not built or does not load."""
+    from hypcheck.kernel import _compiled  # noqa: PLC0415 - it may not exist
+
+    return _compiled
+
+
+def _level(module: ModuleType) -> str:
+    wanted = os.environ.get("HYPCHECK_LEVEL", "")
+    if wanted and wanted not in LEVELS:
+        raise InputError(f"HYPCHECK_LEVEL is {wanted!r}; it must be one of {', '.join(LEVELS)}, or unset")
+    if wanted and not module.use_level(wanted):
+        raise InputError(f"HYPCHECK_LEVEL is {wanted!r}, but this machine or build has no more than {module.level()}")
+    return str(module.level())
+
+
+def most_threads() -> int:
+    """HYPCHECK_THREADS, or the number of processors that this process may run on. Raises InputError for nonsense."""
+    wanted = os.environ.get("HYPCHECK_THREADS", "")
+    if not wanted:
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if not (wanted.isascii() and wanted.isdigit() and int(wanted) > 0):
+        raise InputError(f"HYPCHECK_THREADS is {wanted!r}; it must be a whole number greater than 0, or unset")
+    return int(wanted)

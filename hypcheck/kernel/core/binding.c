@@ -1,0 +1,133 @@
+/* hypcheck.kernel._compiled: the C functions of hypcheck.h for Python, over the buffer protocol, with the GIL released.
+
+   Buffers are C-contiguous and of the native formats d (float64) and b (int8); whoever calls sees to that and to lengths
+   that fit, and is told by ValueError where they do not. */
+
+#define PY_SSIZE_T_CLEAN
+#include <Python.h>
+
+#define HYPCHECK_IMPLEMENTATION
+#include "hypcheck.h"
+
+static int filled(PyObject *object, Py_buffer *buffer, const char *format, int flags) {
+    if (PyObject_GetBuffer(object, buffer, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | flags) != 0) return 0;
+    if (buffer->format != NULL && strcmp(buffer->format, format) == 0) return 1;
+    PyErr_Format(PyExc_ValueError, "a buffer of format %s, not %s", format, buffer->format ? buffer->format : "B");
+    PyBuffer_Release(buffer);
+    return 0;
+}
+
+static int known_question(int question) {
+    if (question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT) return 1;
+    PyErr_SetString(PyExc_ValueError, "a question is a number from 0 to 3");
+    return 0;
+}
+
+static PyObject *py_ask(PyObject *self, PyObject *arguments) {
+    PyObject *rows_object, *answers_object, *result = NULL;
+    Py_buffer rows, answers;
+    int question;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "iOO", &question, &rows_object, &answers_object)) return NULL;
+    if (!known_question(question) || !filled(rows_object, &rows, "d", 0)) return NULL;
+    if (filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
+        if (rows.len == 7 * (Py_ssize_t)sizeof(double) * answers.len) {
+            size_t refused;
+            Py_BEGIN_ALLOW_THREADS
+            refused = hypcheck_ask(question, (size_t)answers.len, (const double *)rows.buf, (int8_t *)answers.buf);
+            Py_END_ALLOW_THREADS
+            result = PyLong_FromSize_t(refused);
+        } else {
+            PyErr_SetString(PyExc_ValueError, "seven numbers for each answer");
+        }
+        PyBuffer_Release(&answers);
+    }
+    PyBuffer_Release(&rows);
+    return result;
+}
+
+static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
+    PyObject *columns[3], *answers_object, *result = NULL;
+    Py_buffer buffers[3], answers;
+    double sizes[4];
+    int question, held = 0, fits = 1, k;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO", &question, sizes, sizes + 1, sizes + 2, sizes + 3, columns, columns + 1,
+                          columns + 2, &answers_object))
+        return NULL;
+    if (!known_question(question)) return NULL;
+    while (held < 3 && filled(columns[held], buffers + held, "d", 0)) held++;
+    if (held == 3 && filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
+        for (k = 0; k < 3; k++) fits = fits && buffers[k].len == (Py_ssize_t)sizeof(double) * answers.len;
+        if (fits) {
+            size_t refused;
+            Py_BEGIN_ALLOW_THREADS
+            refused = hypcheck_ask_scene(question, sizes, (size_t)answers.len, (const double *)buffers[0].buf,
+                                         (const double *)buffers[1].buf, (const double *)buffers[2].buf,
+                                         (int8_t *)answers.buf);
+            Py_END_ALLOW_THREADS
+            result = PyLong_FromSize_t(refused);
+        } else {
+            PyErr_SetString(PyExc_ValueError, "as many x, y and z as answers");
+        }
+        PyBuffer_Release(&answers);
+    }
+    while (held) PyBuffer_Release(buffers + --held);
+    return result;
+}
+
+/* What position calls where it has no answer: for numbers that are no floats, and for invalid rows. It answers, or raises
+   with a sentence that names the number. */
+static PyObject *slow_position = NULL;
+
+static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+    double row[7];
+    Py_ssize_t k;
+    int answer = 127;
+    (void)self;
+    if (count != 7) {
+        PyErr_Format(PyExc_TypeError, "position() takes 7 numbers: alpha, gamma, b, d, x, y, z (%zd given)", count);
+        return NULL;
+    }
+    for (k = 0; k < 7 && PyFloat_Check(arguments[k]); k++) row[k] = PyFloat_AS_DOUBLE(arguments[k]);
+    if (k == 7) answer = hypcheck_position(row[0], row[1], row[2], row[3], row[4], row[5], row[6]);
+    if (answer != 127) return PyLong_FromLong(answer);
+    if (slow_position == NULL) return PyLong_FromLong(127);
+    return PyObject_Vectorcall(slow_position, arguments, (size_t)count, NULL);
+}
+
+static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
+    PyObject *before = slow_position;
+    (void)self;
+    Py_INCREF(function);
+    slow_position = function;
+    Py_XDECREF(before);
+    Py_RETURN_NONE;
+}
+
+static PyObject *py_level(PyObject *self, PyObject *unused) {
+    (void)self, (void)unused;
+    return PyUnicode_FromString(hypcheck_level());
+}
+
+static PyObject *py_use_level(PyObject *self, PyObject *name) {
+    const char *text = PyUnicode_AsUTF8(name);
+    (void)self;
+    return text == NULL ? NULL : PyBool_FromLong(hypcheck_use_level(text));
+}
+
+static PyMethodDef functions[] = {
+    {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
+    {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers) -> as ask"},
+    {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL, "position(alpha, gamma, b, d, x, y, z) -> int"},
+    {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): whom position asks when in doubt"},
+    {"level", py_level, METH_NOARGS, "level() -> the name of the instruction set in use"},
+    {"use_level", py_use_level, METH_O, "use_level(name) -> whether this machine and build have it"},
+    {NULL, NULL, 0, NULL},
+};
+
+static struct PyModuleDef module = {
+    PyModuleDef_HEAD_INIT, "_compiled", "The compiled kernel; see core/hypcheck.h.", 0, functions, NULL, NULL, NULL, NULL,
+};
+
+PyMODINIT_FUNC PyInit__compiled(void) { return PyModuleDef_Init(&module); }

@@ -1,0 +1,175 @@
+"""Writes hypcheck.h: the parts of this folder put together, with the arithmetic printed from the programs.
+
+    python -m hypcheck.kernel.core.generate
+
+rewrites hypcheck/kernel/core/hypcheck.h; a test compares the committed file with what this prints. In a part, a line
+that is a name between two @ stands for printed text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+
+from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.kernel.printing.c import c_statements
+from hypcheck.kernel.printing.spelling import INFIX, Spelling, statements
+from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
+from hypcheck.pairs import COLUMNS
+
+HERE = Path(__file__).parent
+TARGET = HERE / "hypcheck.h"
+COMMAND = "python -m hypcheck.kernel.core.generate"
+
+CONSTANTS = {
+    **certified.CONSTANTS,
+    "u_48": single.CONSTANTS["u_48"],
+    "more": lines.MORE,
+    "less": lines.LESS,
+    "cap": lines.CAP,
+    "least_constant": lines.LEAST_CONSTANT,
+    "greatest_slope": lines.GREATEST_SLOPE,
+    "least_size": lines.LEAST_SIZE,
+    "greatest_size": lines.GREATEST_SIZE,
+    "least_height": 2.0**-150,
+    "greatest_height": 2.0**150,
+}
+SCENE = {
+    **{name: "{1}[{2}].{0}".format(*name.split("_")) for name in lines.LINE_CONSTANTS},
+    "reach": "reach",
+}
+"""Where the C struct of a scene keeps the inputs of the line programs."""
+LINE_PROGRAMS = (lines.ONE_LINE, lines.TWO_LINES)
+
+QUESTIONS = {
+    "position": {"plus": "exterior", "minus": "interior", "decided": "decided"},
+    "exterior": {"plus": "exterior", "decided": "exterior_decided"},
+    "interior": {"plus": "interior", "decided": "interior_decided"},
+    "contact": {"plus": "contact", "decided": "decided"},
+}
+"""Which steps of the line programs answer a question."""
+
+_COMPARISONS = {name: f"HC_{name.upper()}({{0}}, {{1}})" for name in ("gt", "lt", "ge", "le", "and", "or")}
+VECTOR = Spelling(
+    operations={**INFIX, **_COMPARISONS, "abs": "HC_ABS({0})"},
+    number="HC_NUMBER",
+    boolean="HC_TRUTH",
+    declaration="const {type} {name} = {value};",
+    constant=lambda value: f"HC_SET({value}.0)",
+)
+"""C over vectors of any width: the operators of the compiler, and macros for what they do not cover."""
+
+
+def header() -> str:
+    """The text of hypcheck.h."""
+    body = "\n".join(
+        (
+            _part("platform.h"),
+            _part("integers.h"),
+            "#define HC_LEVEL 0",
+            "#include HYPCHECK_SELF\n#undef HC_LEVEL\n#if HC_X86",
+            *(f"#define HC_LEVEL {level}\n#include HYPCHECK_SELF\n#undef HC_LEVEL" for level in (1, 2, 3)),
+            "#endif\n",
+            _part("scene.h"),
+            _part("dispatch.h"),
+        )
+    )
+    return (
+        f"{_part('contract.h')}\n"
+        "#if defined(HYPCHECK_IMPLEMENTATION) && !defined(HC_LEVEL) && !defined(HC_IMPLEMENTED)\n"
+        "#define HC_IMPLEMENTED\n"
+        "/* The file includes itself for each instruction set; define HYPCHECK_SELF where it has another name. */\n"
+        '#ifndef HYPCHECK_SELF\n#define HYPCHECK_SELF "hypcheck.h"\n#endif\n\n'
+        f"{body}\n#elif defined(HC_LEVEL)\n\n{_part('level.h')}\n#endif\n"
+    )
+
+
+def _part(name: str) -> str:
+    text = (HERE / "parts" / name).read_text(encoding="utf-8")
+    printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
+    return _filled(text, printed).replace("@STACK_KILOBYTES@", str(_kilobytes())).replace("@COMMAND@", COMMAND)
+
+
+def _filled(text: str, printed: Mapping[str, Iterable[str]]) -> str:
+    """The text with every line that is a name between two @ replaced by the printed lines of that name, indented."""
+
+    def lines_of(match: re.Match[str]) -> str:
+        return "\n".join(match[1] + line for line in printed[match[2]])
+
+    return re.sub(r"^( *)@(\w+)@$", lines_of, text, flags=re.MULTILINE)
+
+
+def _constants() -> list[str]:
+    return [f"#define HC_{name} {value!r} /* {value.hex()} */" for name, value in CONSTANTS.items()]
+
+
+def _line_functions() -> list[str]:
+    text = (HERE / "parts" / "line_function.h").read_text(encoding="utf-8")
+    return "\n".join(
+        _line_function(text, program, question) for program in LINE_PROGRAMS for question in QUESTIONS
+    ).splitlines()
+
+
+def _line_function(text: str, program: Program, question: str) -> str:
+    results = QUESTIONS[question]
+    wanted = ("R_plus_T", *results.values())
+    read = {name for step in needed(program, wanted) for name in step.reads}
+    texts = {
+        "LINE_CONSTANTS": [
+            f"const HC_NUMBER {name} = HC_SET(scene->{field});" for name, field in SCENE.items() if name in read
+        ],
+        "LINES": statements(program, wanted, VECTOR),
+        "LINE_RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
+    }
+    named = text.replace("@NAME@", f"{program.name.replace('-', '_')}_{question}").replace("@PROGRAM@", program.name)
+    return _filled(named, texts)
+
+
+def _integer_statement(step: Step, bits: dict[str, int]) -> str:
+    left, right = step.arguments
+    call = {"add": "hc_add", "sub": "hc_subtract", "mul": "hc_multiply"}[step.operation]
+    if isinstance(left, int):
+        return f"HC_INTEGER({step.name}, {bits[step.name]}); hc_scale(&{step.name}, {left}, &{right});"
+    return f"HC_INTEGER({step.name}, {bits[step.name]}); {call}(&{step.name}, &{left}, &{right});"
+
+
+def _integers(wanted: tuple[str, ...], known: tuple[str, ...] = ()) -> list[str]:
+    bits = bits_counted(INTEGERS)
+    before = needed(INTEGERS, known)
+    return [_integer_statement(step, bits) for step in needed(INTEGERS, wanted) if step not in before]
+
+
+_DELTA = ("delta", "n2", "n1")
+
+
+def _kilobytes() -> int:
+    limbs = sum(bits // 64 + 2 for bits in bits_counted(INTEGERS).values())
+    return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
+
+
+_TEXTS: dict[str, Callable[[], Iterable[str]]] = {
+    "CONSTANTS": _constants,
+    "CERTIFIED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in certified.CONSTANTS],
+    "CERTIFIED_INPUTS": lambda: [
+        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(COLUMNS)
+    ],
+    "CERTIFIED": lambda: statements(certified.CERTIFIED, ("exterior", "interior", "decided"), VECTOR),
+    "LINE_FUNCTIONS": _line_functions,
+    "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {FLOAT64_BITS});" for name in COLUMNS],
+    "INTEGERS": lambda: _integers(_DELTA),
+    "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),
+    "INTEGERS_AT_A": lambda: _integers(("offset_at_A", "slope_at_A"), _DELTA),
+    "INTEGERS_OF_RING": lambda: _integers(("slope_at_B", "ring_excess"), _DELTA),
+    "SINGLE": lambda: c_statements(
+        single.SINGLE, ("A", "B", "BB", "c1", "e1", "c2", "e2", "delta_3", "E"), number="double"
+    ),
+    "TANGENT_BEYOND": lambda: c_statements(lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
+    "TANGENT_WITHIN": lambda: c_statements(lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
+    "CHORD": lambda: c_statements(lines.CHORD, ("below", "above")),
+}
+
+
+if __name__ == "__main__":
+    TARGET.write_text(header(), encoding="utf-8")

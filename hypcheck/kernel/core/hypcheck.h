@@ -1,0 +1,1767 @@
+/* Where a spheroid stands to a circular hyperboloid of one sheet: exact answers.
+
+   The hyperboloid x²/alpha² + y²/alpha² - z²/gamma² = 1 is centred at the origin; the spheroid has semi-axes b, b, d and
+   centre (x, y, z). The position of the two surfaces is
+
+       +1  exterior    0  contact, a tangency included    -1  interior    127  the row is invalid
+
+   and it is the exact one of the given doubles, in every regime and over all of float64: subnormal, huge, tangent, on
+   the ring where discriminants vanish. A row is valid where its four sizes are finite and > 0 and its centre is finite.
+
+   How to use it. One C file of the program says
+
+       #define HYPCHECK_IMPLEMENTATION
+       #include "hypcheck.h"
+
+   and the others include the header alone. C99 or C++11, no library, not even libm.
+
+   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z.
+   Alignment   that of double. Nothing has to be padded.
+   Aliasing    inputs may overlap each other. The output must not overlap an input.
+   NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
+               A scene with invalid sizes answers 127 everywhere. -0.0 is 0 as a coordinate.
+   Memory      nothing is allocated. The stack holds up to 114 kilobytes.
+   Threads     every function may be called from any number of threads at once. There is one global variable, the
+               instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
+   Arithmetic  answers do not depend on the rounding mode, on flushing subnormals to zero, or on contraction into FMA;
+               floating-point flags may be raised. -ffast-math breaks the proofs and is refused.
+
+   Every statement of floating-point arithmetic below between "printed" and "end of" is printed from the straight-line
+   programs that hypcheck proves to be the formulas they are named after, as are the steps of the exact integers. What
+   their bounds are and why they hold: docs/kernel.md of hypcheck. Made by: python -m hypcheck.kernel.core.generate */
+
+#ifndef HYPCHECK_H
+#define HYPCHECK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is asked. HYPCHECK_POSITION is answered by a position, the others by 1 (yes) or 0 (no). */
+enum { HYPCHECK_POSITION = 0, HYPCHECK_EXTERIOR = 1, HYPCHECK_INTERIOR = 2, HYPCHECK_CONTACT = 3 };
+
+/* The position of each of n rows of 7 doubles. */
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
+
+/* The position of one spheroid at n centres; sizes are alpha, gamma, b, d. */
+void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
+                             int8_t *positions);
+
+/* The answer to a question for each row, or each centre. Returns the number of invalid ones, which are answered 127. */
+size_t hypcheck_ask(int question, size_t n, const double *rows, int8_t *answers);
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers);
+
+/* One position. */
+int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
+
+/* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
+   hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
+const char *hypcheck_level(void);
+int hypcheck_use_level(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+#if defined(HYPCHECK_IMPLEMENTATION) && !defined(HC_LEVEL) && !defined(HC_IMPLEMENTED)
+#define HC_IMPLEMENTED
+/* The file includes itself for each instruction set; define HYPCHECK_SELF where it has another name. */
+#ifndef HYPCHECK_SELF
+#define HYPCHECK_SELF "hypcheck.h"
+#endif
+
+/* ---- what is asked of the compiler ---- */
+
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST)
+#error "hypcheck: compile without -ffast-math and its parts: they void the error bounds, and answers would be wrong"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "hypcheck: compile without -ffinite-math-only: NaN and infinities must be seen"
+#endif
+
+#include <float.h>
+#include <string.h>
+
+/* The bounds ask for one rounding to double in each operation. Where the machine rounds otherwise (x87), floats decide
+   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. */
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 16
+#define HC_FLOATS_DECIDE 1
+#else
+#define HC_FLOATS_DECIDE 0
+#endif
+
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
+#define HC_X86 1
+#include <immintrin.h>
+#else
+#define HC_X86 0
+#endif
+
+#define HC_BLOCK 64  /* rows that share one word of bits */
+#define HC_STRIP 4096 /* rows whose undecided ones are collected before the next stage looks at them */
+#define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
+#define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
+#define HC_AHEAD 512
+#define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
+
+#define HC_u_4 8.881792667330725e-16 /* 0x1.0000100000000p-50 */
+#define HC_u_8 1.776358533466145e-15 /* 0x1.0000100000000p-49 */
+#define HC_u_12 2.6645378001992175e-15 /* 0x1.8000180000000p-49 */
+#define HC_u_16 3.55271706693229e-15 /* 0x1.0000100000000p-48 */
+#define HC_slack 1.0000009536743164 /* 0x1.0000100000000p+0 */
+#define HC_tiny 3.054936363499605e-151 /* 0x1.0000000000000p-500 */
+#define HC_least 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
+#define HC_greatest 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
+#define HC_u_48 1.065815120079687e-14 /* 0x1.8000180000000p-47 */
+#define HC_more 1.000000000000007 /* 0x1.0000000000020p+0 */
+#define HC_less 0.9999999999999929 /* 0x1.fffffffffffc0p-1 */
+#define HC_cap 2.5822498780869086e+120 /* 0x1.0000000000000p+400 */
+#define HC_least_constant 4.909093465297727e-91 /* 0x1.0000000000000p-300 */
+#define HC_greatest_slope 2.5822498780869086e+120 /* 0x1.0000000000000p+400 */
+#define HC_least_size 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
+#define HC_greatest_size 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
+#define HC_least_height 7.006492321624085e-46 /* 0x1.0000000000000p-150 */
+#define HC_greatest_height 1.42724769270596e+45 /* 0x1.0000000000000p+150 */
+#define HC_NEVER DBL_MAX
+
+/* Rows as bits: exterior (or "yes"), interior, decided. */
+typedef struct {
+    uint64_t plus, minus, decided;
+} hc_bits;
+
+/* The half planes R > K + M T, R < K + M T, R < K + M T, R >= K + M T of one scene, three of each. */
+typedef struct {
+    double K, M;
+} hc_line;
+
+typedef struct {
+    hc_line beyond[3], within[3], under[3], above[3];
+    double reach;
+} hc_scene;
+
+/* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
+#if defined(__GNUC__) || defined(__clang__)
+#define HC_FETCH(array, row) __builtin_prefetch((const void *)((uintptr_t)(array) + 8 * (uintptr_t)(row)))
+#else
+#define HC_FETCH(array, row) ((void)(row))
+#endif
+
+static int hc_lowest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+    return __builtin_ctzll(bits);
+#else
+    int at = 0, step;
+    for (step = 32; step; step /= 2)
+        if (!(bits & (((uint64_t)1 << step) - 1))) {
+            bits >>= step;
+            at += step;
+        }
+    return at;
+#endif
+}
+
+/* ---- exact integers: the last stage ---- */
+
+#if defined(__SIZEOF_INT128__) && !defined(HYPCHECK_SMALL_LIMBS)
+typedef uint64_t hc_limb;
+__extension__ typedef unsigned __int128 hc_wide;
+#define HC_LIMB_BITS 64
+#else
+typedef uint32_t hc_limb;
+typedef uint64_t hc_wide;
+#define HC_LIMB_BITS 32
+#endif
+
+/* sign is -1, 0 or 1; the size is limbs[0] + limbs[1] 2^HC_LIMB_BITS + ..., limbs[length - 1] being no zero. */
+typedef struct {
+    int sign;
+    int length;
+    hc_limb *limbs;
+} hc_integer;
+
+/* Room for a number of so many bits, and for the limb by which the limbs of two factors exceed those of the product. */
+#define HC_INTEGER(name, bits)                                          \
+    hc_limb name##_limbs[((bits) + HC_LIMB_BITS - 1) / HC_LIMB_BITS + 1]; \
+    hc_integer name = {0, 0, name##_limbs}
+
+static int hc_compare_sizes(const hc_integer *left, const hc_integer *right) {
+    int i;
+    if (left->length != right->length) return left->length < right->length ? -1 : 1;
+    for (i = left->length - 1; i >= 0; i--)
+        if (left->limbs[i] != right->limbs[i]) return left->limbs[i] < right->limbs[i] ? -1 : 1;
+    return 0;
+}
+
+static void hc_add_sizes(hc_integer *sum, const hc_integer *longer, const hc_integer *shorter) {
+    hc_wide carry = 0;
+    int i;
+    for (i = 0; i < longer->length; i++) {
+        carry += longer->limbs[i];
+        if (i < shorter->length) carry += shorter->limbs[i];
+        sum->limbs[i] = (hc_limb)carry;
+        carry >>= HC_LIMB_BITS;
+    }
+    if (carry) sum->limbs[i++] = (hc_limb)carry;
+    sum->length = i;
+}
+
+static void hc_subtract_sizes(hc_integer *difference, const hc_integer *larger, const hc_integer *smaller) {
+    hc_limb borrow = 0;
+    int i, length = 0;
+    for (i = 0; i < larger->length; i++) {
+        const hc_limb from = larger->limbs[i], taken = i < smaller->length ? smaller->limbs[i] : 0;
+        const hc_limb rest = from - taken, left = rest - borrow;
+        borrow = (hc_limb)((from < taken) | (rest < borrow));
+        difference->limbs[i] = left;
+        if (left) length = i + 1;
+    }
+    difference->length = length;
+}
+
+/* sum = left + sign right */
+static void hc_combine(hc_integer *sum, const hc_integer *left, const hc_integer *right, int sign) {
+    const int right_sign = sign * right->sign;
+    if (left->sign * right_sign >= 0) {
+        const int right_is_longer = left->length < right->length;
+        hc_add_sizes(sum, right_is_longer ? right : left, right_is_longer ? left : right);
+        sum->sign = left->sign ? left->sign : right_sign;
+    } else {
+        const int order = hc_compare_sizes(left, right);
+        hc_subtract_sizes(sum, order < 0 ? right : left, order < 0 ? left : right);
+        sum->sign = order < 0 ? right_sign : order > 0 ? left->sign : 0;
+    }
+}
+
+static void hc_add(hc_integer *sum, const hc_integer *left, const hc_integer *right) {
+    hc_combine(sum, left, right, 1);
+}
+
+static void hc_subtract(hc_integer *difference, const hc_integer *left, const hc_integer *right) {
+    hc_combine(difference, left, right, -1);
+}
+
+static void hc_multiply(hc_integer *product, const hc_integer *left, const hc_integer *right) {
+    const hc_integer *const longer = left->length < right->length ? right : left;
+    const hc_integer *const shorter = left->length < right->length ? left : right;
+    hc_limb *const limbs = product->limbs;
+    const int length = longer->length;
+    int i, j;
+    product->sign = left->sign * right->sign;
+    product->length = 0;
+    if (product->sign == 0) return;
+    for (j = 0; j < shorter->length; j++) {
+        const hc_wide factor = shorter->limbs[j];
+        hc_limb carry = 0;
+        for (i = 0; i < length; i++) {
+            const hc_wide sum = longer->limbs[i] * factor + (j == 0 ? 0 : limbs[i + j]) + carry;
+            limbs[i + j] = (hc_limb)sum;
+            carry = (hc_limb)(sum >> HC_LIMB_BITS);
+        }
+        limbs[i + j] = carry;
+    }
+    product->length = length + shorter->length;
+    if (limbs[product->length - 1] == 0) product->length--;
+}
+
+/* product = factor number, 0 < factor */
+static void hc_scale(hc_integer *product, hc_limb factor, const hc_integer *number) {
+    hc_wide carry = 0;
+    int i;
+    for (i = 0; i < number->length; i++) {
+        carry += (hc_wide)number->limbs[i] * factor;
+        product->limbs[i] = (hc_limb)carry;
+        carry >>= HC_LIMB_BITS;
+    }
+    if (carry) product->limbs[i++] = (hc_limb)carry;
+    product->length = i;
+    product->sign = number->sign;
+}
+
+/* A finite double is sign mantissa 2^exponent, the mantissa odd, or 0 with an exponent above all others. */
+typedef struct {
+    int sign;
+    int exponent;
+    uint64_t mantissa;
+} hc_parts;
+
+static hc_parts hc_parts_of(double value) {
+    hc_parts parts;
+    uint64_t bits;
+    int biased;
+    memcpy(&bits, &value, sizeof bits);
+    biased = (int)(bits >> 52 & 0x7ff);
+    parts.mantissa = (bits & 0xfffffffffffffu) | (biased ? (uint64_t)1 << 52 : 0);
+    parts.exponent = (biased ? biased : 1) - 1075;
+    parts.sign = parts.mantissa == 0 ? 0 : bits >> 63 ? -1 : 1;
+    if (parts.mantissa == 0) parts.exponent = 2048;
+    if (parts.mantissa) {
+        const int zeros = hc_lowest_bit(parts.mantissa);
+        parts.mantissa >>= zeros;
+        parts.exponent += zeros;
+    }
+    return parts;
+}
+
+/* number = the parts in units of 2^unit; unit is at most their exponent, unless they are 0 */
+static void hc_in_units(hc_integer *number, hc_parts parts, int unit) {
+    uint64_t rest;
+    int i = 0, shift;
+    number->sign = parts.sign;
+    number->length = 0;
+    if (parts.sign == 0) return;
+    for (shift = parts.exponent - unit; shift >= HC_LIMB_BITS; shift -= HC_LIMB_BITS) number->limbs[i++] = 0;
+    number->limbs[i++] = (hc_limb)(parts.mantissa << shift);
+    rest = shift ? parts.mantissa >> (HC_LIMB_BITS - shift) : parts.mantissa >> HC_LIMB_BITS / 2 >> HC_LIMB_BITS / 2;
+    for (; rest; rest = rest >> HC_LIMB_BITS / 2 >> HC_LIMB_BITS / 2) number->limbs[i++] = (hc_limb)rest;
+    number->length = i;
+}
+
+static int hc_least(int left, int right) { return left < right ? left : right; }
+
+/* The position of a valid row, by the rule for all regimes (kernel/integers.py of hypcheck, docs/kernel.md). */
+static int hc_exact_position(const double row[7]) {
+    const hc_parts alpha_parts = hc_parts_of(row[0]), gamma_parts = hc_parts_of(row[1]), b_parts = hc_parts_of(row[2]),
+                   d_parts = hc_parts_of(row[3]), x_parts = hc_parts_of(row[4]), y_parts = hc_parts_of(row[5]),
+                   z_parts = hc_parts_of(row[6]);
+    const int radial_unit = hc_least(hc_least(alpha_parts.exponent, b_parts.exponent),
+                                     hc_least(x_parts.exponent, y_parts.exponent));
+    const int axial_unit = hc_least(hc_least(gamma_parts.exponent, d_parts.exponent), z_parts.exponent);
+    /* printed from the program "integers", the bits counted from it */
+    HC_INTEGER(alpha, 2098);
+    HC_INTEGER(gamma, 2098);
+    HC_INTEGER(b, 2098);
+    HC_INTEGER(d, 2098);
+    HC_INTEGER(x, 2098);
+    HC_INTEGER(y, 2098);
+    HC_INTEGER(z, 2098);
+    hc_in_units(&alpha, alpha_parts, radial_unit);
+    hc_in_units(&b, b_parts, radial_unit);
+    hc_in_units(&x, x_parts, radial_unit);
+    hc_in_units(&y, y_parts, radial_unit);
+    hc_in_units(&gamma, gamma_parts, axial_unit);
+    hc_in_units(&d, d_parts, axial_unit);
+    hc_in_units(&z, z_parts, axial_unit);
+    {
+        HC_INTEGER(p, 4196); hc_multiply(&p, &alpha, &alpha);
+        HC_INTEGER(q, 4196); hc_multiply(&q, &b, &b);
+        HC_INTEGER(s, 4196); hc_multiply(&s, &gamma, &gamma);
+        HC_INTEGER(t, 4196); hc_multiply(&t, &d, &d);
+        HC_INTEGER(xx, 4196); hc_multiply(&xx, &x, &x);
+        HC_INTEGER(yy, 4196); hc_multiply(&yy, &y, &y);
+        HC_INTEGER(R, 4197); hc_add(&R, &xx, &yy);
+        HC_INTEGER(S, 4196); hc_multiply(&S, &z, &z);
+        HC_INTEGER(N, 8392); hc_multiply(&N, &q, &t);
+        HC_INTEGER(p_plus_q, 4197); hc_add(&p_plus_q, &p, &q);
+        HC_INTEGER(p_q_R, 4198); hc_subtract(&p_q_R, &p_plus_q, &R);
+        HC_INTEGER(s_plus_S, 4197); hc_add(&s_plus_S, &s, &S);
+        HC_INTEGER(radial_2, 8394); hc_multiply(&radial_2, &p_q_R, &t);
+        HC_INTEGER(axial_2, 8393); hc_multiply(&axial_2, &s_plus_S, &q);
+        HC_INTEGER(n2, 8395); hc_subtract(&n2, &radial_2, &axial_2);
+        HC_INTEGER(t_minus_s, 4197); hc_subtract(&t_minus_s, &t, &s);
+        HC_INTEGER(t_s_S, 4198); hc_subtract(&t_s_S, &t_minus_s, &S);
+        HC_INTEGER(R_minus_q, 4198); hc_subtract(&R_minus_q, &R, &q);
+        HC_INTEGER(axial_1, 8394); hc_multiply(&axial_1, &t_s_S, &p);
+        HC_INTEGER(radial_1, 8394); hc_multiply(&radial_1, &R_minus_q, &s);
+        HC_INTEGER(n1, 8395); hc_add(&n1, &axial_1, &radial_1);
+        HC_INTEGER(ps, 8392); hc_multiply(&ps, &p, &s);
+        HC_INTEGER(n2_n2, 16790); hc_multiply(&n2_n2, &n2, &n2);
+        HC_INTEGER(N_n1, 16787); hc_multiply(&N_n1, &N, &n1);
+        HC_INTEGER(N_n1_3, 16789); hc_scale(&N_n1_3, 3, &N_n1);
+        HC_INTEGER(h1, 16791); hc_subtract(&h1, &n2_n2, &N_n1_3);
+        HC_INTEGER(n2_n1, 16790); hc_multiply(&n2_n1, &n2, &n1);
+        HC_INTEGER(N_ps, 16784); hc_multiply(&N_ps, &N, &ps);
+        HC_INTEGER(N_ps_9, 16788); hc_scale(&N_ps_9, 9, &N_ps);
+        HC_INTEGER(h2, 16791); hc_add(&h2, &n2_n1, &N_ps_9);
+        HC_INTEGER(n1_n1, 16790); hc_multiply(&n1_n1, &n1, &n1);
+        HC_INTEGER(n2_ps, 16787); hc_multiply(&n2_ps, &n2, &ps);
+        HC_INTEGER(n2_ps_3, 16789); hc_scale(&n2_ps_3, 3, &n2_ps);
+        HC_INTEGER(h3, 16791); hc_add(&h3, &n1_n1, &n2_ps_3);
+        HC_INTEGER(h1_h3, 33582); hc_multiply(&h1_h3, &h1, &h3);
+        HC_INTEGER(h1_h3_4, 33585); hc_scale(&h1_h3_4, 4, &h1_h3);
+        HC_INTEGER(h2_h2, 33582); hc_multiply(&h2_h2, &h2, &h2);
+        HC_INTEGER(delta, 33586); hc_subtract(&delta, &h1_h3_4, &h2_h2);
+        if (delta.sign > 0 && n2.sign < 0 && n1.sign > 0) { /* three positive roots: are they all beyond B? */
+            HC_INTEGER(N_s, 12588); hc_multiply(&N_s, &N, &s);
+            HC_INTEGER(N_s_3, 12590); hc_scale(&N_s_3, 3, &N_s);
+            HC_INTEGER(n2_t, 12591); hc_multiply(&n2_t, &n2, &t);
+            HC_INTEGER(offset_at_B, 12592); hc_add(&offset_at_B, &N_s_3, &n2_t);
+            HC_INTEGER(offset_and_n2_t, 12593); hc_add(&offset_and_n2_t, &offset_at_B, &n2_t);
+            HC_INTEGER(rise_at_B, 16789); hc_multiply(&rise_at_B, &offset_and_n2_t, &s);
+            HC_INTEGER(n1_t, 12591); hc_multiply(&n1_t, &n1, &t);
+            HC_INTEGER(n1_tt, 16787); hc_multiply(&n1_tt, &n1_t, &t);
+            HC_INTEGER(slope_at_B, 16790); hc_add(&slope_at_B, &rise_at_B, &n1_tt);
+            return offset_at_B.sign < 0 && slope_at_B.sign > 0 ? 0 : 1;
+        }
+        if (delta.sign > 0) { /* two negative roots: do they lie above -A? */
+            HC_INTEGER(N_p, 12588); hc_multiply(&N_p, &N, &p);
+            HC_INTEGER(N_p_3, 12590); hc_scale(&N_p_3, 3, &N_p);
+            HC_INTEGER(n2_q, 12591); hc_multiply(&n2_q, &n2, &q);
+            HC_INTEGER(offset_at_A, 12592); hc_subtract(&offset_at_A, &N_p_3, &n2_q);
+            HC_INTEGER(offset_less_n2_q, 12593); hc_subtract(&offset_less_n2_q, &offset_at_A, &n2_q);
+            HC_INTEGER(rise_at_A, 16789); hc_multiply(&rise_at_A, &offset_less_n2_q, &p);
+            HC_INTEGER(n1_q, 12591); hc_multiply(&n1_q, &n1, &q);
+            HC_INTEGER(n1_qq, 16787); hc_multiply(&n1_qq, &n1_q, &q);
+            HC_INTEGER(slope_at_A, 16790); hc_add(&slope_at_A, &rise_at_A, &n1_qq);
+            return offset_at_A.sign > 0 && slope_at_A.sign > 0 ? -1 : 0;
+        }
+        if (delta.sign == 0 && z.sign == 0) { /* the ring: B is a double root, and the simple one lies below it */
+            HC_INTEGER(N_s, 12588); hc_multiply(&N_s, &N, &s);
+            HC_INTEGER(N_s_3, 12590); hc_scale(&N_s_3, 3, &N_s);
+            HC_INTEGER(n2_t, 12591); hc_multiply(&n2_t, &n2, &t);
+            HC_INTEGER(offset_at_B, 12592); hc_add(&offset_at_B, &N_s_3, &n2_t);
+            HC_INTEGER(offset_and_n2_t, 12593); hc_add(&offset_and_n2_t, &offset_at_B, &n2_t);
+            HC_INTEGER(rise_at_B, 16789); hc_multiply(&rise_at_B, &offset_and_n2_t, &s);
+            HC_INTEGER(n1_t, 12591); hc_multiply(&n1_t, &n1, &t);
+            HC_INTEGER(n1_tt, 16787); hc_multiply(&n1_tt, &n1_t, &t);
+            HC_INTEGER(slope_at_B, 16790); hc_add(&slope_at_B, &rise_at_B, &n1_tt);
+            HC_INTEGER(p_t, 8392); hc_multiply(&p_t, &p, &t);
+            HC_INTEGER(p_tt, 12588); hc_multiply(&p_tt, &p_t, &t);
+            HC_INTEGER(q_s, 8392); hc_multiply(&q_s, &q, &s);
+            HC_INTEGER(q_ss, 12588); hc_multiply(&q_ss, &q_s, &s);
+            HC_INTEGER(ring_excess, 12589); hc_subtract(&ring_excess, &q_ss, &p_tt);
+            return slope_at_B.sign == 0 && ring_excess.sign > 0 ? 1 : 0;
+        }
+    }
+    /* end of the program "integers" */
+    return 0;
+}
+
+static int hc_valid(const double row[7]) {
+    int i;
+    for (i = 0; i < 7; i++) {
+        uint64_t bits;
+        memcpy(&bits, row + i, sizeof bits);
+        if ((bits >> 52 & 0x7ff) == 0x7ff) return 0;          /* infinite or NaN */
+        if (i < 4 && (bits >> 63 || bits == 0)) return 0; /* a size that is negative, -0.0 or 0 */
+    }
+    return 1;
+}
+
+#define HC_LEVEL 0
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#if HC_X86
+#define HC_LEVEL 1
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#define HC_LEVEL 2
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#define HC_LEVEL 3
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#endif
+
+/* ---- one row ---- */
+
+/* A cheaper bound for the common case, c² > a > 1; 2 where it cannot say. */
+static int hc_single(const double row[7]) {
+    const double alpha = row[0], gamma = row[1], b = row[2], d = row[3], x = row[4], y = row[5], z = row[6];
+    const double u_8 = HC_u_8, u_12 = HC_u_12, u_48 = HC_u_48;
+    /* printed from the program "single" */
+    const double alpha_over_b = alpha / b;
+    const double A = alpha_over_b * alpha_over_b;
+    const double gamma_over_d = gamma / d;
+    const double B = gamma_over_d * gamma_over_d;
+    const double AB = A * B;
+    const double c0 = -AB;
+    const double c0_plus_A = c0 + A;
+    const double C = c0_plus_A - B;
+    const double xx = x * x;
+    const double yy = y * y;
+    const double rr = xx + yy;
+    const double bb = b * b;
+    const double P = rr / bb;
+    const double z_over_d = z / d;
+    const double Q = z_over_d * z_over_d;
+    const double BP = B * P;
+    const double C_plus_BP = C + BP;
+    const double AQ = A * Q;
+    const double c1 = C_plus_BP - AQ;
+    const double A_minus_B = A - B;
+    const double K = A_minus_B + 1.0;
+    const double K_minus_P = K - P;
+    const double c2 = K_minus_P - Q;
+    const double c2_squared = c2 * c2;
+    const double three_c1 = 3.0 * c1;
+    const double h1 = c2_squared - three_c1;
+    const double c2c1 = c2 * c1;
+    const double nine_c0 = 9.0 * c0;
+    const double h2 = c2c1 - nine_c0;
+    const double c1_squared = c1 * c1;
+    const double c2c0 = c2 * c0;
+    const double three_c2c0 = 3.0 * c2c0;
+    const double h3 = c1_squared - three_c2c0;
+    const double h1h3 = h1 * h3;
+    const double h1h3_4 = 4.0 * h1h3;
+    const double h2_squared = h2 * h2;
+    const double delta_3 = h1h3_4 - h2_squared;
+    const double P_plus_Q = P + Q;
+    const double A_plus_B = A + B;
+    const double sizes_2 = A_plus_B + 1.0;
+    const double M2 = sizes_2 + P_plus_Q;
+    const double BP_plus_AQ = BP + AQ;
+    const double sizes_1 = A_plus_B + AB;
+    const double M1 = sizes_1 + BP_plus_AQ;
+    const double M2_M2 = M2 * M2;
+    const double M1_3 = 3.0 * M1;
+    const double H1 = M2_M2 + M1_3;
+    const double M2_M1 = M2 * M1;
+    const double AB_9 = 9.0 * AB;
+    const double H2 = M2_M1 + AB_9;
+    const double M1_M1 = M1 * M1;
+    const double M2_AB = M2 * AB;
+    const double M2_AB_3 = 3.0 * M2_AB;
+    const double H3 = M1_M1 + M2_AB_3;
+    const double H1_H3 = H1 * H3;
+    const double H1_H3_4 = 4.0 * H1_H3;
+    const double H2_H2 = H2 * H2;
+    const double M_delta = H1_H3_4 + H2_H2;
+    const double E = u_48 * M_delta;
+    const double e1 = u_12 * M1;
+    const double e2 = u_8 * M2;
+    const double BB = B * B;
+    /* end of the program "single" */
+    if (!(alpha > 0 && gamma > 0 && b > HC_least && b < HC_greatest && d > HC_least && d < HC_greatest)) return 2;
+    if (!(A > HC_slack && A < HC_greatest && B > HC_least && B < HC_greatest && BB > HC_slack * A)) return 2;
+    if (delta_3 < -E) return 0;
+    if (!(delta_3 > E)) return 2;
+    if (c2 < -e2 && c1 > e1) return 1;
+    return c2 > e2 || c1 < -e1 ? -1 : 2;
+}
+
+static int hc_position_of(const double row[7]) {
+    const int quick = HC_FLOATS_DECIDE ? hc_single(row) : 2;
+    hc_bits found;
+    if (quick != 2) return quick;
+    found = hc_certified_plain(row, 1, 1);
+    if (HC_FLOATS_DECIDE && found.decided) return (int)found.plus - (int)found.minus;
+    return hc_valid(row) ? hc_exact_position(row) : 127;
+}
+
+/* ---- one scene: the half planes of the first stage ---- */
+
+/* A root for choosing places: good to a few digits, no libm. */
+static double hc_rough_root(double square) {
+    uint64_t bits;
+    double root;
+    int i;
+    if (!(square > 0)) return 0;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits >> 1) + ((uint64_t)0x1ff8 << 48); /* half the exponent */
+    memcpy(&root, &bits, sizeof root);
+    for (i = 0; i < 5; i++) root = 0.5 * (root + square / root);
+    return root;
+}
+
+/* The value cut to 26 significant bits, so that its square is exact; `up` takes the next such number. */
+static double hc_short(double value, int up) {
+    const uint64_t low = ((uint64_t)1 << 27) - 1;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits = (up ? bits + low : bits) & ~low;
+    memcpy(&value, &bits, sizeof bits);
+    return value;
+}
+
+/* Where (A+λ)(1 + 1/λ) + Q (A+λ)/(B−λ) is least over λ in (0, B), for side 1, and where (A−μ)(1 − 1/μ) + Q (A−μ)/(B+μ)
+   is greatest over μ in (0, A), for side -1: Newton's method for A/λ² = 1 + Q (A+B)/(B∓λ)². Any result is safe; a good
+   one leaves fewer rows to the next stage. */
+static double hc_best_multiplier(double A, double B, double Q, int side) {
+    const double weight = Q * (A + B);
+    double at = hc_rough_root(A / (1 + weight / (B * B)));
+    int i;
+    if (side > 0 && at > 0.99 * B) at = 0.99 * B;
+    for (i = 0; i < 4; i++) {
+        const double inverse = 1 / at, other = 1 / (B - side * at);
+        const double first = A * inverse * inverse, second = weight * other * other;
+        const double step = (first - 1 - second) / (2 * (first * inverse + side * second * other));
+        const double moved = at + step;
+        if (!(moved > 0.25 * at && moved < 4 * at)) break;
+        at = side > 0 && moved > 0.5 * (at + B) ? 0.5 * (at + B) : moved;
+    }
+    return at;
+}
+
+/* About the P at which the bodies touch from that side at height Q. */
+static double hc_edge(double A, double B, double Q, int side) {
+    const double at = hc_best_multiplier(A, B, Q, side);
+    return (A + side * at) * (1 + side / at) + Q * (A + side * at) / (B - side * at);
+}
+
+static void hc_tangent_beyond(const double sizes[4], double lambda_, hc_line *line) {
+    const double alpha = sizes[0], gamma = sizes[1], b = sizes[2], d = sizes[3];
+    const double u_8 = HC_u_8, more = HC_more;
+    /* printed from the program "tangent-beyond" */
+    const double p = alpha * alpha;
+    const double q = b * b;
+    const double q_lambda = q * lambda_;
+    const double across = p + q_lambda;
+    const double one_plus_lambda = 1.0 + lambda_;
+    const double product = across * one_plus_lambda;
+    const double K = product / lambda_;
+    const double K_most = more * K;
+    const double s = gamma * gamma;
+    const double t = d * d;
+    const double t_lambda = t * lambda_;
+    const double gap = s - t_lambda;
+    const double gap_terms = s + t_lambda;
+    const double gap_error = u_8 * gap_terms;
+    const double gap_least = gap - gap_error;
+    const double M = across / gap_least;
+    const double M_most = more * M;
+    /* end of the program "tangent-beyond" */
+    const int proves = lambda_ > 0 && gap_least > 0 && K_most >= HC_least_constant && M_most <= HC_greatest_slope;
+    line->K = proves ? K_most : HC_NEVER;
+    line->M = proves ? M_most : 0;
+}
+
+static void hc_tangent_within(const double sizes[4], double mu, hc_line *line) {
+    const double alpha = sizes[0], gamma = sizes[1], b = sizes[2], d = sizes[3];
+    const double u_8 = HC_u_8, less = HC_less;
+    /* printed from the program "tangent-within" */
+    const double p = alpha * alpha;
+    const double q = b * b;
+    const double q_mu = q * mu;
+    const double across = p - q_mu;
+    const double across_terms = p + q_mu;
+    const double across_error = u_8 * across_terms;
+    const double across_least = across - across_error;
+    const double mu_minus_one = mu - 1.0;
+    const double product = across_least * mu_minus_one;
+    const double K = product / mu;
+    const double K_least = less * K;
+    const double s = gamma * gamma;
+    const double t = d * d;
+    const double t_mu = t * mu;
+    const double along = s + t_mu;
+    const double M = across_least / along;
+    const double M_least = less * M;
+    /* end of the program "tangent-within" */
+    const int proves = mu > 1 && across_least > 0 && K_least >= HC_least_constant && M_least <= HC_greatest_slope;
+    line->K = proves ? K_least : -1;
+    line->M = proves ? M_least : 0;
+}
+
+/* A place (z, x) where the position is known not to be `side`, near the edge P at that height; R = -1 if none was found. */
+typedef struct {
+    double T, R;
+} hc_point;
+
+static hc_point hc_known_point(const double sizes[4], double z, double P, int side) {
+    static const double steps[3] = {9.3132257461547852e-10 /* 2^-30 */, 1.52587890625e-05 /* 2^-16 */, 0.00390625 /* 2^-8 */};
+    double row[7];
+    hc_point point;
+    int i;
+    memcpy(row, sizes, 4 * sizeof *row);
+    row[5] = 0;
+    row[6] = z;
+    point.T = z * z;
+    for (i = 0; i < 3; i++) {
+        row[4] = P > 0 ? hc_short(sizes[2] * hc_rough_root(P * (1 - side * steps[i])), side < 0) : 0;
+        point.R = row[4] * row[4];
+        if (point.R < HC_cap && hc_position_of(row) != side) return point;
+    }
+    point.R = -1;
+    return point;
+}
+
+/* A line below (side 1) or above (side -1) the chord of two points, checked at both; else one that proves nothing. */
+static void hc_chord(hc_point from, hc_point to, int side, hc_line *line) {
+    const double more = HC_more, less = HC_less, T_0 = from.T, R_0 = from.R, T_1 = to.T, R_1 = to.R;
+    const double slope = T_1 > T_0 ? (R_1 - R_0) / (T_1 - T_0) : 0;
+    const double M = side < 0 && R_0 - slope * T_0 < 0 ? R_1 / T_1 * (1 + 9.3132257461547852e-10) : slope;
+    const double start = (side > 0 && R_1 < R_0 ? R_1 : R_0) - M * T_0;
+    const double moved = start * (1 - side * 9.3132257461547852e-10);
+    const double K = side < 0 && M > 0 && !(moved >= HC_least_constant) ? HC_least_constant : moved;
+    /* printed from the program "chord" */
+    const double rise_0 = M * T_0;
+    const double line_0 = K + rise_0;
+    const double rise_1 = M * T_1;
+    const double line_1 = K + rise_1;
+    const double lowered_0 = less * R_0;
+    const double lowered_1 = less * R_1;
+    const double raised_0 = more * R_0;
+    const double raised_1 = more * R_1;
+    const int below_0 = line_0 <= lowered_0;
+    const int below_1 = line_1 <= lowered_1;
+    const int above_0 = line_0 >= raised_0;
+    const int above_1 = line_1 >= raised_1;
+    const int below = below_0 & below_1;
+    const int above = above_0 & above_1;
+    /* end of the program "chord" */
+    const int known = R_0 >= 0 && R_1 >= 0 && M >= 0 && M <= HC_greatest_slope;
+    const int proves = known && (side > 0 ? below && K >= HC_least_constant : above);
+    line->K = proves ? K : side > 0 ? -1 : HC_NEVER;
+    line->M = proves ? M : 0;
+}
+
+/* The heights that the centres have, from a sample of them. */
+static void hc_sample_heights(size_t n, const double *z, double *least, double *greatest) {
+    const size_t step = n / 64 + 1;
+    size_t i;
+    *least = HC_NEVER;
+    *greatest = 0;
+    for (i = 0; i < n; i += step) {
+        const double height = z[i] < 0 ? -z[i] : z[i];
+        if (height < *least) *least = height;
+        if (height > *greatest && height < HC_greatest_height) *greatest = height;
+    }
+}
+
+/* Chooses and proves the half planes of a scene. Returns 0, and the first stage is left out, where its sizes are too
+   large or small for the margins. */
+static int hc_make_scene(hc_scene *scene, const double sizes[4], size_t n, const double *z) {
+    const double A = sizes[0] / sizes[2] * (sizes[0] / sizes[2]), B = sizes[1] / sizes[3] * (sizes[1] / sizes[3]);
+    double least, greatest, heights[3], Q[3];
+    hc_point under[3], above[3];
+    int i;
+    for (i = 0; i < 4; i++)
+        if (!(sizes[i] > HC_least_size && sizes[i] < HC_greatest_size)) return 0;
+    hc_sample_heights(n, z, &least, &greatest);
+    /* Three heights: 0, one below most of the sample, one above nearly all of it. */
+    heights[0] = 0;
+    heights[2] = greatest > HC_least_height ? hc_short(1.0625 * greatest, 1) : 0;
+    heights[1] = hc_short(least < greatest && least > 0.55 * heights[2] ? 0.999 * least : 0.55 * heights[2], 0);
+    for (i = 0; i < 3; i++) {
+        Q[i] = heights[i] / sizes[3] * (heights[i] / sizes[3]);
+        under[i] = hc_known_point(sizes, heights[i], hc_edge(A, B, Q[i], 1), 1);
+        above[i] = hc_known_point(sizes, heights[i], hc_edge(A, B, Q[i], -1), -1);
+    }
+    for (i = 0; i < 3; i++) { /* line 0 over all heights, 1 over the lower, 2 over the upper ones */
+        const int from = i == 2, to = i == 1 ? 1 : 2;
+        const double Q_middle = i == 0 ? Q[1] : 0.5 * (Q[from] + Q[to]);
+        hc_tangent_beyond(sizes, hc_best_multiplier(A, B, Q_middle, 1), scene->beyond + i);
+        hc_tangent_within(sizes, hc_best_multiplier(A, B, Q_middle, -1), scene->within + i);
+        hc_chord(under[from], under[to], 1, scene->under + i);
+        hc_chord(above[from], above[to], -1, scene->above + i);
+    }
+    scene->reach = under[2].T * HC_less;
+    return HC_FLOATS_DECIDE;
+}
+
+/* ---- which instruction set, and the public functions ---- */
+
+typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
+                                  int8_t *, uint64_t *);
+
+typedef struct {
+    const char *name;
+    hc_bits (*certified)(const double *, size_t, int);
+    void (*spread)(int8_t *, uint64_t, uint64_t);
+    hc_lines_function one_line[4], two_lines[4]; /* by question */
+} hc_level_functions;
+
+#define HC_QUESTIONS(lines, level) \
+    { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
+#define HC_LEVEL_FUNCTIONS(level) \
+    { #level, hc_certified_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+
+static const hc_level_functions hc_levels[] = {
+    HC_LEVEL_FUNCTIONS(plain),
+#if HC_X86
+    HC_LEVEL_FUNCTIONS(sse2),
+    HC_LEVEL_FUNCTIONS(avx2),
+    HC_LEVEL_FUNCTIONS(avx512),
+#endif
+};
+
+static int hc_best_level(void) {
+#if HC_X86
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+        return 3;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 2;
+    return 1;
+#else
+    return 0;
+#endif
+}
+
+static volatile int hc_level_in_use = -1;
+
+static const hc_level_functions *hc_level(void) {
+    if (hc_level_in_use < 0) hc_level_in_use = hc_best_level();
+    return hc_levels + hc_level_in_use;
+}
+
+const char *hypcheck_level(void) { return hc_level()->name; }
+
+int hypcheck_use_level(const char *name) {
+    int level;
+    for (level = hc_best_level(); level >= 0; level--)
+        if (strcmp(hc_levels[level].name, name) == 0) {
+            hc_level_in_use = level;
+            return 1;
+        }
+    return 0;
+}
+
+static int8_t hc_answer(int question, int position) {
+    switch (question) {
+    case HYPCHECK_EXTERIOR: return position > 0;
+    case HYPCHECK_INTERIOR: return position < 0;
+    case HYPCHECK_CONTACT: return position == 0;
+    default: return (int8_t)position;
+    }
+}
+
+/* Rows that wait for the second stage, by columns, and where their answers go. */
+typedef struct {
+    double columns[7 * HC_BLOCK];
+    size_t places[HC_BLOCK];
+    int count;
+} hc_waiting;
+
+/* The second and the third stage for all that wait. Returns the number of invalid rows. */
+static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
+    const hc_bits found = level->certified(waiting->columns, HC_BLOCK, waiting->count);
+    int8_t positions[HC_BLOCK];
+    size_t refused = 0;
+    int i, k;
+    level->spread(positions, found.plus, found.minus);
+    for (i = 0; i < waiting->count; i++) {
+        int8_t answer = hc_answer(question, positions[i]);
+        if (!(HC_FLOATS_DECIDE && found.decided >> i & 1)) {
+            double row[7];
+            for (k = 0; k < 7; k++) row[k] = waiting->columns[k * HC_BLOCK + i];
+            if (hc_valid(row)) answer = hc_answer(question, hc_exact_position(row));
+            else answer = 127, refused++;
+        }
+        answers[waiting->places[i]] = answer;
+    }
+    waiting->count = 0;
+    return refused;
+}
+
+size_t hypcheck_ask(int question, size_t n, const double *rows, int8_t *answers) {
+    const hc_level_functions *level = hc_level();
+    hc_waiting waiting;
+    size_t refused = 0, i;
+    int k;
+    memset(&waiting, 0, sizeof waiting);
+    for (i = 0; i < n; i++) {
+        for (k = 0; k < 7; k++) waiting.columns[k * HC_BLOCK + waiting.count] = rows[7 * i + (size_t)k];
+        waiting.places[waiting.count++] = i;
+        if (waiting.count == HC_BLOCK) refused += hc_settle(level, question, &waiting, answers);
+    }
+    return refused + hc_settle(level, question, &waiting, answers);
+}
+
+static size_t hc_wait(const hc_level_functions *level, int question, hc_waiting *waiting, size_t place, double x,
+                      double y, double z, int8_t *answers) {
+    const int at = waiting->count++;
+    waiting->columns[4 * HC_BLOCK + at] = x;
+    waiting->columns[5 * HC_BLOCK + at] = y;
+    waiting->columns[6 * HC_BLOCK + at] = z;
+    waiting->places[at] = place;
+    return waiting->count == HC_BLOCK ? hc_settle(level, question, waiting, answers) : 0;
+}
+
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers) {
+    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+    const hc_level_functions *level = hc_level();
+    hc_lines_function lines = level->one_line[question];
+    hc_waiting waiting;
+    hc_scene scene;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t refused = 0, start, i;
+    int has_lines, block, k;
+    if (!hc_valid(probe)) {
+        memset(answers, 127, n);
+        return n;
+    }
+    memset(&waiting, 0, sizeof waiting);
+    for (k = 0; k < 4 * HC_BLOCK; k++) waiting.columns[k] = sizes[k / HC_BLOCK];
+    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    for (start = 0; start < n; start += HC_STRIP) {
+        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
+        const int blocks = has_lines ? (int)((end - start) / HC_BLOCK) : 0;
+        int lefts = 0;
+        if (blocks) lines(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
+        for (block = 0; block < blocks; block++)
+            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
+                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+                refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+            }
+        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[question];
+        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+            refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+    }
+    return refused + hc_settle(level, question, &waiting, answers);
+}
+
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions) {
+    hypcheck_ask(HYPCHECK_POSITION, n, rows, positions);
+}
+
+void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
+                             int8_t *positions) {
+    hypcheck_ask_scene(HYPCHECK_POSITION, sizes, n, x, y, z, positions);
+}
+
+int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z) {
+    const double row[7] = {alpha, gamma, b, d, x, y, z};
+    return hc_position_of(row);
+}
+
+#elif defined(HC_LEVEL)
+
+/* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
+
+#if HC_LEVEL == 3
+#define HC_NAME(name) name##_avx512
+#define HC_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma,bmi2")))
+#define HC_WIDTH 8
+#define HC_NUMBER __m512d
+#define HC_TRUTH __mmask8
+#define HC_LOAD(from) _mm512_loadu_pd(from)
+#define HC_SET(value) _mm512_set1_pd(value)
+#define HC_ABS(a) _mm512_abs_pd(a)
+#define HC_GT(a, b) _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ)
+#define HC_LT(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ)
+#define HC_GE(a, b) _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ)
+#define HC_LE(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ)
+#define HC_AND(a, b) ((HC_TRUTH)((a) & (b)))
+#define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
+#define HC_BITS(truth) ((uint64_t)(truth))
+#elif HC_LEVEL == 2
+#define HC_NAME(name) name##_avx2
+#define HC_TARGET __attribute__((target("avx2,fma,bmi2")))
+#define HC_WIDTH 4
+#define HC_NUMBER __m256d
+#define HC_TRUTH __m256d
+#define HC_LOAD(from) _mm256_loadu_pd(from)
+#define HC_SET(value) _mm256_set1_pd(value)
+#define HC_ABS(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
+#define HC_GT(a, b) _mm256_cmp_pd(a, b, _CMP_GT_OQ)
+#define HC_LT(a, b) _mm256_cmp_pd(a, b, _CMP_LT_OQ)
+#define HC_GE(a, b) _mm256_cmp_pd(a, b, _CMP_GE_OQ)
+#define HC_LE(a, b) _mm256_cmp_pd(a, b, _CMP_LE_OQ)
+#define HC_AND(a, b) _mm256_and_pd(a, b)
+#define HC_OR(a, b) _mm256_or_pd(a, b)
+#define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
+#elif HC_LEVEL == 1
+#define HC_NAME(name) name##_sse2
+#define HC_TARGET
+#define HC_WIDTH 2
+#define HC_NUMBER __m128d
+#define HC_TRUTH __m128d
+#define HC_LOAD(from) _mm_loadu_pd(from)
+#define HC_SET(value) _mm_set1_pd(value)
+#define HC_ABS(a) _mm_andnot_pd(_mm_set1_pd(-0.0), a)
+#define HC_GT(a, b) _mm_cmpgt_pd(a, b)
+#define HC_LT(a, b) _mm_cmplt_pd(a, b)
+#define HC_GE(a, b) _mm_cmpge_pd(a, b)
+#define HC_LE(a, b) _mm_cmple_pd(a, b)
+#define HC_AND(a, b) _mm_and_pd(a, b)
+#define HC_OR(a, b) _mm_or_pd(a, b)
+#define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
+#else
+#define HC_NAME(name) name##_plain
+#define HC_TARGET
+#define HC_WIDTH 1
+#define HC_NUMBER double
+#define HC_TRUTH int
+#define HC_LOAD(from) (*(from))
+#define HC_SET(value) (value)
+#define HC_ABS(a) ((a) < 0 ? -(a) : (a))
+#define HC_GT(a, b) ((a) > (b))
+#define HC_LT(a, b) ((a) < (b))
+#define HC_GE(a, b) ((a) >= (b))
+#define HC_LE(a, b) ((a) <= (b))
+#define HC_AND(a, b) ((a) & (b))
+#define HC_OR(a, b) ((a) | (b))
+#define HC_BITS(truth) ((uint64_t)(truth))
+#endif
+
+HC_TARGET static int HC_NAME(hc_all_below)(HC_NUMBER numbers, double limit) {
+    return HC_BITS(HC_LT(numbers, HC_SET(limit))) == ((uint64_t)1 << HC_WIDTH) - 1;
+}
+
+/* 64 bytes: 1 where `plus` has a bit, -1 where `minus` has one, else 0. */
+HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t minus) {
+#if HC_LEVEL == 3
+    const __m512i ones = _mm512_maskz_set1_epi8((__mmask64)plus, 1);
+    _mm512_storeu_si512((void *)bytes, _mm512_mask_set1_epi8(ones, (__mmask64)minus, -1));
+#elif HC_LEVEL == 2
+    const __m256i place = _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
+    const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201u);
+    int half;
+    for (half = 0; half < 2; half++) {
+        const __m256i p = _mm256_shuffle_epi8(_mm256_set1_epi32((int)(uint32_t)(plus >> 32 * half)), place);
+        const __m256i m = _mm256_shuffle_epi8(_mm256_set1_epi32((int)(uint32_t)(minus >> 32 * half)), place);
+        const __m256i is_plus = _mm256_cmpeq_epi8(_mm256_and_si256(p, bit), bit);
+        const __m256i is_minus = _mm256_cmpeq_epi8(_mm256_and_si256(m, bit), bit);
+        _mm256_storeu_si256((__m256i *)(void *)(bytes + 32 * half),
+                            _mm256_or_si256(is_minus, _mm256_sub_epi8(_mm256_setzero_si256(), is_plus)));
+    }
+#elif HC_LEVEL == 1
+    const __m128i bit = _mm_set1_epi64x((long long)0x8040201008040201u);
+    int part;
+    for (part = 0; part < 4; part++) {
+        const int p = (int)(plus >> 16 * part & 0xffff), m = (int)(minus >> 16 * part & 0xffff);
+        const __m128i eight_p = _mm_unpacklo_epi64(_mm_set1_epi8((char)p), _mm_set1_epi8((char)(p >> 8)));
+        const __m128i eight_m = _mm_unpacklo_epi64(_mm_set1_epi8((char)m), _mm_set1_epi8((char)(m >> 8)));
+        const __m128i is_plus = _mm_cmpeq_epi8(_mm_and_si128(eight_p, bit), bit);
+        const __m128i is_minus = _mm_cmpeq_epi8(_mm_and_si128(eight_m, bit), bit);
+        _mm_storeu_si128((__m128i *)(void *)(bytes + 16 * part),
+                         _mm_or_si128(is_minus, _mm_sub_epi8(_mm_setzero_si128(), is_plus)));
+    }
+#else
+    int i;
+    for (i = 0; i < HC_BLOCK; i++) bytes[i] = (int8_t)((int)(plus >> i & 1) - (int)(minus >> i & 1));
+#endif
+}
+
+/* The second stage on at most HC_BLOCK rows; column k begins at columns + k stride and is readable up to a multiple of
+   HC_WIDTH rows. */
+HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t stride, int count) {
+    hc_bits found = {0, 0, 0};
+    int at;
+    const HC_NUMBER u_4 = HC_SET(HC_u_4);
+    const HC_NUMBER u_8 = HC_SET(HC_u_8);
+    const HC_NUMBER u_12 = HC_SET(HC_u_12);
+    const HC_NUMBER u_16 = HC_SET(HC_u_16);
+    const HC_NUMBER slack = HC_SET(HC_slack);
+    const HC_NUMBER tiny = HC_SET(HC_tiny);
+    const HC_NUMBER least = HC_SET(HC_least);
+    const HC_NUMBER greatest = HC_SET(HC_greatest);
+    for (at = 0; at < count; at += HC_WIDTH) {
+        const HC_NUMBER alpha = HC_LOAD(columns + 0 * stride + at);
+        const HC_NUMBER gamma = HC_LOAD(columns + 1 * stride + at);
+        const HC_NUMBER b = HC_LOAD(columns + 2 * stride + at);
+        const HC_NUMBER d = HC_LOAD(columns + 3 * stride + at);
+        const HC_NUMBER x = HC_LOAD(columns + 4 * stride + at);
+        const HC_NUMBER y = HC_LOAD(columns + 5 * stride + at);
+        const HC_NUMBER z = HC_LOAD(columns + 6 * stride + at);
+        /* printed from the program "certified" */
+        const HC_NUMBER alpha_over_b = alpha / b;
+        const HC_NUMBER A = alpha_over_b * alpha_over_b;
+        const HC_NUMBER gamma_over_d = gamma / d;
+        const HC_NUMBER B = gamma_over_d * gamma_over_d;
+        const HC_NUMBER AB = A * B;
+        const HC_NUMBER c0 = -AB;
+        const HC_NUMBER c0_plus_A = c0 + A;
+        const HC_NUMBER C = c0_plus_A - B;
+        const HC_NUMBER xx = x * x;
+        const HC_NUMBER yy = y * y;
+        const HC_NUMBER rr = xx + yy;
+        const HC_NUMBER bb = b * b;
+        const HC_NUMBER P = rr / bb;
+        const HC_NUMBER z_over_d = z / d;
+        const HC_NUMBER Q = z_over_d * z_over_d;
+        const HC_NUMBER BP = B * P;
+        const HC_NUMBER C_plus_BP = C + BP;
+        const HC_NUMBER AQ = A * Q;
+        const HC_NUMBER c1 = C_plus_BP - AQ;
+        const HC_NUMBER A_minus_B = A - B;
+        const HC_NUMBER K = A_minus_B + HC_SET(1.0);
+        const HC_NUMBER K_minus_P = K - P;
+        const HC_NUMBER c2 = K_minus_P - Q;
+        const HC_NUMBER c2_squared = c2 * c2;
+        const HC_NUMBER three_c1 = HC_SET(3.0) * c1;
+        const HC_NUMBER h1 = c2_squared - three_c1;
+        const HC_NUMBER c2c1 = c2 * c1;
+        const HC_NUMBER nine_c0 = HC_SET(9.0) * c0;
+        const HC_NUMBER h2 = c2c1 - nine_c0;
+        const HC_NUMBER c1_squared = c1 * c1;
+        const HC_NUMBER c2c0 = c2 * c0;
+        const HC_NUMBER three_c2c0 = HC_SET(3.0) * c2c0;
+        const HC_NUMBER h3 = c1_squared - three_c2c0;
+        const HC_NUMBER h1h3 = h1 * h3;
+        const HC_NUMBER h1h3_4 = HC_SET(4.0) * h1h3;
+        const HC_NUMBER h2_squared = h2 * h2;
+        const HC_NUMBER delta_3 = h1h3_4 - h2_squared;
+        const HC_TRUTH alpha_usable = HC_GT(alpha, HC_SET(0.0));
+        const HC_TRUTH gamma_usable = HC_GT(gamma, HC_SET(0.0));
+        const HC_TRUTH b_not_small = HC_GT(b, least);
+        const HC_TRUTH b_not_large = HC_LT(b, greatest);
+        const HC_TRUTH d_not_small = HC_GT(d, least);
+        const HC_TRUTH d_not_large = HC_LT(d, greatest);
+        const HC_TRUTH A_not_small = HC_GT(A, least);
+        const HC_TRUTH A_not_large = HC_LT(A, greatest);
+        const HC_TRUTH B_not_small = HC_GT(B, least);
+        const HC_TRUTH B_not_large = HC_LT(B, greatest);
+        const HC_TRUTH positive_radial = HC_AND(alpha_usable, gamma_usable);
+        const HC_TRUTH b_usable = HC_AND(b_not_small, b_not_large);
+        const HC_TRUTH d_usable = HC_AND(d_not_small, d_not_large);
+        const HC_TRUTH A_usable = HC_AND(A_not_small, A_not_large);
+        const HC_TRUTH B_usable = HC_AND(B_not_small, B_not_large);
+        const HC_TRUTH radial_usable = HC_AND(b_usable, A_usable);
+        const HC_TRUTH axial_usable = HC_AND(d_usable, B_usable);
+        const HC_TRUTH ratios_usable = HC_AND(radial_usable, axial_usable);
+        const HC_TRUTH usable = HC_AND(positive_radial, ratios_usable);
+        const HC_NUMBER A_plus_B = A + B;
+        const HC_NUMBER sizes_1 = A_plus_B + AB;
+        const HC_NUMBER BP_plus_AQ = BP + AQ;
+        const HC_NUMBER terms_1 = sizes_1 + BP_plus_AQ;
+        const HC_NUMBER sizes_2 = A_plus_B + HC_SET(1.0);
+        const HC_NUMBER P_plus_Q = P + Q;
+        const HC_NUMBER terms_2 = sizes_2 + P_plus_Q;
+        const HC_NUMBER relative_1 = u_12 * terms_1;
+        const HC_NUMBER e1 = relative_1 + tiny;
+        const HC_NUMBER relative_2 = u_8 * terms_2;
+        const HC_NUMBER e2 = relative_2 + tiny;
+        const HC_NUMBER e0 = u_8 * AB;
+        const HC_NUMBER m0 = AB + e0;
+        const HC_NUMBER size_c1 = HC_ABS(c1);
+        const HC_NUMBER m1 = size_c1 + e1;
+        const HC_NUMBER size_c2 = HC_ABS(c2);
+        const HC_NUMBER m2 = size_c2 + e2;
+        const HC_NUMBER u_m0 = u_4 * m0;
+        const HC_NUMBER f0 = e0 + u_m0;
+        const HC_NUMBER u_m1 = u_4 * m1;
+        const HC_NUMBER f1 = e1 + u_m1;
+        const HC_NUMBER u_m2 = u_4 * m2;
+        const HC_NUMBER twice_e2 = HC_SET(2.0) * e2;
+        const HC_NUMBER f2 = twice_e2 + u_m2;
+        const HC_NUMBER m2_f2 = m2 * f2;
+        const HC_NUMBER thrice_f1 = HC_SET(3.0) * f1;
+        const HC_NUMBER E1 = m2_f2 + thrice_f1;
+        const HC_NUMBER m2_f1 = m2 * f1;
+        const HC_NUMBER m1_e2 = m1 * e2;
+        const HC_NUMBER cross_21 = m2_f1 + m1_e2;
+        const HC_NUMBER ninefold_f0 = HC_SET(9.0) * f0;
+        const HC_NUMBER E2 = cross_21 + ninefold_f0;
+        const HC_NUMBER twice_e1 = HC_SET(2.0) * e1;
+        const HC_NUMBER f3 = twice_e1 + u_m1;
+        const HC_NUMBER m1_f3 = m1 * f3;
+        const HC_NUMBER m2_f0 = m2 * f0;
+        const HC_NUMBER m0_e2 = m0 * e2;
+        const HC_NUMBER cross_20 = m2_f0 + m0_e2;
+        const HC_NUMBER thrice_cross_20 = HC_SET(3.0) * cross_20;
+        const HC_NUMBER E3 = m1_f3 + thrice_cross_20;
+        const HC_NUMBER size_h1 = HC_ABS(h1);
+        const HC_NUMBER a1 = size_h1 + E1;
+        const HC_NUMBER size_h2 = HC_ABS(h2);
+        const HC_NUMBER a2 = size_h2 + E2;
+        const HC_NUMBER size_h3 = HC_ABS(h3);
+        const HC_NUMBER a3 = size_h3 + E3;
+        const HC_NUMBER u_a3 = u_4 * a3;
+        const HC_NUMBER F3 = E3 + u_a3;
+        const HC_NUMBER a1_F3 = a1 * F3;
+        const HC_NUMBER a3_E1 = a3 * E1;
+        const HC_NUMBER cross_13 = a1_F3 + a3_E1;
+        const HC_NUMBER fourfold_cross_13 = HC_SET(4.0) * cross_13;
+        const HC_NUMBER u_a2 = u_4 * a2;
+        const HC_NUMBER twice_E2 = HC_SET(2.0) * E2;
+        const HC_NUMBER F2 = twice_E2 + u_a2;
+        const HC_NUMBER a2_F2 = a2 * F2;
+        const HC_NUMBER E_sum = fourfold_cross_13 + a2_F2;
+        const HC_NUMBER E = slack * E_sum;
+        const HC_NUMBER minus_E = -E;
+        const HC_NUMBER two_c2 = HC_SET(2.0) * c2;
+        const HC_NUMBER twice_m2 = HC_SET(2.0) * m2;
+        const HC_NUMBER thrice_B = HC_SET(3.0) * B;
+        const HC_NUMBER chord_B = thrice_B + two_c2;
+        const HC_NUMBER rise_B = chord_B * B;
+        const HC_NUMBER slope_B = rise_B + c1;
+        const HC_NUMBER offset_B = thrice_B + c2;
+        const HC_NUMBER size_chord_B = thrice_B + twice_m2;
+        const HC_NUMBER size_rise_B = size_chord_B * B;
+        const HC_NUMBER size_slope_B = size_rise_B + m1;
+        const HC_NUMBER u_slope_B = u_16 * size_slope_B;
+        const HC_NUMBER carried_B = twice_e2 * B;
+        const HC_NUMBER carried_1_B = carried_B + e1;
+        const HC_NUMBER error_B = carried_1_B + u_slope_B;
+        const HC_NUMBER bound_B = slack * error_B;
+        const HC_NUMBER below_B = -bound_B;
+        const HC_NUMBER size_offset_B = B + m2;
+        const HC_NUMBER u_offset_B = u_16 * size_offset_B;
+        const HC_NUMBER offset_error_B = e2 + u_offset_B;
+        const HC_NUMBER offset_bound_B = slack * offset_error_B;
+        const HC_NUMBER offset_below_B = -offset_bound_B;
+        const HC_TRUTH rises_B = HC_GT(slope_B, bound_B);
+        const HC_TRUTH falls_B = HC_LT(slope_B, below_B);
+        const HC_TRUTH inflection_inside_B = HC_GT(offset_B, offset_bound_B);
+        const HC_TRUTH inflection_beyond_B = HC_LT(offset_B, offset_below_B);
+        const HC_NUMBER thrice_A = HC_SET(3.0) * A;
+        const HC_NUMBER chord_A = thrice_A - two_c2;
+        const HC_NUMBER rise_A = chord_A * A;
+        const HC_NUMBER slope_A = rise_A + c1;
+        const HC_NUMBER offset_A = thrice_A - c2;
+        const HC_NUMBER size_chord_A = thrice_A + twice_m2;
+        const HC_NUMBER size_rise_A = size_chord_A * A;
+        const HC_NUMBER size_slope_A = size_rise_A + m1;
+        const HC_NUMBER u_slope_A = u_16 * size_slope_A;
+        const HC_NUMBER carried_A = twice_e2 * A;
+        const HC_NUMBER carried_1_A = carried_A + e1;
+        const HC_NUMBER error_A = carried_1_A + u_slope_A;
+        const HC_NUMBER bound_A = slack * error_A;
+        const HC_NUMBER below_A = -bound_A;
+        const HC_NUMBER size_offset_A = A + m2;
+        const HC_NUMBER u_offset_A = u_16 * size_offset_A;
+        const HC_NUMBER offset_error_A = e2 + u_offset_A;
+        const HC_NUMBER offset_bound_A = slack * offset_error_A;
+        const HC_NUMBER offset_below_A = -offset_bound_A;
+        const HC_TRUTH rises_A = HC_GT(slope_A, bound_A);
+        const HC_TRUTH falls_A = HC_LT(slope_A, below_A);
+        const HC_TRUTH inflection_inside_A = HC_GT(offset_A, offset_bound_A);
+        const HC_TRUTH inflection_beyond_A = HC_LT(offset_A, offset_below_A);
+        const HC_NUMBER minus_e1 = -e1;
+        const HC_NUMBER minus_e2 = -e2;
+        const HC_TRUTH distinct = HC_GT(delta_3, E);
+        const HC_TRUTH one_root = HC_LT(delta_3, minus_E);
+        const HC_TRUTH c1_positive = HC_GT(c1, e1);
+        const HC_TRUTH c1_negative = HC_LT(c1, minus_e1);
+        const HC_TRUTH c2_positive = HC_GT(c2, e2);
+        const HC_TRUTH c2_negative = HC_LT(c2, minus_e2);
+        const HC_TRUTH three_roots = HC_AND(distinct, usable);
+        const HC_TRUTH falling_then_rising = HC_AND(c2_negative, c1_positive);
+        const HC_TRUTH all_positive = HC_AND(three_roots, falling_then_rising);
+        const HC_TRUTH some_sign_differs = HC_OR(c2_positive, c1_negative);
+        const HC_TRUTH two_negative = HC_AND(three_roots, some_sign_differs);
+        const HC_TRUTH some_below_B = HC_OR(inflection_inside_B, falls_B);
+        const HC_TRUTH none_below_B = HC_AND(inflection_beyond_B, rises_B);
+        const HC_TRUTH both_above_A = HC_AND(inflection_inside_A, rises_A);
+        const HC_TRUTH none_above_A = HC_OR(inflection_beyond_A, falls_A);
+        const HC_TRUTH exterior = HC_AND(all_positive, some_below_B);
+        const HC_TRUTH interior = HC_AND(two_negative, both_above_A);
+        const HC_TRUTH crossing = HC_AND(one_root, usable);
+        const HC_TRUTH groove = HC_AND(all_positive, none_below_B);
+        const HC_TRUTH throat = HC_AND(two_negative, none_above_A);
+        const HC_TRUTH several_curves = HC_OR(groove, throat);
+        const HC_TRUTH contact = HC_OR(crossing, several_curves);
+        const HC_TRUTH clear = HC_OR(exterior, interior);
+        const HC_TRUTH decided = HC_OR(clear, contact);
+        /* end of the program "certified" */
+        found.plus |= HC_BITS(exterior) << at;
+        found.minus |= HC_BITS(interior) << at;
+        found.decided |= HC_BITS(decided) << at;
+    }
+    return found;
+}
+
+/* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
+   collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
+HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
+    const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
+    const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
+    const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
+    const HC_NUMBER K_under_0 = HC_SET(scene->under[0].K);
+    const HC_NUMBER M_under_0 = HC_SET(scene->under[0].M);
+    const HC_NUMBER K_above_0 = HC_SET(scene->above[0].K);
+    const HC_NUMBER M_above_0 = HC_SET(scene->above[0].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "one-line" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_0 = M_beyond_0 * T;
+            const HC_NUMBER line_beyond_0 = K_beyond_0 + rise_beyond_0;
+            const HC_TRUTH exterior = HC_GT(R, line_beyond_0);
+            const HC_NUMBER rise_within_0 = M_within_0 * T;
+            const HC_NUMBER line_within_0 = K_within_0 + rise_within_0;
+            const HC_TRUTH interior = HC_LT(R, line_within_0);
+            const HC_NUMBER rise_under_0 = M_under_0 * T;
+            const HC_NUMBER line_under_0 = K_under_0 + rise_under_0;
+            const HC_TRUTH is_under = HC_LT(R, line_under_0);
+            const HC_NUMBER rise_above_0 = M_above_0 * T;
+            const HC_NUMBER line_above_0 = K_above_0 + rise_above_0;
+            const HC_TRUTH is_above = HC_GE(R, line_above_0);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "one-line" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(exterior) << at;
+            found.minus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
+    const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
+    const HC_NUMBER K_under_0 = HC_SET(scene->under[0].K);
+    const HC_NUMBER M_under_0 = HC_SET(scene->under[0].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "one-line" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_0 = M_beyond_0 * T;
+            const HC_NUMBER line_beyond_0 = K_beyond_0 + rise_beyond_0;
+            const HC_TRUTH exterior = HC_GT(R, line_beyond_0);
+            const HC_NUMBER rise_under_0 = M_under_0 * T;
+            const HC_NUMBER line_under_0 = K_under_0 + rise_under_0;
+            const HC_TRUTH is_under = HC_LT(R, line_under_0);
+            const HC_TRUTH not_exterior = HC_AND(is_under, in_reach);
+            const HC_TRUTH exterior_decided = HC_OR(exterior, not_exterior);
+            /* end of the program "one-line" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(exterior) << at;
+            found.decided |= HC_BITS(exterior_decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
+    const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
+    const HC_NUMBER K_above_0 = HC_SET(scene->above[0].K);
+    const HC_NUMBER M_above_0 = HC_SET(scene->above[0].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "one-line" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_within_0 = M_within_0 * T;
+            const HC_NUMBER line_within_0 = K_within_0 + rise_within_0;
+            const HC_TRUTH interior = HC_LT(R, line_within_0);
+            const HC_NUMBER rise_above_0 = M_above_0 * T;
+            const HC_NUMBER line_above_0 = K_above_0 + rise_above_0;
+            const HC_TRUTH is_above = HC_GE(R, line_above_0);
+            const HC_TRUTH not_interior = HC_AND(is_above, in_reach);
+            const HC_TRUTH interior_decided = HC_OR(interior, not_interior);
+            /* end of the program "one-line" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(interior_decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
+    const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
+    const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
+    const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
+    const HC_NUMBER K_under_0 = HC_SET(scene->under[0].K);
+    const HC_NUMBER M_under_0 = HC_SET(scene->under[0].M);
+    const HC_NUMBER K_above_0 = HC_SET(scene->above[0].K);
+    const HC_NUMBER M_above_0 = HC_SET(scene->above[0].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "one-line" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_0 = M_beyond_0 * T;
+            const HC_NUMBER line_beyond_0 = K_beyond_0 + rise_beyond_0;
+            const HC_TRUTH exterior = HC_GT(R, line_beyond_0);
+            const HC_NUMBER rise_within_0 = M_within_0 * T;
+            const HC_NUMBER line_within_0 = K_within_0 + rise_within_0;
+            const HC_TRUTH interior = HC_LT(R, line_within_0);
+            const HC_NUMBER rise_under_0 = M_under_0 * T;
+            const HC_NUMBER line_under_0 = K_under_0 + rise_under_0;
+            const HC_TRUTH is_under = HC_LT(R, line_under_0);
+            const HC_NUMBER rise_above_0 = M_above_0 * T;
+            const HC_NUMBER line_above_0 = K_above_0 + rise_above_0;
+            const HC_TRUTH is_above = HC_GE(R, line_above_0);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "one-line" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(contact) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
+    const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
+    const HC_NUMBER K_beyond_2 = HC_SET(scene->beyond[2].K);
+    const HC_NUMBER M_beyond_2 = HC_SET(scene->beyond[2].M);
+    const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
+    const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
+    const HC_NUMBER K_within_2 = HC_SET(scene->within[2].K);
+    const HC_NUMBER M_within_2 = HC_SET(scene->within[2].M);
+    const HC_NUMBER K_under_1 = HC_SET(scene->under[1].K);
+    const HC_NUMBER M_under_1 = HC_SET(scene->under[1].M);
+    const HC_NUMBER K_under_2 = HC_SET(scene->under[2].K);
+    const HC_NUMBER M_under_2 = HC_SET(scene->under[2].M);
+    const HC_NUMBER K_above_1 = HC_SET(scene->above[1].K);
+    const HC_NUMBER M_above_1 = HC_SET(scene->above[1].M);
+    const HC_NUMBER K_above_2 = HC_SET(scene->above[2].K);
+    const HC_NUMBER M_above_2 = HC_SET(scene->above[2].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "two-lines" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_1 = M_beyond_1 * T;
+            const HC_NUMBER line_beyond_1 = K_beyond_1 + rise_beyond_1;
+            const HC_TRUTH exterior_1 = HC_GT(R, line_beyond_1);
+            const HC_NUMBER rise_beyond_2 = M_beyond_2 * T;
+            const HC_NUMBER line_beyond_2 = K_beyond_2 + rise_beyond_2;
+            const HC_TRUTH exterior_2 = HC_GT(R, line_beyond_2);
+            const HC_NUMBER rise_within_1 = M_within_1 * T;
+            const HC_NUMBER line_within_1 = K_within_1 + rise_within_1;
+            const HC_TRUTH interior_1 = HC_LT(R, line_within_1);
+            const HC_NUMBER rise_within_2 = M_within_2 * T;
+            const HC_NUMBER line_within_2 = K_within_2 + rise_within_2;
+            const HC_TRUTH interior_2 = HC_LT(R, line_within_2);
+            const HC_NUMBER rise_under_1 = M_under_1 * T;
+            const HC_NUMBER line_under_1 = K_under_1 + rise_under_1;
+            const HC_TRUTH is_under_1 = HC_LT(R, line_under_1);
+            const HC_NUMBER rise_under_2 = M_under_2 * T;
+            const HC_NUMBER line_under_2 = K_under_2 + rise_under_2;
+            const HC_TRUTH is_under_2 = HC_LT(R, line_under_2);
+            const HC_NUMBER rise_above_1 = M_above_1 * T;
+            const HC_NUMBER line_above_1 = K_above_1 + rise_above_1;
+            const HC_TRUTH is_above_1 = HC_GE(R, line_above_1);
+            const HC_NUMBER rise_above_2 = M_above_2 * T;
+            const HC_NUMBER line_above_2 = K_above_2 + rise_above_2;
+            const HC_TRUTH is_above_2 = HC_GE(R, line_above_2);
+            const HC_TRUTH exterior = HC_OR(exterior_1, exterior_2);
+            const HC_TRUTH interior = HC_OR(interior_1, interior_2);
+            const HC_TRUTH is_under = HC_AND(is_under_1, is_under_2);
+            const HC_TRUTH is_above = HC_AND(is_above_1, is_above_2);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "two-lines" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(exterior) << at;
+            found.minus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
+    const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
+    const HC_NUMBER K_beyond_2 = HC_SET(scene->beyond[2].K);
+    const HC_NUMBER M_beyond_2 = HC_SET(scene->beyond[2].M);
+    const HC_NUMBER K_under_1 = HC_SET(scene->under[1].K);
+    const HC_NUMBER M_under_1 = HC_SET(scene->under[1].M);
+    const HC_NUMBER K_under_2 = HC_SET(scene->under[2].K);
+    const HC_NUMBER M_under_2 = HC_SET(scene->under[2].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "two-lines" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_1 = M_beyond_1 * T;
+            const HC_NUMBER line_beyond_1 = K_beyond_1 + rise_beyond_1;
+            const HC_TRUTH exterior_1 = HC_GT(R, line_beyond_1);
+            const HC_NUMBER rise_beyond_2 = M_beyond_2 * T;
+            const HC_NUMBER line_beyond_2 = K_beyond_2 + rise_beyond_2;
+            const HC_TRUTH exterior_2 = HC_GT(R, line_beyond_2);
+            const HC_NUMBER rise_under_1 = M_under_1 * T;
+            const HC_NUMBER line_under_1 = K_under_1 + rise_under_1;
+            const HC_TRUTH is_under_1 = HC_LT(R, line_under_1);
+            const HC_NUMBER rise_under_2 = M_under_2 * T;
+            const HC_NUMBER line_under_2 = K_under_2 + rise_under_2;
+            const HC_TRUTH is_under_2 = HC_LT(R, line_under_2);
+            const HC_TRUTH exterior = HC_OR(exterior_1, exterior_2);
+            const HC_TRUTH is_under = HC_AND(is_under_1, is_under_2);
+            const HC_TRUTH not_exterior = HC_AND(is_under, in_reach);
+            const HC_TRUTH exterior_decided = HC_OR(exterior, not_exterior);
+            /* end of the program "two-lines" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(exterior) << at;
+            found.decided |= HC_BITS(exterior_decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
+    const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
+    const HC_NUMBER K_within_2 = HC_SET(scene->within[2].K);
+    const HC_NUMBER M_within_2 = HC_SET(scene->within[2].M);
+    const HC_NUMBER K_above_1 = HC_SET(scene->above[1].K);
+    const HC_NUMBER M_above_1 = HC_SET(scene->above[1].M);
+    const HC_NUMBER K_above_2 = HC_SET(scene->above[2].K);
+    const HC_NUMBER M_above_2 = HC_SET(scene->above[2].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "two-lines" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_within_1 = M_within_1 * T;
+            const HC_NUMBER line_within_1 = K_within_1 + rise_within_1;
+            const HC_TRUTH interior_1 = HC_LT(R, line_within_1);
+            const HC_NUMBER rise_within_2 = M_within_2 * T;
+            const HC_NUMBER line_within_2 = K_within_2 + rise_within_2;
+            const HC_TRUTH interior_2 = HC_LT(R, line_within_2);
+            const HC_NUMBER rise_above_1 = M_above_1 * T;
+            const HC_NUMBER line_above_1 = K_above_1 + rise_above_1;
+            const HC_TRUTH is_above_1 = HC_GE(R, line_above_1);
+            const HC_NUMBER rise_above_2 = M_above_2 * T;
+            const HC_NUMBER line_above_2 = K_above_2 + rise_above_2;
+            const HC_TRUTH is_above_2 = HC_GE(R, line_above_2);
+            const HC_TRUTH interior = HC_OR(interior_1, interior_2);
+            const HC_TRUTH is_above = HC_AND(is_above_1, is_above_2);
+            const HC_TRUTH not_interior = HC_AND(is_above, in_reach);
+            const HC_TRUTH interior_decided = HC_OR(interior, not_interior);
+            /* end of the program "two-lines" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(interior_decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
+    const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
+    const HC_NUMBER K_beyond_2 = HC_SET(scene->beyond[2].K);
+    const HC_NUMBER M_beyond_2 = HC_SET(scene->beyond[2].M);
+    const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
+    const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
+    const HC_NUMBER K_within_2 = HC_SET(scene->within[2].K);
+    const HC_NUMBER M_within_2 = HC_SET(scene->within[2].M);
+    const HC_NUMBER K_under_1 = HC_SET(scene->under[1].K);
+    const HC_NUMBER M_under_1 = HC_SET(scene->under[1].M);
+    const HC_NUMBER K_under_2 = HC_SET(scene->under[2].K);
+    const HC_NUMBER M_under_2 = HC_SET(scene->under[2].M);
+    const HC_NUMBER K_above_1 = HC_SET(scene->above[1].K);
+    const HC_NUMBER M_above_1 = HC_SET(scene->above[1].M);
+    const HC_NUMBER K_above_2 = HC_SET(scene->above[2].K);
+    const HC_NUMBER M_above_2 = HC_SET(scene->above[2].M);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (far)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "two-lines" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER R = xx + yy;
+            const HC_NUMBER T = z * z;
+            const HC_NUMBER R_plus_T = R + T;
+            const HC_TRUTH in_reach = HC_LE(T, reach);
+            const HC_NUMBER rise_beyond_1 = M_beyond_1 * T;
+            const HC_NUMBER line_beyond_1 = K_beyond_1 + rise_beyond_1;
+            const HC_TRUTH exterior_1 = HC_GT(R, line_beyond_1);
+            const HC_NUMBER rise_beyond_2 = M_beyond_2 * T;
+            const HC_NUMBER line_beyond_2 = K_beyond_2 + rise_beyond_2;
+            const HC_TRUTH exterior_2 = HC_GT(R, line_beyond_2);
+            const HC_NUMBER rise_within_1 = M_within_1 * T;
+            const HC_NUMBER line_within_1 = K_within_1 + rise_within_1;
+            const HC_TRUTH interior_1 = HC_LT(R, line_within_1);
+            const HC_NUMBER rise_within_2 = M_within_2 * T;
+            const HC_NUMBER line_within_2 = K_within_2 + rise_within_2;
+            const HC_TRUTH interior_2 = HC_LT(R, line_within_2);
+            const HC_NUMBER rise_under_1 = M_under_1 * T;
+            const HC_NUMBER line_under_1 = K_under_1 + rise_under_1;
+            const HC_TRUTH is_under_1 = HC_LT(R, line_under_1);
+            const HC_NUMBER rise_under_2 = M_under_2 * T;
+            const HC_NUMBER line_under_2 = K_under_2 + rise_under_2;
+            const HC_TRUTH is_under_2 = HC_LT(R, line_under_2);
+            const HC_NUMBER rise_above_1 = M_above_1 * T;
+            const HC_NUMBER line_above_1 = K_above_1 + rise_above_1;
+            const HC_TRUTH is_above_1 = HC_GE(R, line_above_1);
+            const HC_NUMBER rise_above_2 = M_above_2 * T;
+            const HC_NUMBER line_above_2 = K_above_2 + rise_above_2;
+            const HC_TRUTH is_above_2 = HC_GE(R, line_above_2);
+            const HC_TRUTH exterior = HC_OR(exterior_1, exterior_2);
+            const HC_TRUTH interior = HC_OR(interior_1, interior_2);
+            const HC_TRUTH is_under = HC_AND(is_under_1, is_under_2);
+            const HC_TRUTH is_above = HC_AND(is_above_1, is_above_2);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "two-lines" */
+            sum = sum + R_plus_T;
+            found.plus |= HC_BITS(contact) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+#undef HC_NAME
+#undef HC_TARGET
+#undef HC_WIDTH
+#undef HC_NUMBER
+#undef HC_TRUTH
+#undef HC_LOAD
+#undef HC_SET
+#undef HC_ABS
+#undef HC_GT
+#undef HC_LT
+#undef HC_GE
+#undef HC_LE
+#undef HC_AND
+#undef HC_OR
+#undef HC_BITS
+
+#endif

@@ -1,0 +1,70 @@
+/* Where a spheroid stands to a circular hyperboloid of one sheet: exact answers.
+
+   The hyperboloid x²/alpha² + y²/alpha² - z²/gamma² = 1 is centred at the origin; the spheroid has semi-axes b, b, d and
+   centre (x, y, z). The position of the two surfaces is
+
+       +1  exterior    0  contact, a tangency included    -1  interior    127  the row is invalid
+
+   and it is the exact one of the given doubles, in every regime and over all of float64: subnormal, huge, tangent, on
+   the ring where discriminants vanish. A row is valid where its four sizes are finite and > 0 and its centre is finite.
+
+   How to use it. One C file of the program says
+
+       #define HYPCHECK_IMPLEMENTATION
+       #include "hypcheck.h"
+
+   and the others include the header alone. C99 or C++11, no library, not even libm.
+
+   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z.
+   Alignment   that of double. Nothing has to be padded.
+   Aliasing    inputs may overlap each other. The output must not overlap an input.
+   NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
+               A scene with invalid sizes answers 127 everywhere. -0.0 is 0 as a coordinate.
+   Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes.
+   Threads     every function may be called from any number of threads at once. There is one global variable, the
+               instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
+   Arithmetic  answers do not depend on the rounding mode, on flushing subnormals to zero, or on contraction into FMA;
+               floating-point flags may be raised. -ffast-math breaks the proofs and is refused.
+
+   Every statement of floating-point arithmetic below between "printed" and "end of" is printed from the straight-line
+   programs that hypcheck proves to be the formulas they are named after, as are the steps of the exact integers. What
+   their bounds are and why they hold: docs/kernel.md of hypcheck. Made by: @COMMAND@ */
+
+#ifndef HYPCHECK_H
+#define HYPCHECK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is asked. HYPCHECK_POSITION is answered by a position, the others by 1 (yes) or 0 (no). */
+enum { HYPCHECK_POSITION = 0, HYPCHECK_EXTERIOR = 1, HYPCHECK_INTERIOR = 2, HYPCHECK_CONTACT = 3 };
+
+/* The position of each of n rows of 7 doubles. */
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
+
+/* The position of one spheroid at n centres; sizes are alpha, gamma, b, d. */
+void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
+                             int8_t *positions);
+
+/* The answer to a question for each row, or each centre. Returns the number of invalid ones, which are answered 127. */
+size_t hypcheck_ask(int question, size_t n, const double *rows, int8_t *answers);
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers);
+
+/* One position. */
+int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
+
+/* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
+   hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
+const char *hypcheck_level(void);
+int hypcheck_use_level(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

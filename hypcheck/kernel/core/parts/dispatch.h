@@ -1,0 +1,166 @@
+/* ---- which instruction set, and the public functions ---- */
+
+typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
+                                  int8_t *, uint64_t *);
+
+typedef struct {
+    const char *name;
+    hc_bits (*certified)(const double *, size_t, int);
+    void (*spread)(int8_t *, uint64_t, uint64_t);
+    hc_lines_function one_line[4], two_lines[4]; /* by question */
+} hc_level_functions;
+
+#define HC_QUESTIONS(lines, level) \
+    { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
+#define HC_LEVEL_FUNCTIONS(level) \
+    { #level, hc_certified_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+
+static const hc_level_functions hc_levels[] = {
+    HC_LEVEL_FUNCTIONS(plain),
+#if HC_X86
+    HC_LEVEL_FUNCTIONS(sse2),
+    HC_LEVEL_FUNCTIONS(avx2),
+    HC_LEVEL_FUNCTIONS(avx512),
+#endif
+};
+
+static int hc_best_level(void) {
+#if HC_X86
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+        return 3;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 2;
+    return 1;
+#else
+    return 0;
+#endif
+}
+
+static volatile int hc_level_in_use = -1;
+
+static const hc_level_functions *hc_level(void) {
+    if (hc_level_in_use < 0) hc_level_in_use = hc_best_level();
+    return hc_levels + hc_level_in_use;
+}
+
+const char *hypcheck_level(void) { return hc_level()->name; }
+
+int hypcheck_use_level(const char *name) {
+    int level;
+    for (level = hc_best_level(); level >= 0; level--)
+        if (strcmp(hc_levels[level].name, name) == 0) {
+            hc_level_in_use = level;
+            return 1;
+        }
+    return 0;
+}
+
+static int8_t hc_answer(int question, int position) {
+    switch (question) {
+    case HYPCHECK_EXTERIOR: return position > 0;
+    case HYPCHECK_INTERIOR: return position < 0;
+    case HYPCHECK_CONTACT: return position == 0;
+    default: return (int8_t)position;
+    }
+}
+
+/* Rows that wait for the second stage, by columns, and where their answers go. */
+typedef struct {
+    double columns[7 * HC_BLOCK];
+    size_t places[HC_BLOCK];
+    int count;
+} hc_waiting;
+
+/* The second and the third stage for all that wait. Returns the number of invalid rows. */
+static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
+    const hc_bits found = level->certified(waiting->columns, HC_BLOCK, waiting->count);
+    int8_t positions[HC_BLOCK];
+    size_t refused = 0;
+    int i, k;
+    level->spread(positions, found.plus, found.minus);
+    for (i = 0; i < waiting->count; i++) {
+        int8_t answer = hc_answer(question, positions[i]);
+        if (!(HC_FLOATS_DECIDE && found.decided >> i & 1)) {
+            double row[7];
+            for (k = 0; k < 7; k++) row[k] = waiting->columns[k * HC_BLOCK + i];
+            if (hc_valid(row)) answer = hc_answer(question, hc_exact_position(row));
+            else answer = 127, refused++;
+        }
+        answers[waiting->places[i]] = answer;
+    }
+    waiting->count = 0;
+    return refused;
+}
+
+size_t hypcheck_ask(int question, size_t n, const double *rows, int8_t *answers) {
+    const hc_level_functions *level = hc_level();
+    hc_waiting waiting;
+    size_t refused = 0, i;
+    int k;
+    memset(&waiting, 0, sizeof waiting);
+    for (i = 0; i < n; i++) {
+        for (k = 0; k < 7; k++) waiting.columns[k * HC_BLOCK + waiting.count] = rows[7 * i + (size_t)k];
+        waiting.places[waiting.count++] = i;
+        if (waiting.count == HC_BLOCK) refused += hc_settle(level, question, &waiting, answers);
+    }
+    return refused + hc_settle(level, question, &waiting, answers);
+}
+
+static size_t hc_wait(const hc_level_functions *level, int question, hc_waiting *waiting, size_t place, double x,
+                      double y, double z, int8_t *answers) {
+    const int at = waiting->count++;
+    waiting->columns[4 * HC_BLOCK + at] = x;
+    waiting->columns[5 * HC_BLOCK + at] = y;
+    waiting->columns[6 * HC_BLOCK + at] = z;
+    waiting->places[at] = place;
+    return waiting->count == HC_BLOCK ? hc_settle(level, question, waiting, answers) : 0;
+}
+
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers) {
+    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+    const hc_level_functions *level = hc_level();
+    hc_lines_function lines = level->one_line[question];
+    hc_waiting waiting;
+    hc_scene scene;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t refused = 0, start, i;
+    int has_lines, block, k;
+    if (!hc_valid(probe)) {
+        memset(answers, 127, n);
+        return n;
+    }
+    memset(&waiting, 0, sizeof waiting);
+    for (k = 0; k < 4 * HC_BLOCK; k++) waiting.columns[k] = sizes[k / HC_BLOCK];
+    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    for (start = 0; start < n; start += HC_STRIP) {
+        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
+        const int blocks = has_lines ? (int)((end - start) / HC_BLOCK) : 0;
+        int lefts = 0;
+        if (blocks) lines(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
+        for (block = 0; block < blocks; block++)
+            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
+                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+                refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+            }
+        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[question];
+        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+            refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+    }
+    return refused + hc_settle(level, question, &waiting, answers);
+}
+
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions) {
+    hypcheck_ask(HYPCHECK_POSITION, n, rows, positions);
+}
+
+void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
+                             int8_t *positions) {
+    hypcheck_ask_scene(HYPCHECK_POSITION, sizes, n, x, y, z, positions);
+}
+
+int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z) {
+    const double row[7] = {alpha, gamma, b, d, x, y, z};
+    return hc_position_of(row);
+}

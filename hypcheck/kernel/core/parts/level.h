@@ -1,0 +1,143 @@
+/* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
+
+#if HC_LEVEL == 3
+#define HC_NAME(name) name##_avx512
+#define HC_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma,bmi2")))
+#define HC_WIDTH 8
+#define HC_NUMBER __m512d
+#define HC_TRUTH __mmask8
+#define HC_LOAD(from) _mm512_loadu_pd(from)
+#define HC_SET(value) _mm512_set1_pd(value)
+#define HC_ABS(a) _mm512_abs_pd(a)
+#define HC_GT(a, b) _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ)
+#define HC_LT(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ)
+#define HC_GE(a, b) _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ)
+#define HC_LE(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ)
+#define HC_AND(a, b) ((HC_TRUTH)((a) & (b)))
+#define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
+#define HC_BITS(truth) ((uint64_t)(truth))
+#elif HC_LEVEL == 2
+#define HC_NAME(name) name##_avx2
+#define HC_TARGET __attribute__((target("avx2,fma,bmi2")))
+#define HC_WIDTH 4
+#define HC_NUMBER __m256d
+#define HC_TRUTH __m256d
+#define HC_LOAD(from) _mm256_loadu_pd(from)
+#define HC_SET(value) _mm256_set1_pd(value)
+#define HC_ABS(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
+#define HC_GT(a, b) _mm256_cmp_pd(a, b, _CMP_GT_OQ)
+#define HC_LT(a, b) _mm256_cmp_pd(a, b, _CMP_LT_OQ)
+#define HC_GE(a, b) _mm256_cmp_pd(a, b, _CMP_GE_OQ)
+#define HC_LE(a, b) _mm256_cmp_pd(a, b, _CMP_LE_OQ)
+#define HC_AND(a, b) _mm256_and_pd(a, b)
+#define HC_OR(a, b) _mm256_or_pd(a, b)
+#define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
+#elif HC_LEVEL == 1
+#define HC_NAME(name) name##_sse2
+#define HC_TARGET
+#define HC_WIDTH 2
+#define HC_NUMBER __m128d
+#define HC_TRUTH __m128d
+#define HC_LOAD(from) _mm_loadu_pd(from)
+#define HC_SET(value) _mm_set1_pd(value)
+#define HC_ABS(a) _mm_andnot_pd(_mm_set1_pd(-0.0), a)
+#define HC_GT(a, b) _mm_cmpgt_pd(a, b)
+#define HC_LT(a, b) _mm_cmplt_pd(a, b)
+#define HC_GE(a, b) _mm_cmpge_pd(a, b)
+#define HC_LE(a, b) _mm_cmple_pd(a, b)
+#define HC_AND(a, b) _mm_and_pd(a, b)
+#define HC_OR(a, b) _mm_or_pd(a, b)
+#define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
+#else
+#define HC_NAME(name) name##_plain
+#define HC_TARGET
+#define HC_WIDTH 1
+#define HC_NUMBER double
+#define HC_TRUTH int
+#define HC_LOAD(from) (*(from))
+#define HC_SET(value) (value)
+#define HC_ABS(a) ((a) < 0 ? -(a) : (a))
+#define HC_GT(a, b) ((a) > (b))
+#define HC_LT(a, b) ((a) < (b))
+#define HC_GE(a, b) ((a) >= (b))
+#define HC_LE(a, b) ((a) <= (b))
+#define HC_AND(a, b) ((a) & (b))
+#define HC_OR(a, b) ((a) | (b))
+#define HC_BITS(truth) ((uint64_t)(truth))
+#endif
+
+HC_TARGET static int HC_NAME(hc_all_below)(HC_NUMBER numbers, double limit) {
+    return HC_BITS(HC_LT(numbers, HC_SET(limit))) == ((uint64_t)1 << HC_WIDTH) - 1;
+}
+
+/* 64 bytes: 1 where `plus` has a bit, -1 where `minus` has one, else 0. */
+HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t minus) {
+#if HC_LEVEL == 3
+    const __m512i ones = _mm512_maskz_set1_epi8((__mmask64)plus, 1);
+    _mm512_storeu_si512((void *)bytes, _mm512_mask_set1_epi8(ones, (__mmask64)minus, -1));
+#elif HC_LEVEL == 2
+    const __m256i place = _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
+    const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201u);
+    int half;
+    for (half = 0; half < 2; half++) {
+        const __m256i p = _mm256_shuffle_epi8(_mm256_set1_epi32((int)(uint32_t)(plus >> 32 * half)), place);
+        const __m256i m = _mm256_shuffle_epi8(_mm256_set1_epi32((int)(uint32_t)(minus >> 32 * half)), place);
+        const __m256i is_plus = _mm256_cmpeq_epi8(_mm256_and_si256(p, bit), bit);
+        const __m256i is_minus = _mm256_cmpeq_epi8(_mm256_and_si256(m, bit), bit);
+        _mm256_storeu_si256((__m256i *)(void *)(bytes + 32 * half),
+                            _mm256_or_si256(is_minus, _mm256_sub_epi8(_mm256_setzero_si256(), is_plus)));
+    }
+#elif HC_LEVEL == 1
+    const __m128i bit = _mm_set1_epi64x((long long)0x8040201008040201u);
+    int part;
+    for (part = 0; part < 4; part++) {
+        const int p = (int)(plus >> 16 * part & 0xffff), m = (int)(minus >> 16 * part & 0xffff);
+        const __m128i eight_p = _mm_unpacklo_epi64(_mm_set1_epi8((char)p), _mm_set1_epi8((char)(p >> 8)));
+        const __m128i eight_m = _mm_unpacklo_epi64(_mm_set1_epi8((char)m), _mm_set1_epi8((char)(m >> 8)));
+        const __m128i is_plus = _mm_cmpeq_epi8(_mm_and_si128(eight_p, bit), bit);
+        const __m128i is_minus = _mm_cmpeq_epi8(_mm_and_si128(eight_m, bit), bit);
+        _mm_storeu_si128((__m128i *)(void *)(bytes + 16 * part),
+                         _mm_or_si128(is_minus, _mm_sub_epi8(_mm_setzero_si128(), is_plus)));
+    }
+#else
+    int i;
+    for (i = 0; i < HC_BLOCK; i++) bytes[i] = (int8_t)((int)(plus >> i & 1) - (int)(minus >> i & 1));
+#endif
+}
+
+/* The second stage on at most HC_BLOCK rows; column k begins at columns + k stride and is readable up to a multiple of
+   HC_WIDTH rows. */
+HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t stride, int count) {
+    hc_bits found = {0, 0, 0};
+    int at;
+    @CERTIFIED_CONSTANTS@
+    for (at = 0; at < count; at += HC_WIDTH) {
+        @CERTIFIED_INPUTS@
+        /* printed from the program "certified" */
+        @CERTIFIED@
+        /* end of the program "certified" */
+        found.plus |= HC_BITS(exterior) << at;
+        found.minus |= HC_BITS(interior) << at;
+        found.decided |= HC_BITS(decided) << at;
+    }
+    return found;
+}
+
+/* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
+   collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
+@LINE_FUNCTIONS@
+#undef HC_NAME
+#undef HC_TARGET
+#undef HC_WIDTH
+#undef HC_NUMBER
+#undef HC_TRUTH
+#undef HC_LOAD
+#undef HC_SET
+#undef HC_ABS
+#undef HC_GT
+#undef HC_LT
+#undef HC_GE
+#undef HC_LE
+#undef HC_AND
+#undef HC_OR
+#undef HC_BITS

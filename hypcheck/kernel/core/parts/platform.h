@@ -1,0 +1,72 @@
+/* ---- what is asked of the compiler ---- */
+
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST)
+#error "hypcheck: compile without -ffast-math and its parts: they void the error bounds, and answers would be wrong"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "hypcheck: compile without -ffinite-math-only: NaN and infinities must be seen"
+#endif
+
+#include <float.h>
+#include <string.h>
+
+/* The bounds ask for one rounding to double in each operation. Where the machine rounds otherwise (x87), floats decide
+   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. */
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 16
+#define HC_FLOATS_DECIDE 1
+#else
+#define HC_FLOATS_DECIDE 0
+#endif
+
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
+#define HC_X86 1
+#include <immintrin.h>
+#else
+#define HC_X86 0
+#endif
+
+#define HC_BLOCK 64  /* rows that share one word of bits */
+#define HC_STRIP 4096 /* rows whose undecided ones are collected before the next stage looks at them */
+#define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
+#define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
+#define HC_AHEAD 512
+#define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
+
+@CONSTANTS@
+#define HC_NEVER DBL_MAX
+
+/* Rows as bits: exterior (or "yes"), interior, decided. */
+typedef struct {
+    uint64_t plus, minus, decided;
+} hc_bits;
+
+/* The half planes R > K + M T, R < K + M T, R < K + M T, R >= K + M T of one scene, three of each. */
+typedef struct {
+    double K, M;
+} hc_line;
+
+typedef struct {
+    hc_line beyond[3], within[3], under[3], above[3];
+    double reach;
+} hc_scene;
+
+/* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
+#if defined(__GNUC__) || defined(__clang__)
+#define HC_FETCH(array, row) __builtin_prefetch((const void *)((uintptr_t)(array) + 8 * (uintptr_t)(row)))
+#else
+#define HC_FETCH(array, row) ((void)(row))
+#endif
+
+static int hc_lowest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+    return __builtin_ctzll(bits);
+#else
+    int at = 0, step;
+    for (step = 32; step; step /= 2)
+        if (!(bits & (((uint64_t)1 << step) - 1))) {
+            bits >>= step;
+            at += step;
+        }
+    return at;
+#endif
+}

@@ -1,0 +1,125 @@
+"""Writes the Python modules of kernel/printed, as core/generate.py writes hypcheck.h.
+
+python -m hypcheck.kernel.printing.modules
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from hypcheck.derivation.program import Program, needed
+from hypcheck.kernel.printing.in_place import in_place_statements
+from hypcheck.kernel.printing.python import python_statements
+from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.pairs import COLUMNS
+
+FOLDER = Path(__file__).parents[1] / "printed"
+COMMAND = "python -m hypcheck.kernel.printing.modules"
+INDENT = "    "
+
+
+def modules() -> dict[str, str]:
+    """The text of each module by its file name."""
+    return {"chunks.py": _chunks(), "scalars.py": _scalars()}
+
+
+def _chunks() -> str:
+    wanted = ("R_plus_T", "exterior", "interior", "decided")
+    return _module(
+        "The line stage and the certified stage over chunks of rows, in buffers that the caller keeps.",
+        [
+            "from collections.abc import Mapping, Sequence",
+            "",
+            "import numpy as np",
+            "from numpy.typing import NDArray",
+            "",
+            "Floats = NDArray[np.float64]",
+            "Mask = NDArray[np.bool_]",
+        ],
+        [
+            _in_place("one_line", lines.ONE_LINE, wanted, ("x", "y", "z")),
+            _in_place("two_lines", lines.TWO_LINES, wanted, ("x", "y", "z")),
+            _in_place("certified", certified.CERTIFIED, wanted[1:], COLUMNS),
+        ],
+    )
+
+
+def _in_place(name: str, program: Program, wanted: tuple[str, ...], arrays: tuple[str, ...]) -> list[str]:
+    printed = in_place_statements(program, wanted)
+    read = {each for step in needed(program, wanted) for each in step.reads}
+    constants = [each for each in program.inputs if each not in arrays and each in read]
+    numbers = ", ".join(f"n{k}" for k in range(printed.numbers))
+    truths = ", ".join(f"t{k}" for k in range(printed.truths))
+    # Numbers before truth values: R_plus_T is the one number that is handed back.
+    results = [printed.place[each] for each in wanted]
+    kinds = ["Floats" if place.startswith("n") else "Mask" for place in results]
+    upper = name.upper()
+    return [
+        f"{upper}_BUFFERS = ({printed.numbers}, {printed.truths})",
+        f'"""How many buffers of numbers and of truth values {name} needs."""',
+        "",
+        "",
+        f"def {name}(",
+        *(f"{INDENT}{each}: Floats," for each in arrays),
+        f"{INDENT}constants: Mapping[str, float],",
+        f"{INDENT}numbers: Sequence[Floats],",
+        f"{INDENT}truths: Sequence[Mask],",
+        f") -> tuple[{', '.join(kinds)}]:",
+        f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"; they lie in the buffers."""',
+        *(f'{INDENT}{each} = constants["{each}"]' for each in constants),
+        f"{INDENT}{numbers} = numbers",
+        f"{INDENT}{truths} = truths",
+        *(f"{INDENT}{line}" for line in printed.statements),
+        f"{INDENT}return {', '.join(results)}",
+    ]
+
+
+def _scalars() -> str:
+    return _module(
+        "Programs over Python's floats: one pair, and the constants of a scene's half planes.",
+        [
+            *(f"{name.upper()} = 2.0**{exponent}" for name, exponent in (("least", -100), ("greatest", 100))),
+            '"""Where the bounds of `single` hold: b, d, A and B lie between."""',
+            "",
+            f"SLACK = {certified.SLACK!r}  # 1 + 2**-20",
+        ],
+        [
+            _function("single", single.SINGLE, ("A", "B", "BB", "c1", "e1", "c2", "e2", "delta_3", "E")),
+            _function("tangent_beyond", lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
+            _function("tangent_within", lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
+            _function("chord", lines.CHORD, ("below", "above")),
+        ],
+    )
+
+
+def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]:
+    kind = "bool" if name == "chord" else "float"
+    constants = {**single.CONSTANTS, "u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
+    given = [each for each in program.inputs if each not in constants]
+    read = {each for step in needed(program, wanted) for each in step.reads}
+    return [
+        f"def {name}({', '.join(f'{each}: float' for each in given)}) -> tuple[{kind}, ...]:",
+        f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"."""',
+        *(f"{INDENT}{each} = {constants[each]!r}  # {constants[each].hex()}" for each in constants if each in read),
+        *(f"{INDENT}{line}" for line in python_statements(program, wanted)),
+        f"{INDENT}return {', '.join(wanted)}",
+    ]
+
+
+def _module(summary: str, imports: Iterable[str], functions: Iterable[list[str]]) -> str:
+    head = [f'"""{summary}', "", f"Printed by `{COMMAND}`. Change the programs, not this.", '"""', ""]
+    head += [
+        "# ruff: noqa: PLR0915",
+        "",
+        "from __future__ import annotations",
+        "",
+        *imports,
+    ]
+    bodies = ["\n".join(function) for function in functions]
+    return "\n".join(head).rstrip() + "\n\n\n" + "\n\n\n".join(bodies) + "\n"
+
+
+if __name__ == "__main__":
+    for file_name, module_text in modules().items():
+        (FOLDER / file_name).write_text(module_text, encoding="utf-8")

@@ -1,0 +1,218 @@
+"""The program of the second stage: a position where a running error bound proves it, for any sizes.
+
+u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding mode and not in "to nearest" alone.
+
+Coefficients. The formula object counts the rounding factors (tests/kernel/test_certified.py asks it): at most 7 in c0 =
+−AB, 11 in a term of c1, 7 in a term of c2. With one unit more for the second order,
+
+    |ĉ0 − c0| ≤ e0 = 8u AB,   |ĉ1 − c1| ≤ e1 = 12u (AB + A + B + BP + AQ),   |ĉ2 − c2| ≤ e2 = 8u (A + B + 1 + P + Q).
+
+Discriminant. With mᵢ = |ĉᵢ| + eᵢ, which bounds |cᵢ| too, and |x̂ŷ − xy| ≤ |x̂| e_y + |y| e_x:
+
+    h1 = c2² − 3c1     E1 = 2 m2 e2 + 3 e1 + 4u (m2² + 3 m1)
+    h2 = c2 c1 − 9c0   E2 = m2 e1 + m1 e2 + 9 e0 + 4u (m2 m1 + 9 m0)
+    h3 = c1² − 3c2c0   E3 = 2 m1 e1 + 3 (m2 e0 + m0 e2) + 4u (m1² + 3 m2 m0)
+    3Δ = 4 h1 h3 − h2²  with aᵢ = |ĥᵢ| + Eᵢ:  E = 4 (a1 E3 + a3 E1) + 2 a2 E2 + 4u (4 a1 a3 + a2²)
+
+(at most three roundings an expression, so 4u). The listing takes these sums apart so that they need fewer products.
+
+Slopes, by the same count (10 factors in a term at most): g'(B) = (3B + 2c2) B + c1 within 2B e2 + e1 +
+16u (3B² + 2 m2 B + m1), likewise g'(−A); 3B + c2 and 3A − c2 within e2 + 16u (B + m2) and e2 + 16u (A + m2).
+
+The bounds are rounded themselves, by less than 2⁻⁴⁰ of their value: they are sums and products of positive numbers, of
+fewer than 100 factors (1 ± u) each. SLACK = 1 + 2⁻²⁰ covers that.
+
+Range. Asked for: b, d, A and B in 2^±100. So α and γ lie in 2^±151, and no size, A, B or AB over- or underflows. A
+centre coordinate whose square underflows (or is flushed to zero) changes P by at most 2^-1021/2^-200 and c1, c2 by less
+than TINY = 2⁻⁵⁰⁰, which e1 and e2 contain. E1 ≥ 3 TINY, E2 ≥ 9 e0 > 2⁻²⁵⁰ and E3 ≥ 3 m0 e2 > 2⁻⁷⁰⁰ exceed every
+underflow in h1, h2, h3 (2⁻¹⁰²¹ times a small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to
+Δ. Whatever overflows makes E infinite or NaN, and then every comparison that decides is false: delta_3 > E and
+delta_3 < −E stand before all of them.
+"""
+
+from __future__ import annotations
+
+from hypcheck.derivation.coefficient_listings import HESSIAN_DISCRIMINANT, TABLE_2
+from hypcheck.derivation.listing import program_of
+from hypcheck.pairs import COLUMNS
+
+U = 2.0**-52
+SLACK = 1 + 2.0**-20
+
+CONSTANTS = {
+    "u_4": 4 * U * SLACK,
+    "u_8": 8 * U * SLACK,
+    "u_12": 12 * U * SLACK,
+    "u_16": 16 * U * SLACK,
+    "slack": SLACK,
+    "tiny": 2.0**-500,
+    "least": 2.0**-100,
+    "greatest": 2.0**100,
+}
+"""The inputs beside the seven columns, by name."""
+
+_USABLE = """
+    alpha_usable = alpha > 0
+    gamma_usable = gamma > 0
+    b_not_small = b > least
+    b_not_large = b < greatest
+    d_not_small = d > least
+    d_not_large = d < greatest
+    A_not_small = A > least
+    A_not_large = A < greatest
+    B_not_small = B > least
+    B_not_large = B < greatest
+    positive_radial = alpha_usable and gamma_usable
+    b_usable = b_not_small and b_not_large
+    d_usable = d_not_small and d_not_large
+    A_usable = A_not_small and A_not_large
+    B_usable = B_not_small and B_not_large
+    radial_usable = b_usable and A_usable
+    axial_usable = d_usable and B_usable
+    ratios_usable = radial_usable and axial_usable
+    usable = positive_radial and ratios_usable
+"""
+
+_COEFFICIENT_BOUNDS = """
+    A_plus_B = A + B
+    sizes_1 = A_plus_B + AB
+    BP_plus_AQ = BP + AQ
+    terms_1 = sizes_1 + BP_plus_AQ
+    sizes_2 = A_plus_B + 1
+    P_plus_Q = P + Q
+    terms_2 = sizes_2 + P_plus_Q
+    relative_1 = u_12 * terms_1
+    e1 = relative_1 + tiny
+    relative_2 = u_8 * terms_2
+    e2 = relative_2 + tiny
+    e0 = u_8 * AB
+    m0 = AB + e0
+    size_c1 = abs c1
+    m1 = size_c1 + e1
+    size_c2 = abs c2
+    m2 = size_c2 + e2
+"""
+
+# E1 = m2 (2 e2 + 4u m2) + 3 (e1 + 4u m1), E2 = m2 (e1 + 4u m1) + m1 e2 + 9 (e0 + 4u m0),
+# E3 = m1 (2 e1 + 4u m1) + 3 (m2 (e0 + 4u m0) + m0 e2), E = 4 (a1 (E3 + 4u a3) + a3 E1) + a2 (2 E2 + 4u a2).
+_DISCRIMINANT_BOUND = """
+    u_m0 = u_4 * m0
+    f0 = e0 + u_m0
+    u_m1 = u_4 * m1
+    f1 = e1 + u_m1
+    u_m2 = u_4 * m2
+    twice_e2 = 2 * e2
+    f2 = twice_e2 + u_m2
+    m2_f2 = m2 * f2
+    thrice_f1 = 3 * f1
+    E1 = m2_f2 + thrice_f1
+    m2_f1 = m2 * f1
+    m1_e2 = m1 * e2
+    cross_21 = m2_f1 + m1_e2
+    ninefold_f0 = 9 * f0
+    E2 = cross_21 + ninefold_f0
+    twice_e1 = 2 * e1
+    f3 = twice_e1 + u_m1
+    m1_f3 = m1 * f3
+    m2_f0 = m2 * f0
+    m0_e2 = m0 * e2
+    cross_20 = m2_f0 + m0_e2
+    thrice_cross_20 = 3 * cross_20
+    E3 = m1_f3 + thrice_cross_20
+    size_h1 = abs h1
+    a1 = size_h1 + E1
+    size_h2 = abs h2
+    a2 = size_h2 + E2
+    size_h3 = abs h3
+    a3 = size_h3 + E3
+    u_a3 = u_4 * a3
+    F3 = E3 + u_a3
+    a1_F3 = a1 * F3
+    a3_E1 = a3 * E1
+    cross_13 = a1_F3 + a3_E1
+    fourfold_cross_13 = 4 * cross_13
+    u_a2 = u_4 * a2
+    twice_E2 = 2 * E2
+    F2 = twice_E2 + u_a2
+    a2_F2 = a2 * F2
+    E_sum = fourfold_cross_13 + a2_F2
+    E = slack * E_sum
+    minus_E = - E
+"""
+
+
+def _slope(pole: str, sign: str, tag: str) -> str:
+    """g' at a pole and its offset 3 |pole| ± c2, each with an error bound and the two comparisons that it allows."""
+    return f"""
+    thrice_{tag} = 3 * {pole}
+    chord_{tag} = thrice_{tag} {sign} two_c2
+    rise_{tag} = chord_{tag} * {pole}
+    slope_{tag} = rise_{tag} + c1
+    offset_{tag} = thrice_{tag} {sign} c2
+    size_chord_{tag} = thrice_{tag} + twice_m2
+    size_rise_{tag} = size_chord_{tag} * {pole}
+    size_slope_{tag} = size_rise_{tag} + m1
+    u_slope_{tag} = u_16 * size_slope_{tag}
+    carried_{tag} = twice_e2 * {pole}
+    carried_1_{tag} = carried_{tag} + e1
+    error_{tag} = carried_1_{tag} + u_slope_{tag}
+    bound_{tag} = slack * error_{tag}
+    below_{tag} = - bound_{tag}
+    size_offset_{tag} = {pole} + m2
+    u_offset_{tag} = u_16 * size_offset_{tag}
+    offset_error_{tag} = e2 + u_offset_{tag}
+    offset_bound_{tag} = slack * offset_error_{tag}
+    offset_below_{tag} = - offset_bound_{tag}
+    rises_{tag} = slope_{tag} > bound_{tag}
+    falls_{tag} = slope_{tag} < below_{tag}
+    inflection_inside_{tag} = offset_{tag} > offset_bound_{tag}
+    inflection_beyond_{tag} = offset_{tag} < offset_below_{tag}
+"""
+
+
+# The rule of decision_listings.all_regimes without its ring, which floats cannot prove. e1 and e2 are exceeded by more
+# than the bounds' own rounding where c1 and c2 are compared, since u_8 and u_12 contain SLACK.
+_DECISION = """
+    minus_e1 = - e1
+    minus_e2 = - e2
+    distinct = delta_3 > E
+    one_root = delta_3 < minus_E
+    c1_positive = c1 > e1
+    c1_negative = c1 < minus_e1
+    c2_positive = c2 > e2
+    c2_negative = c2 < minus_e2
+    three_roots = distinct and usable
+    falling_then_rising = c2_negative and c1_positive
+    all_positive = three_roots and falling_then_rising
+    some_sign_differs = c2_positive or c1_negative
+    two_negative = three_roots and some_sign_differs
+    some_below_B = inflection_inside_B or falls_B
+    none_below_B = inflection_beyond_B and rises_B
+    both_above_A = inflection_inside_A and rises_A
+    none_above_A = inflection_beyond_A or falls_A
+    exterior = all_positive and some_below_B
+    interior = two_negative and both_above_A
+    crossing = one_root and usable
+    groove = all_positive and none_below_B
+    throat = two_negative and none_above_A
+    several_curves = groove or throat
+    contact = crossing or several_curves
+    clear = exterior or interior
+    decided = clear or contact
+"""
+
+CERTIFIED = program_of(
+    "certified",
+    (*COLUMNS, *CONSTANTS),
+    TABLE_2,
+    HESSIAN_DISCRIMINANT,
+    _USABLE,
+    _COEFFICIENT_BOUNDS,
+    _DISCRIMINANT_BOUND,
+    "two_c2 = 2 * c2",
+    "twice_m2 = 2 * m2",
+    _slope("B", "+", "B"),
+    _slope("A", "-", "A"),
+    _DECISION,
+)
+"""From a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""

@@ -1,0 +1,52 @@
+"""The program for one pair in plain Python, where each operation costs as much as a comparison or a call.
+
+It is `certified` with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed
+value is off by at most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2,
+11 for c1 and 42 for 3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second
+order, for the rounding of M and for squares that underflow. What it leaves open, or what lies outside c² > a > 1, goes
+to the integers.
+"""
+
+from __future__ import annotations
+
+from hypcheck.derivation.coefficient_listings import HESSIAN_DISCRIMINANT, TABLE_2
+from hypcheck.derivation.listing import program_of
+from hypcheck.kernel.programs.certified import SLACK, U
+from hypcheck.pairs import COLUMNS
+
+CONSTANTS = {"u_8": 8 * U * SLACK, "u_12": 12 * U * SLACK, "u_48": 48 * U * SLACK}
+
+SINGLE = program_of(
+    "single",
+    (*COLUMNS, *CONSTANTS),
+    TABLE_2,
+    HESSIAN_DISCRIMINANT,
+    """
+    P_plus_Q = P + Q
+    A_plus_B = A + B
+    sizes_2 = A_plus_B + 1
+    M2 = sizes_2 + P_plus_Q
+    BP_plus_AQ = BP + AQ
+    sizes_1 = A_plus_B + AB
+    M1 = sizes_1 + BP_plus_AQ
+    M2_M2 = M2 * M2
+    M1_3 = 3 * M1
+    H1 = M2_M2 + M1_3
+    M2_M1 = M2 * M1
+    AB_9 = 9 * AB
+    H2 = M2_M1 + AB_9
+    M1_M1 = M1 * M1
+    M2_AB = M2 * AB
+    M2_AB_3 = 3 * M2_AB
+    H3 = M1_M1 + M2_AB_3
+    H1_H3 = H1 * H3
+    H1_H3_4 = 4 * H1_H3
+    H2_H2 = H2 * H2
+    M_delta = H1_H3_4 + H2_H2
+    E = u_48 * M_delta
+    e1 = u_12 * M1
+    e2 = u_8 * M2
+    BB = B * B
+""",
+)
+"""From a row to delta_3, c1 and c2 with their error bounds E, e1 and e2, and to B²."""

@@ -1,0 +1,152 @@
+"""Where to strike: rows around the borders of the three positions, and scenes around the lines that decide them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.casebook.families import FAMILIES
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One spheroid at many centres."""
+
+    name: str
+    sizes: tuple[float, float, float, float]
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The same as rows, (n, 7)."""
+        return np.column_stack([*(np.full(len(self.x), size) for size in self.sizes), self.x, self.y, self.z])
+
+
+def families(seed: int, count: int) -> Iterator[tuple[str, np.ndarray]]:
+    """Every family of the casebook, the extreme ones in smaller number: their integers have thousands of digits."""
+    for family in FAMILIES.values():
+        yield "families", family.rows(seed, count // 20 if family.extreme else count)
+
+
+def sizes(random: np.random.Generator, count: int) -> np.ndarray:
+    """α, γ, b, d of all four regimes: ordinary, stiff, next to a = 1 and to c² = a, small numbers: (count, 4)."""
+    spread = np.array([1, 4, 12, 30])[random.integers(0, 4, count)]
+    b, d = np.exp2(random.uniform(-4, 4, (2, count)))
+    a, c = np.exp2(random.uniform(-1, 1, (2, count)) * spread)
+    near = random.integers(0, 6, count)
+    tiny = 1 + random.choice([-1, 0, 1], count) * np.exp2(random.uniform(-52, -4, count))
+    a = np.where(near == 0, tiny, a)
+    c = np.where(near == 1, np.sqrt(a) * tiny, c)
+    found = np.column_stack([a * b, c * d, b, d])
+    whole = near == 2
+    found[whole] = random.integers(1, 13, (whole.sum(), 4))
+    return found
+
+
+def offsets(random: np.random.Generator, count: int) -> np.ndarray:
+    """Relative distances from contact of either sign, 0 and 1e-17 … 1."""
+    size = 10.0 ** -random.choice([0, 2, 4, 6, 8, 10, 11, 12, 13, 14, 14.5, 15, 15.3, 15.6, 16, 17], count)
+    return size * random.uniform(-2, 2, count)
+
+
+def beside(random: np.random.Generator, some: np.ndarray, count: int, reach: float = 3.0) -> np.ndarray:
+    """Centres almost one radius from a point of the surface, along its normal, on either side: (count, 3)."""
+    alpha, gamma, b, d = some.T
+    a, c = alpha / b, gamma / d
+    slope = np.where(random.integers(0, 4, count) == 0, 0.0, np.sinh(random.uniform(-reach, reach, count)))
+    rho, zeta = a * np.sqrt(1 + slope * slope), c * slope
+    across, along = rho / (a * a), -zeta / (c * c)
+    length = np.hypot(across, along)
+    step = random.choice([-1.0, 1.0], count) * (1 + offsets(random, count)) / length
+    r, z = (rho + across * step) * b, (zeta + along * step) * d
+    turn = random.uniform(0, 2 * np.pi, count) * (random.integers(0, 3, count) > 0)
+    return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
+
+
+def near_contact(random: np.random.Generator, count: int) -> np.ndarray:
+    """Rows of any sizes whose centres are beside the surface: (count, 7)."""
+    some = sizes(random, count)
+    return np.column_stack([some, beside(random, some, count)])
+
+
+def on_the_ring(random: np.random.Generator, count: int) -> np.ndarray:
+    """Rows within a few units in the last place, or a little more, of the ring where Δ vanishes: (count, 7)."""
+    some = sizes(random, count)
+    alpha, gamma, b, d = some.T
+    A, B = (alpha / b) ** 2, (gamma / d) ** 2
+    r = b * np.sqrt((A + B) * (B + 1) / B) * (1 + offsets(random, count))
+    z = np.where(random.integers(0, 2, count) == 0, 0.0, d * offsets(random, count) * 1e-4)
+    return np.column_stack([some, r, np.zeros(count), z])
+
+
+def grid(random: np.random.Generator, count: int) -> np.ndarray:
+    """Small whole numbers and halves: true tangencies and rings, about one row in a thousand: (count, 7)."""
+    whole = random.integers(1, 13, (count, 4))
+    centre = random.integers(-28, 29, (count, 3)) / 2
+    centre[random.integers(0, 2, count) == 0, 1] = 0
+    return np.column_stack([whole, centre]).astype(float)
+
+
+def scenes(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:
+    """Scenes with centres beside the surface: at all heights, in a high band, at one height, at the waist."""
+    for number in range(count):
+        four = sizes(random, 1)
+        some = np.repeat(four, size, axis=0)
+        centres = beside(random, some, size, reach=float(random.uniform(0.05, 3)))
+        style = number % 4
+        if style == 1:
+            centres[:, 2] = np.abs(centres[:, 2]) + np.abs(centres[:, 2]).max()
+            centres[:, :2] *= _edge_scale(four[0], centres, random)[:, None]
+        elif style == 2:
+            centres[:, 2] = centres[0, 2]
+            centres[:, :2] *= _edge_scale(four[0], centres, random)[:, None]
+        elif style == 3:
+            centres[:, 2] *= random.choice([0.0, 1e-200, 1e-9, 1e-3], size)
+        x, y, z = np.ascontiguousarray(centres.T)
+        yield Scene(f"scene-{number}-{style}", tuple(four[0].tolist()), x, y, z)
+
+
+def on_the_lines(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:
+    """Scenes whose heights are those at which the kernel's lines touch the border, and centres a few units from it."""
+    for number in range(count):
+        four = sizes(random, 1)[0]
+        top = float(np.exp2(random.uniform(-3, 5)) * max(four[1], four[3]))
+        high = _short(1.0625 * top)
+        middle = _short(0.55 * high)
+        special = [top, middle, high, middle / np.sqrt(2), np.sqrt((middle**2 + high**2) / 2), 0.0]
+        z = random.choice(special, size)
+        z[:: max(1, size // 1024)] = top  # so that every sample of heights sees it, and none that is higher
+        z = np.minimum(z, top)
+        centres = np.column_stack([np.ones(size), np.zeros(size), z])
+        x = _edge_scale(four, centres, random, units=60)
+        yield Scene(f"lines-{number}", tuple(four.tolist()), x, np.zeros(size), z)
+
+
+def _short(value: float) -> float:
+    mantissa, exponent = np.frexp(value)
+    return float(np.ldexp(np.floor(mantissa * 2**26), exponent - 26))
+
+
+def _edge_scale(four: np.ndarray, centres: np.ndarray, random: np.random.Generator, units: int = 0) -> np.ndarray:
+    """Factors that bring each centre's radius to one of the two borders at its height, or within `units` of 2⁻⁵³."""
+    alpha, gamma, b, d = four
+    A, B, Q = (alpha / b) ** 2, (gamma / d) ** 2, (centres[:, 2] / d) ** 2
+    side = random.choice([-1.0, 1.0], len(Q))
+    low, high = np.zeros(len(Q)), np.where(side > 0, min(np.sqrt(A), B), np.sqrt(A))
+    for _ in range(60):
+        middle = (low + high) / 2
+        with np.errstate(all="ignore"):
+            rising = A / middle**2 > 1 + Q * (A + B) / (B - side * middle) ** 2
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    at = side * low
+    with np.errstate(all="ignore"):
+        edge = np.sqrt(np.maximum((A + at) * (1 + 1 / at) + Q * (A + at) / (B - at), 0))
+    shift = random.integers(-units, units + 1, len(Q)) * 2.0**-53 if units else offsets(random, len(Q))
+    radius = np.hypot(centres[:, 0], centres[:, 1])
+    with np.errstate(all="ignore"):
+        scale = b * edge * (1 + shift) / radius
+    return np.where(np.isfinite(scale), scale, 1.0)

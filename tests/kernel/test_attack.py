@@ -1,0 +1,100 @@
+"""The attack of tests/attack in seconds; that it bites; and answers under strange rounding and in strange builds."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+import pytest
+
+from hypcheck.kernel.core import generate
+from hypcheck.truth import batch
+from tests.attack.places import near_contact, scenes
+from tests.attack.strike import batches, strike, tally
+from tests.attack.subjects import Subject, of_library, subjects
+from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
+
+ROWS = 60_000
+
+
+@pytest.fixture(scope="module")
+def struck():
+    return list(batches(3, ROWS))
+
+
+def test_no_kernel_is_wrong_anywhere(struck):
+    _, wrong, rows = tally(strike(subjects(), struck))
+    assert sum(wrong.values()) == 0, rows[0][0].tolist()
+
+
+def built(folder, *options, header=None, name="built", level=None):
+    (folder / "hypcheck.h").write_text(header or HEADER.read_text(encoding="utf-8"), encoding="utf-8")
+    shared_library(folder, IMPLEMENTATION, *options)
+    found = of_library(folder / "library.so", name, level)
+    assert found is not None
+    return found
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    "options",
+    [("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS"), ("-std=gnu99", "-O3", "-march=native")],
+    ids=["plain-with-32-bit-limbs", "everything-contracted"],
+)
+def test_no_build_is_wrong_anywhere(options, struck, tmp_path):
+    _, wrong, rows = tally(strike([built(tmp_path, *options)], struck[::3]))
+    assert sum(wrong.values()) == 0, rows[0][0].tolist()
+
+
+SABOTAGE = {
+    "bounds a hundredth": {name: generate.CONSTANTS[name] / 100 for name in ("u_4", "u_8", "u_12", "u_16", "u_48")},
+    "margins reversed": {"more": generate.CONSTANTS["less"], "less": generate.CONSTANTS["more"]},
+}
+
+
+@needs_compiler
+@pytest.mark.parametrize("weaker", SABOTAGE.values(), ids=SABOTAGE)
+def test_the_attack_finds_a_bound_that_does_not_hold(weaker, struck, tmp_path, monkeypatch):
+    for name, value in weaker.items():
+        monkeypatch.setitem(generate.CONSTANTS, name, value)
+    subject = built(tmp_path, header=generate.header())
+    _, wrong, _ = tally(strike([subject], struck))
+    assert sum(wrong.values()) > 0
+
+
+MODES = """
+#include <fenv.h>
+#include <xmmintrin.h>
+int set_mode(int mode, int flush) {
+    static const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    _mm_setcsr(_mm_getcsr() & ~0x8040u);
+    if (flush) _mm_setcsr(_mm_getcsr() | 0x8040u);
+    return fesetround(modes[mode]);
+}
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("mode", "flush"), [(0, 1), (1, 0), (2, 1), (3, 0)], ids=["flushed", "upward", "downward-flushed", "towards-zero"]
+)
+def test_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path):
+    """An engine may have set either; the rows are decided beforehand, under the usual rounding."""
+    random = np.random.default_rng(mode)
+    rows = near_contact(random, 20_000)
+    rows[::50, 4:] *= 1e-310
+    scene = next(scenes(random, 1, 5000))
+    truth, truth_of_scene = batch.positions(rows), batch.positions(scene.rows)
+    control = shared_library(tmp_path, MODES, "-frounding-math")
+    for subject in subjects()[1:]:
+        found, of_scene = _under(control, (mode, flush), subject, rows, scene)
+        assert (found == truth).all()
+        assert (of_scene == truth_of_scene).all()
+
+
+def _under(control, setting, subject: Subject, rows, scene):
+    assert control.set_mode(*(ctypes.c_int(each) for each in setting)) == 0
+    try:
+        return subject.rows(rows), subject.scene(scene.sizes, scene.x, scene.y, scene.z)
+    finally:
+        control.set_mode(0, 0)

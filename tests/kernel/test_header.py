@@ -1,0 +1,77 @@
+"""hypcheck.h and the printed modules: they are what the programs print, and compilers take them without a word."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import pytest
+
+from hypcheck.derivation.program import needed
+from hypcheck.kernel.core import generate
+from hypcheck.kernel.printed import scalars
+from hypcheck.kernel.printing import modules
+from hypcheck.kernel.programs import certified
+from tests.kernel.compiling import COMPILER, HEADER, IMPLEMENTATION, compiled_source, needs_compiler
+
+WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-pedantic", "-Werror")
+GXX = shutil.which("g++")
+
+
+def test_the_header_is_what_the_generator_prints():
+    assert HEADER.read_text(encoding="utf-8") == generate.header(), f"run {generate.COMMAND}"
+
+
+@pytest.mark.parametrize("name", modules.modules())
+def test_a_printed_module_is_what_the_generator_prints(name):
+    assert (modules.FOLDER / name).read_text(encoding="utf-8") == modules.modules()[name], f"run {modules.COMMAND}"
+
+
+def test_every_step_of_the_programs_stands_in_the_header():
+    text = HEADER.read_text(encoding="utf-8")
+    for step in needed(certified.CERTIFIED, ("exterior", "interior", "decided")):
+        assert re.search(rf"const HC_(NUMBER|TRUTH) {step.name} = ", text), step.name
+
+
+def test_limits_of_the_scalar_function_are_those_of_the_program():
+    constants = certified.CONSTANTS
+    assert (scalars.LEAST, scalars.GREATEST, scalars.SLACK) == tuple(
+        constants[name] for name in ("least", "greatest", "slack")
+    )
+
+
+@needs_compiler
+@pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "plain"])
+def test_c99_has_nothing_to_complain_of(options, tmp_path):
+    done = compiled_source(tmp_path, IMPLEMENTATION, "-std=c99", "-O1", *WARNINGS, *options)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(GXX is None, reason="there is no g++")
+@pytest.mark.parametrize("source", ['#include "hypcheck.h"\n', IMPLEMENTATION], ids=["declarations", "implementation"])
+def test_cpp_has_nothing_to_complain_of(source, tmp_path):
+    options = ("-std=c++11", "-fsyntax-only", "-Wall", "-Wextra", "-pedantic", "-Werror")
+    done = compiled_source(tmp_path, source, *options, compiler=GXX, suffix=".cpp")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    "option", ["-ffast-math", "-Ofast", "-ffinite-math-only", "-fassociative-math -fno-signed-zeros -fno-trapping-math"]
+)
+def test_arithmetic_that_voids_the_proofs_is_refused(option, tmp_path):
+    done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", *option.split())
+    assert done.returncode != 0
+    assert "#error" in done.stderr
+    assert "hypcheck: compile without" in done.stderr
+    declared = compiled_source(tmp_path, '#include "hypcheck.h"\n', "-O1", *option.split())
+    assert declared.returncode == 0  # files that only call may be compiled as they like
+
+
+@needs_compiler
+def test_a_file_of_another_name_can_hold_it(tmp_path):
+    text = HEADER.read_text(encoding="utf-8")
+    (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
+    source = '#define HYPCHECK_IMPLEMENTATION\n#define HYPCHECK_SELF "renamed.h"\n#include "renamed.h"\n'
+    assert compiled_source(tmp_path, source, "-fsyntax-only").returncode == 0
+    assert COMPILER is not None

@@ -1,0 +1,199 @@
+"""The kernel's programs: the formulas they are built on, the roundings their constants allow for, the bounds' terms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hypcheck.derivation.evaluation import evaluate, outputs
+from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.pencil import A, B, P, Q
+from hypcheck.derivation.program import cut, needed
+from hypcheck.derivation.rounding import gamma, relative_error_counts
+from hypcheck.derivation.symbolic import SYMBOLIC
+from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from hypcheck.pairs import COLUMNS
+
+U = Fraction(certified.U)
+WITHOUT_MARGINS = {"u_8": 0, "more": 1, "less": 1}
+positives = st.fractions(Fraction(1, 64), 64, max_denominator=64)
+sevens = st.tuples(*[positives] * 7)
+
+
+@pytest.mark.parametrize("program", [certified.CERTIFIED, single.SINGLE], ids=lambda program: program.name)
+def test_the_arithmetic_is_that_of_the_proved_formula(program):
+    """Step for step the discriminant of the formula "hessian", which the derivation proves equal to g's."""
+    proved = needed(FORMULAS["hessian"].program, ("delta_3", "c1", "c2", "c0"))
+    assert needed(program, ("delta_3", "c1", "c2", "c0")) == proved
+
+
+@pytest.mark.parametrize(("step", "u_units"), [("c0", 8), ("c1", 12), ("c2", 8)])
+def test_constants_of_the_coefficients_cover_the_counted_roundings(step, u_units):
+    count = relative_error_counts(certified.CERTIFIED, [step]).counts[step]
+    # γ_k M of the exact M, and M is computed with at most 12 roundings more: one unit of room is enough for all of it.
+    assert gamma(count, U) / (1 - 12 * U) < (count + 1) * U <= u_units * U
+
+
+def test_constant_of_the_discriminant_in_single_covers_the_counted_roundings():
+    count = relative_error_counts(single.SINGLE, ["delta_3"]).counts["delta_3"]
+    assert gamma(count, U) * (1 + 64 * U) < single.CONSTANTS["u_48"]
+
+
+@given(sevens)
+def test_terms_of_the_bounds_are_the_counted_magnitudes(values):
+    row = dict(zip(COLUMNS, values, strict=True))
+    inputs = {**row, **certified.CONSTANTS, **single.CONSTANTS}
+    for program, names in (
+        (certified.CERTIFIED, {"c1": "terms_1", "c2": "terms_2", "c0": "AB"}),
+        (single.SINGLE, {"c1": "M1", "c2": "M2", "delta_3": "M_delta"}),
+    ):
+        counted = relative_error_counts(program, tuple(names))
+        magnitudes = evaluate(counted.program, EXACT, inputs)
+        written = evaluate(program, EXACT, inputs)
+        for step, name in names.items():
+            assert written[name] == magnitudes[counted.magnitudes[step]]
+
+
+letters = {name: sympy.Symbol(name, positive=True) for name in ("e0", "e1", "e2", "m0", "m1", "m2", "u_4")}
+
+
+@pytest.mark.parametrize("step", ["E1", "E2", "E3", "E"])
+def test_bounds_of_the_discriminant_are_those_of_the_page(step):
+    e0, e1, e2, m0, m1, m2, u4 = letters.values()
+    a1, a2, a3, E1, E2, E3 = (sympy.Symbol(name, positive=True) for name in ("a1", "a2", "a3", "E1", "E2", "E3"))
+    page = {
+        "E1": 2 * m2 * e2 + 3 * e1 + u4 * (m2**2 + 3 * m1),
+        "E2": m2 * e1 + m1 * e2 + 9 * e0 + u4 * (m2 * m1 + 9 * m0),
+        "E3": 2 * m1 * e1 + 3 * (m2 * e0 + m0 * e2) + u4 * (m1**2 + 3 * m2 * m0),
+        "E": 4 * (a1 * E3 + a3 * E1) + 2 * a2 * E2 + u4 * (4 * a1 * a3 + a2**2),
+    }
+    known = tuple(letters) if step != "E" else ("a1", "a2", "a3", "E1", "E2", "E3", "u_4", "slack")
+    part = cut(certified.CERTIFIED, known, (step,))
+    inputs = {**letters, **{str(s): s for s in (a1, a2, a3, E1, E2, E3)}, "slack": sympy.Integer(1)}
+    (value,) = outputs(part, SYMBOLIC, inputs, (step,))
+    assert sympy.expand(value - page[step]) == 0
+
+
+@pytest.mark.parametrize("step", ["slope_A", "slope_B", "offset_A", "offset_B"])
+def test_slopes_carry_fewer_roundings_than_their_16_units(step):
+    part = cut(certified.CERTIFIED, ("c1", "c2"), (step,))
+    assert gamma(relative_error_counts(part, (step,)).counts[step], U) < 15 * U
+
+
+def test_bounds_are_rounded_by_less_than_their_slack():
+    """Counted from the numbers they are built on, which are not negative, every bound has fewer than 100 factors."""
+    known = ("A", "B", "AB", "BP", "AQ", "P", "Q", "c1", "c2", "h1", "h2", "h3", *certified.CONSTANTS)
+    for step in ("E", "bound_A", "bound_B", "offset_bound_A", "offset_bound_B", "e1", "e2"):
+        part = cut(certified.CERTIFIED, known, (step,))
+        counts = relative_error_counts(part, (step,), positive=set(part.inputs) - {"c1", "c2", "h1", "h2", "h3"})
+        assert counts.counts[step] < 100
+        assert (1 - U) ** -100 < Fraction(certified.SLACK)
+
+
+@given(sevens, st.fractions(Fraction(1, 64), 8, max_denominator=64))
+def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
+    alpha, gamma_, b, d = values[:4]
+    a, c = alpha / b, gamma_ / d
+    sizes = dict(zip(COLUMNS, values, strict=True)) | WITHOUT_MARGINS
+    if multiplier != c**2:
+        K, M = outputs(lines.TANGENT_BEYOND, EXACT, sizes | {"lambda_": multiplier}, ("K_most", "M_most"))
+        assert K == b**2 * (a**2 + multiplier) * (1 + 1 / multiplier)
+        assert M == (b / d) ** 2 * (a**2 + multiplier) / (c**2 - multiplier)
+    K, M = outputs(lines.TANGENT_WITHIN, EXACT, sizes | {"mu": multiplier}, ("K_least", "M_least"))
+    assert K == b**2 * (a**2 - multiplier) * (1 - 1 / multiplier)
+    assert M == (b / d) ** 2 * (a**2 - multiplier) / (c**2 + multiplier)
+
+
+@pytest.mark.parametrize(
+    ("program", "step", "most"),
+    [
+        (lines.ONE_LINE, "R", 2),
+        (lines.ONE_LINE, "line_beyond_0", 3),
+        (lines.TWO_LINES, "line_above_2", 3),
+        (lines.TANGENT_BEYOND, "K", 6),
+        (lines.TANGENT_BEYOND, "across", 3),
+        (lines.TANGENT_BEYOND, "gap_terms", 3),
+        (lines.TANGENT_WITHIN, "across_terms", 3),
+        (lines.TANGENT_WITHIN, "along", 3),
+        (lines.CHORD, "line_0", 2),
+    ],
+)
+def test_sides_of_a_line_carry_the_roundings_that_the_margins_allow(program, step, most):
+    """The comparison has 2 + 3 factors, a tangent's constants 8 and a chord's check 2 + 2: all within 2 MARGIN."""
+    positive = {*program.inputs} - {"x", "y", "z"}
+    assert relative_error_counts(program, [step], positive=positive).counts[step] <= most
+    assert Fraction(lines.MARGIN) == 16 * U
+    assert Fraction(lines.LESS) * (1 + 15 * U) <= 1 - 16 * U
+    assert Fraction(lines.MORE) * (1 - 15 * U) >= 1 + 16 * U
+
+
+def test_integers_are_the_cubic_times_the_squares_of_b_and_d():
+    names = ("N", "n2", "n1", "ps", "delta", "slope_at_B", "slope_at_A", "ring_excess", "offset_at_A", "offset_at_B")
+    # With b = d = 1: alpha = a, gamma = c, x² = P, z² = Q.
+    a, c, r, h = sympy.symbols("a c r h", positive=True)
+    inputs = {
+        "alpha": a,
+        "gamma": c,
+        "b": sympy.Integer(1),
+        "d": sympy.Integer(1),
+        "x": r,
+        "y": sympy.Integer(0),
+        "z": h,
+    }
+    N, n2, n1, ps, delta, at_B, at_A, ring, offset_A, offset_B = outputs(INTEGERS, SYMBOLIC, inputs, names)
+    here = {A: a**2, B: c**2, P: r**2, Q: h**2}
+    c2 = (A - B + 1 - P - Q).subs(here)
+    c1 = (-A * B + A - B + B * P - A * Q).subs(here)
+    t = sympy.Symbol("t")
+    g = t**3 + c2 * t**2 + c1 * t - (A * B).subs(here)
+    expected = {
+        N: 1,
+        n2: c2,
+        n1: c1,
+        ps: a**2 * c**2,
+        delta: 3 * sympy.discriminant(g, t),
+        at_B: sympy.diff(g, t).subs(t, c**2),
+        at_A: sympy.diff(g, t).subs(t, -(a**2)),
+        ring: c**4 - a**2,
+        offset_A: 3 * a**2 - c2,
+        offset_B: 3 * c**2 + c2,
+    }
+    for found, right in expected.items():
+        assert sympy.expand(found - right) == 0
+
+
+@settings(max_examples=30)
+@given(sevens)
+def test_integers_carry_the_powers_of_b_and_d_that_they_are_said_to(values):
+    alpha, gamma_, b, d, x, y, z = values
+    q, t = b * b, d * d
+    N, A_, B_ = q * t, alpha**2 / q, gamma_**2 / t
+    P_, Q_ = (x * x + y * y) / q, z * z / t
+    c2, c1, c0 = A_ - B_ + 1 - P_ - Q_, -A_ * B_ + A_ - B_ + B_ * P_ - A_ * Q_, -A_ * B_
+    expected = {
+        "N": N,
+        "n2": N * c2,
+        "n1": N * c1,
+        "ps": -N * c0,
+        "delta": N**4 * (4 * (c2**2 - 3 * c1) * (c1**2 - 3 * c2 * c0) - (c2 * c1 - 9 * c0) ** 2),
+        "slope_at_B": N * t * t * (3 * B_**2 + 2 * c2 * B_ + c1),
+        "slope_at_A": N * q * q * (3 * A_**2 - 2 * c2 * A_ + c1),
+        "offset_at_B": N * t * (3 * B_ + c2),
+        "offset_at_A": N * q * (3 * A_ - c2),
+        "ring_excess": q * t * t * (B_**2 - A_),
+    }
+    found = evaluate(INTEGERS, EXACT, dict(zip(COLUMNS, values, strict=True)))
+    assert {name: found[name] for name in expected} == expected
+
+
+@given(st.tuples(*[st.integers(-(2**40), 2**40)] * 7))
+def test_no_integer_is_longer_than_counted(values):
+    counted = bits_counted(INTEGERS, 41)
+    for name, value in evaluate(INTEGERS, EXACT, dict(zip(COLUMNS, values, strict=True))).items():
+        assert int(value).bit_length() <= counted[name]
