@@ -119,18 +119,20 @@ def test_questions_grow_while_answers_are_quick_and_shrink_when_they_are_not():
     """A tenth of the timeout, 1 s, is what a question should take."""
     with open_implementation("builtin:fast") as it:
         sizes = [it._batch]
-        for seconds, full in (
-            (0.01, False),
-            (0.01, True),
-            (0.3, True),
-            (0.6, True),
-            (0.01, True),
-            (5.0, True),
-            (2.0, True),
+        for seconds, rows in (
+            (0.01, 3),
+            (0.01, 64),
+            (0.3, 1024),
+            (0.6, 2048),
+            (0.01, 2048),
+            (5.0, 32768),
+            (2.0, 16384),
+            (0.01, 500),
+            (0.01, 600),
         ):
-            it._adapt(seconds, full=full)
-            sizes.append(it._batch)
-    assert sizes == [64, 64, 1024, 2048, 2048, 32768, 16384, 8192]
+            it._adapt(seconds, rows)
+            sizes.append(it.stands)
+    assert sizes == [64, 64, 1024, 2048, 2048, 32768, 16384, 8192, 8192, 9600]
 
 
 def test_a_foreign_spec_loads_none_of_our_methods():

@@ -78,13 +78,12 @@ class Vocabulary:
 class Asking:
     """One call's rows and what became of them so far."""
 
-    def __init__(self, rows: Rows, runs: Runs, vocabulary: Vocabulary, *, by_scene: bool, lone_left: int) -> None:
+    def __init__(self, rows: Rows, runs: Runs, vocabulary: Vocabulary, *, by_scene: bool) -> None:
         n = len(rows)
         self._rows = rows
         self._runs = runs
         self._vocabulary = vocabulary
         self._by_scene = by_scene
-        self.lone_left = lone_left
         self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
 
     def ask(self, start: int, stop: int) -> None:
@@ -112,12 +111,13 @@ class Asking:
         """Find the row at fault by asking parts, and then each row of a part that fails."""
         n = stop - start
         among = f"in a question of {n} rows"
-        if n == 1 or self.lone_left < min(n, ALONE):
+        if n == 1 or self._runs.left.lone < min(n, ALONE):
             for index in range(start, stop):
                 self._mark(index, outcome, reason if n == 1 else f"{among}: {reason}")
             return
         step = 1 if n <= ALONE else ALONE
-        self.lone_left -= n if step == 1 else 0
+        if step == 1:
+            self._runs.spend_lone(n)
         found = False
         for first in range(start, stop, step):
             last = min(first + step, stop)

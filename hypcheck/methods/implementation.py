@@ -11,10 +11,10 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.methods.asking import LONE_QUESTIONS, Answered, Asking, Vocabulary
 from hypcheck.methods.description import Description
-from hypcheck.methods.faults import FaultError, Outcome, TimingError
+from hypcheck.methods.faults import FaultError, TimingError
 from hypcheck.methods.frames import LARGEST
 from hypcheck.methods.limits import Limits
-from hypcheck.methods.runs import OverError, Runs
+from hypcheck.methods.runs import Allowance, OverError, Runs
 from hypcheck.methods.session import Session
 from hypcheck.methods.spec import Spec
 from hypcheck.rows import Rows, as_rows
@@ -39,7 +39,7 @@ class Implementation:
         instead: Callable[[Description], Description],
     ) -> None:
         self.spec = spec
-        self._runs = Runs(start, limits.restarts)
+        self._runs = Runs(start, Allowance(limits.restarts, LONE_QUESTIONS))
         try:
             self.declared = self._runs.declared
             self.description = instead(self.declared)
@@ -49,8 +49,6 @@ class Implementation:
         self._vocabulary = Vocabulary(self.description)
         self._limits = limits
         self._batch = min(_FIRST, self._runs.longest)
-        self._lone_left = LONE_QUESTIONS
-        self._outcomes: set[int] = set()
 
     def __enter__(self) -> Implementation:
         return self
@@ -79,19 +77,28 @@ class Implementation:
         return self._runs.scene
 
     @property
+    def stands(self) -> int:
+        """Rows of one question that it has shown to answer well within its time."""
+        return self._batch
+
+    @property
+    def allowance(self) -> Allowance:
+        """What it may still cost."""
+        return self._runs.left
+
+    def allow(self, allowance: Allowance) -> None:
+        """From here on it may cost so much, whatever it has cost before."""
+        self._runs.left = allowance
+
+    @property
     def restarts(self) -> int:
-        """Restarts that faults have cost so far."""
-        return self._runs.restarts
+        """Restarts that faults have cost, of those that the limits allow."""
+        return self._limits.restarts - self._runs.left.restarts
 
     @property
     def stderr(self) -> tuple[str, ...]:
         """The last lines that the running process wrote on standard error, safe to print."""
         return self._runs.stderr
-
-    @property
-    def broke_protocol_throughout(self) -> bool:
-        """Whether no row was ever answered, and every one that was asked ended as PROTOCOL."""
-        return self._outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
 
     def fresh(self) -> None:
         """Go on in a fresh process, which does not count as a restart."""
@@ -109,7 +116,7 @@ class Implementation:
         """
         rows = as_rows(rows)
         self._check_scene(rows, by_scene=by_scene)
-        asking = Asking(rows, self._runs, self._vocabulary, by_scene=by_scene, lone_left=self._lone_left)
+        asking = Asking(rows, self._runs, self._vocabulary, by_scene=by_scene)
         try:
             self._ask_all(asking, len(rows), batch)
         except OverError as error:
@@ -117,8 +124,6 @@ class Implementation:
         except BaseException:  # an interrupt leaves a question without its answer
             self._runs.kill()
             raise
-        self._lone_left = asking.lone_left
-        self._outcomes.update(np.unique(asking.result.status).tolist())
         return asking.result
 
     def _ask_all(self, asking: Asking, n: int, batch: int | None) -> None:
@@ -129,16 +134,16 @@ class Implementation:
             began = time.monotonic()
             asking.ask(start, stop)
             if batch is None:
-                self._adapt(time.monotonic() - began, full=stop - start == size)
+                self._adapt(time.monotonic() - began, stop - start)
             start = stop
 
-    def _adapt(self, seconds: float, *, full: bool) -> None:
+    def _adapt(self, seconds: float, rows: int) -> None:
         target = self._limits.timeout / _SHARE
         if seconds > target:
             self._batch = max(1, self._batch // 2)
-        elif full and seconds < target / 2:
+        elif seconds < target / 2:
             growth = _GROWTH if seconds < target / _GROWTH else 2
-            self._batch = min(self._runs.longest, self._batch * growth)
+            self._batch = max(self._batch, min(self._runs.longest, rows * growth))
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> int | None:
         """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from hypcheck.methods.faults import FaultError, StartError
 from hypcheck.methods.session import Session
@@ -12,20 +13,32 @@ class OverError(Exception):
     """No further run is possible; the text says why. Raised by Runs and caught where questions are asked."""
 
 
+@dataclass(frozen=True, slots=True)
+class Allowance:
+    """What an implementation may still cost before it is asked no more.
+
+    `restarts` that lost processes may be followed by; `lone` rows asked one by one to find those at fault. `over` says
+    why it is asked no more already; empty while it is.
+    """
+
+    restarts: int
+    lone: int
+    over: str = ""
+
+
 class Runs:
     """Holds the session that runs, and begins another where it was lost. Raises StartError where the first fails.
 
-    `start` begins a session; it is given the number of sessions before.
+    `start` begins a session; it is given the number of sessions before. `left` is what is left of the allowance. A
+    lost process is charged when it is lost, so that what some rows cost does not depend on what is asked after them.
     """
 
-    def __init__(self, start: Callable[[int], Session], most_restarts: int) -> None:
+    def __init__(self, start: Callable[[int], Session], allowance: Allowance) -> None:
         self._start = start
-        self._most = most_restarts
+        self._most = allowance.restarts
+        self.left = allowance
         self._count = 1
-        self._lost_by = ""
-        self._over = ""
         self._session: Session | None = start(0)
-        self.restarts = 0
         self.declared = self._session.description
         self.scene = self._session.scene
         self.most = self._session.most
@@ -33,31 +46,31 @@ class Runs:
 
     def session(self) -> Session:
         """The session that runs, begun anew if need be; raises OverError where that is not possible any more."""
-        if self._session is None:
-            if not self._over:
-                self._session = self._begin()
-            if self._session is None:
-                raise OverError(self._over)
+        if not self.left.over and self._session is None:
+            self._session = self._begin()
+        if self.left.over or self._session is None:
+            raise OverError(self.left.over)
         return self._session
 
     def _begin(self) -> Session | None:
-        if self._lost_by:
-            if self.restarts == self._most:
-                self._over = f"not asked: {self._most} restarts are used up; the last process: {self._lost_by}"
-                return None
-            self.restarts += 1
-            self._lost_by = ""
         try:
             session = self._start(self._count)
         except StartError as error:
-            self._over = f"not asked: it could not be started again: {error}"
+            self._end(f"not asked: it could not be started again: {error}")
             return None
         self._count += 1
         if session.description == self.declared:
             return session
         session.kill()
-        self._over = "not asked: started again, it describes itself otherwise than before"
+        self._end("not asked: started again, it describes itself otherwise than before")
         return None
+
+    def _end(self, reason: str) -> None:
+        self.left = replace(self.left, over=reason)
+
+    def spend_lone(self, rows: int) -> None:
+        """Take note of rows that are asked one by one."""
+        self.left = replace(self.left, lone=self.left.lone - rows)
 
     def note(self, fault: FaultError) -> str:
         """Take note of a fault of the session that runs: what happened, with what was said on standard error."""
@@ -66,8 +79,12 @@ class Runs:
             return fault.reason
         session.kill()
         self._session = None
-        self._lost_by = fault.reason + session.evidence
-        return self._lost_by
+        reason = fault.reason + session.evidence
+        if self.left.restarts:
+            self.left = replace(self.left, restarts=self.left.restarts - 1)
+        else:
+            self._end(f"not asked: {self._most} restarts are used up; the last process: {reason}")
+        return reason
 
     @property
     def stderr(self) -> tuple[str, ...]:
