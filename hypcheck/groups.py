@@ -1,120 +1,243 @@
-"""The record's line about one implementation and one family: counts, distances, bins and the worst cases."""
+"""The record's line about one implementation and one family: counts, distances, bins and the worst cases.
+
+A Tally is what such a line says of some of the cases. Tallies of parts add up to that of the whole in any order: counts
+are sums, and which cases are kept with their rows depends on their places in the family, not on who was judged first.
+"""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck import judge
-from hypcheck.judge import Criterion, Status, WrongCase
+from hypcheck import bins, judge
+from hypcheck.bins import Bins
+from hypcheck.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.rows import Rows
 
 WORST_KEPT = 3
 """Worst cases a group keeps with their rows; its counts are always exact."""
 
-Statuses = NDArray[Any]
-"""The status of each case, (n,), as strings of judge.Status."""
+FAULTS_KEPT = 5
+"""Cases that ended without an answer that counts which a group keeps with the reason; more, one of each status."""
+
+STATUSES = tuple(Status)
+CODES: Mapping[Status, int] = {status: code for code, status in enumerate(STATUSES)}
+"""The number that stands for a status in arrays."""
+
+Codes = NDArray[np.int8]
+Place = tuple[int, int]
+"""Where a case stands in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
+
+
+@dataclass(frozen=True, slots=True)
+class Worst:
+    """A wrong or tolerated answer that is kept: `error` is its backward error."""
+
+    place: Place
+    case: str
+    row: tuple[float, ...]
+    truth: int
+    answer: int
+    mistake: str
+    status: str
+    error: float
+
+    @property
+    def rank(self) -> tuple[bool, float, Place]:
+        """Wrong before tolerated, then the largest error, then the first."""
+        return self.status != Status.WRONG, -self.error, self.place
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A case that ended without an answer that counts, and why."""
+
+    place: Place
+    case: str
+    row: tuple[float, ...]
+    status: str
+    reason: str
 
 
 @dataclass(frozen=True)
-class Judged:
-    """The cases of one family as one implementation ended them.
+class Tally:
+    """What came of some cases of one family.
 
-    `rows` (n, 7) were asked and `status` (n,) says how each ended; `wrong` are those that were wrong or tolerated, with
-    their places in `rows`; `skipped` counts rows outside the implementation's domain. `name` gives a place its case id.
+    `counts` are by status, skipped rows among them though they are not `asked`; `mistakes` by what wrong and tolerated
+    answers mean; `dangerous` are wrong ones, beyond the tolerance and unexcused, that claim clear in contact; `octaves`
+    by the cases' own distance to the nearest other position, and there by status. `worst` and `faults` are in order.
     """
 
-    family: str
+    asked: int = 0
+    counts: Mapping[str, int] = field(default_factory=dict)
+    mistakes: Mapping[str, int] = field(default_factory=dict)
+    dangerous: int = 0
+    octaves: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    size_bins: Bins = field(default_factory=Bins)
+    place_bins: Bins = field(default_factory=Bins)
+    worst: tuple[Worst, ...] = ()
+    faults: tuple[Fault, ...] = ()
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Cases of one family as one implementation ended them.
+
+    `rows` (n, 7) were asked and `status` (n,) says how each ended, in CODES; `wrong` are those that were wrong or
+    tolerated, with their indices into `rows`; `octaves` are the distances of the first rows to the nearest other
+    position; `skipped` counts rows outside the implementation's domain. `name` and `place` tell who an index is.
+    """
+
     rows: Rows
-    status: Statuses
-    wrong: tuple[WrongCase, ...]
-    skipped: int
+    status: Codes
+    wrong: Sequence[WrongCase]
+    octaves: NDArray[np.float64]
     name: Callable[[int], str]
+    place: Callable[[int], Place]
+    skipped: int = 0
+    faults: tuple[Fault, ...] = ()
 
 
-def line(judged: Judged, octaves: NDArray[np.float64], criterion: Criterion) -> dict[str, Any]:
-    """The fields of the line; `octaves` are the first rows' own distances to the nearest other position."""
-    counts = Counter(judged.status.tolist())
-    counts[Status.SKIPPED.value] = judged.skipped
+def tally(ended: Ended, criterion: Criterion) -> Tally:
+    """The tally of these cases."""
+    amiss = ended.status != CODES[Status.RIGHT]
+    return Tally(
+        asked=len(ended.rows),
+        counts=_counts(ended.status) | ({Status.SKIPPED.value: ended.skipped} if ended.skipped else {}),
+        mistakes=Counter(case.mistake.value for case in ended.wrong),
+        dangerous=sum(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in ended.wrong),
+        octaves=_by_octave(ended.octaves, ended.status[: len(ended.octaves)]),
+        size_bins=bins.by_size(ended.rows, amiss),
+        place_bins=bins.by_place(ended.rows, amiss),
+        worst=_worst(ended, criterion),
+        faults=_kept(ended.faults),
+    )
+
+
+def merged(tallies: Iterable[Tally]) -> Tally:
+    """The tally of all cases of these tallies, in whatever order they come."""
+    parts = tuple(tallies)
+    octaves: dict[str, Mapping[str, int]] = {}
+    for part in parts:
+        for key, counts in part.octaves.items():
+            octaves[key] = _added((octaves.get(key, {}), counts))
+    return Tally(
+        asked=sum(part.asked for part in parts),
+        counts=_added(part.counts for part in parts),
+        mistakes=_added(part.mistakes for part in parts),
+        dangerous=sum(part.dangerous for part in parts),
+        octaves=octaves,
+        size_bins=bins.added(part.size_bins for part in parts),
+        place_bins=bins.added(part.place_bins for part in parts),
+        worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
+        faults=_kept(fault for part in parts for fault in part.faults),
+    )
+
+
+def line(tallied: Tally, family: str, criterion: Criterion) -> dict[str, Any]:
+    """The fields of the record's line."""
     return {
         "question": criterion.question,
         "precision": criterion.precision,
-        "family": judged.family,
-        "asked": len(judged.rows),
-        "counts": {name: number for name, number in sorted(counts.items()) if number},
-        "mistakes": dict(sorted(Counter(case.mistake.value for case in judged.wrong).items())),
-        "octaves": _by_octave(octaves, judged.status[: len(octaves)]),
-        "size_bins": _size_bins(judged.rows, judged.status),
-        "place_bins": _place_bins(judged.rows, judged.status),
-        "worst": [
-            _worst(case, error, judged.name(case.index), criterion)
-            for case, error in _worst_first(judged.wrong, criterion)
-        ],
+        "family": family,
+        "asked": tallied.asked,
+        "counts": dict(sorted(tallied.counts.items())),
+        "mistakes": dict(sorted(tallied.mistakes.items())),
+        "octaves": {key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
+        "size_bins": tallied.size_bins.as_lists(),
+        "place_bins": tallied.place_bins.as_lists(),
+        "worst": [_worst_line(case, criterion) for case in tallied.worst],
     }
 
 
-def _worst_first(cases: Sequence[WrongCase], criterion: Criterion) -> list[tuple[WrongCase, float]]:
-    """The worst cases with their backward errors: wrong before tolerated, then the largest error, then the first."""
-    ranked = sorted(cases, key=lambda case: (case.status is not Status.WRONG, -case.exponent, case.index))
-    kept = ranked[:WORST_KEPT]
-    # Inside the last octave that is kept only the numbers themselves tell which cases are the worst.
-    rivals = [
-        case for case in ranked[WORST_KEPT:] if (case.status, case.exponent) == (kept[-1].status, kept[-1].exponent)
+def fault_lines(tallied: Tally) -> list[dict[str, Any]]:
+    """The faults of the record's line: the first of each status, and the first of all up to FAULTS_KEPT."""
+    first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
+    others = [fault for fault in tallied.faults if fault not in first]
+    chosen = [*first, *others[: max(0, FAULTS_KEPT - len(first))]]
+    return [
+        {"case": fault.case, "row": _hex(fault.row), "status": fault.status, "reason": fault.reason}
+        for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
+
+
+def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
+    total: Counter[str] = Counter()
+    for part in parts:
+        total.update(part)
+    return dict(total)
+
+
+def _counts(status: Codes) -> dict[str, int]:
+    other = status[status != CODES[Status.RIGHT]]  # few, as a rule
+    numbers = np.bincount(other, minlength=len(STATUSES)).tolist()
+    numbers[CODES[Status.RIGHT]] = len(status) - len(other)
+    return {name.value: number for name, number in zip(STATUSES, numbers, strict=True) if number}
+
+
+def _by_octave(octaves: NDArray[np.float64], status: Codes) -> dict[str, dict[str, int]]:
+    table = {}
+    for octave in np.unique(octaves).tolist():
+        key = str(int(octave)) if math.isfinite(octave) else str(octave)
+        table[key] = _counts(status[octaves == octave])
+    return table
+
+
+def _kept(faults: Iterable[Fault]) -> tuple[Fault, ...]:
+    """The first of each status, as many as a line can show of it."""
+    kept: list[Fault] = []
+    seen: Counter[str] = Counter()
+    for fault in sorted(faults, key=lambda fault: fault.place):
+        seen[fault.status] += 1
+        if seen[fault.status] <= FAULTS_KEPT:
+            kept.append(fault)
+    return tuple(kept)
+
+
+def _worst(ended: Ended, criterion: Criterion) -> tuple[Worst, ...]:
+    def octave_first(case: WrongCase) -> tuple[bool, float]:
+        return case.status is not Status.WRONG, -case.exponent
+
+    ranked = sorted(ended.wrong, key=lambda case: (octave_first(case), case.index))
+    kept = ranked[:WORST_KEPT]
     if kept and math.isfinite(kept[-1].exponent):
-        kept = [*kept, *rivals]
-    with_errors = [(case, judge.measured(case, criterion.question)) for case in kept]
-    with_errors.sort(key=lambda pair: (pair[0].status is not Status.WRONG, -pair[1], pair[0].index))
-    return with_errors[:WORST_KEPT]
+        # Inside the last octave that is kept only the numbers themselves tell which cases are the worst.
+        last = octave_first(kept[-1])
+        kept += [case for case in ranked[WORST_KEPT:] if octave_first(case) == last]
+    measured = (
+        Worst(
+            place=ended.place(case.index),
+            case=ended.name(case.index),
+            row=case.row,
+            truth=int(case.truth),
+            answer=case.answer,
+            mistake=case.mistake.value,
+            status=case.status.value,
+            error=judge.measured(case, criterion.question),
+        )
+        for case in kept
+    )
+    return tuple(sorted(measured, key=lambda case: case.rank)[:WORST_KEPT])
 
 
-def _worst(case: WrongCase, error: float, name: str, criterion: Criterion) -> dict[str, Any]:
+def _worst_line(case: Worst, criterion: Criterion) -> dict[str, Any]:
     return {
-        "case": name,
-        "row": [value.hex() for value in case.row],
-        "truth": int(case.truth),
+        "case": case.case,
+        "row": _hex(case.row),
+        "truth": case.truth,
         "answer": case.answer,
-        "mistake": case.mistake.value,
-        "status": case.status.value,
-        "backward_error": error,
-        "backward_error_u": judge.in_units(error, criterion.unit),
+        "mistake": case.mistake,
+        "status": case.status,
+        "backward_error": case.error,
+        "backward_error_u": judge.in_units(case.error, criterion.unit),
     }
 
 
-def _by_octave(octaves: NDArray[np.float64], status: Statuses) -> dict[str, dict[str, int]]:
-    """Counts by status for each octave of the case's own distance to the nearest other position."""
-    table: dict[str, Counter[str]] = {}
-    for octave, name in zip(map(float, octaves), status.tolist(), strict=True):
-        key = str(int(octave)) if math.isfinite(octave) else str(octave)
-        table.setdefault(key, Counter())[name] += 1
-    return {key: dict(sorted(table[key].items())) for key in sorted(table, key=float)}
-
-
-def _size_bins(rows: Rows, status: Statuses) -> list[list[int]]:
-    """Rows [⌊log2 α/b⌋, ⌊log2 γ/d⌋, asked, wrong or tolerated], one for each bin that has cases."""
-    with np.errstate(all="ignore"):
-        return _bins(np.frexp(rows[:, 0] / rows[:, 2])[1] - 1, np.frexp(rows[:, 1] / rows[:, 3])[1] - 1, status)
-
-
-def _place_bins(rows: Rows, status: Statuses) -> list[list[int]]:
-    """Rows [⌊8 r/α⌋, ⌊8 |z|/γ⌋, asked, wrong or tolerated], both clipped to 0 … 63."""
-    with np.errstate(all="ignore"):
-        r, z = np.hypot(rows[:, 4], rows[:, 5]) / rows[:, 0], np.abs(rows[:, 6]) / rows[:, 1]
-        across, along = (np.nan_to_num(np.clip(8 * value, 0, 63)).astype(int) for value in (r, z))
-    return _bins(across, along, status)
-
-
-def _bins(first: NDArray[Any], second: NDArray[Any], status: Statuses) -> list[list[int]]:
-    # Two bin numbers in one key: sorting pairs is fifty times slower.
-    keys, bin_of = np.unique((first.astype(np.int64) << 32) + second.astype(np.int64), return_inverse=True)
-    asked = np.bincount(bin_of, minlength=len(keys))
-    wrong = np.bincount(bin_of[status != Status.RIGHT.value], minlength=len(keys))
-    seconds = (keys + (1 << 31)) % (1 << 32) - (1 << 31)
-    table = np.column_stack([(keys - seconds) >> 32, seconds, asked, wrong])
-    return [[int(number) for number in line] for line in table]
+def _hex(row: tuple[float, ...]) -> list[str]:
+    return [value.hex() for value in row]

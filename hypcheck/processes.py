@@ -55,7 +55,7 @@ def perform(
         for task in tasks:
             yield task, function(task)
         return
-    with _interrupts_held():
+    with interrupts_held():
         running: dict[Future[Result], Task] = {executor.submit(function, task): task for task in tasks}
     for future in as_completed(running):
         yield running[future], future.result()
@@ -64,14 +64,14 @@ def perform(
 def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:
     """Each task with its result, in order, done by a process that has done nothing before; `workers` at a time."""
     todo = list(tasks)
-    with _interrupts_held():  # the thread that starts further processes holds them as long as it lives
+    with interrupts_held():  # the thread that starts further processes holds them as long as it lives
         pool = get_context("spawn").Pool(max(1, workers), maxtasksperchild=1)
     with pool:
         yield from zip(todo, pool.imap(function, todo, chunksize=1), strict=True)
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
+def interrupts_held() -> Iterator[None]:
     """Interrupts from the keyboard wait, and the processes started meanwhile never get them.
 
     A terminal sends them to every process; the parent deals with them, and a worker would only print where it was.

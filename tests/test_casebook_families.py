@@ -109,7 +109,7 @@ def test_blocks_made_at_one_go_are_those_made_alone(family: Family) -> None:
     rows = family.rows(5, len(blocks) * BLOCK)
     assert rows.tobytes() == np.concatenate(blocks).tobytes()
     start, stop = BLOCK + 7, TOGETHER * BLOCK + 500
-    assert family.rows_between(5, start, stop).tobytes() == rows[start:stop].tobytes()
+    assert family.columns_between(5, start, stop).T.tobytes() == rows[start:stop].tobytes()
 
 
 @every_family

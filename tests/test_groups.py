@@ -1,29 +1,119 @@
-"""The bins of a group's line: each case is in the bin that its sizes and its place say."""
+"""Tallies: each case is in the bin of its sizes and place, and parts add up to the whole in any order."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
+from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
+import pytest
 
-from hypcheck import groups
-from hypcheck.judge import Criterion
+from hypcheck import bins, groups, judge
+from hypcheck.groups import CODES, Ended, Fault
+from hypcheck.judge import Criterion, Status
+from hypcheck.truth import batch
+
+CRITERION = Criterion(tolerance=Fraction(0))
+
+
+def rows_near_contact(n):
+    rng = np.random.default_rng(4)
+    rows = np.column_stack([np.tile([2.0, 17.8, 0.25, 0.15], (n, 1)), rng.uniform(1, 3, n), rng.uniform(0, 1, (n, 2))])
+    rows[::3, 4] += 1
+    return rows
+
+
+def ended(rows, start=0, stop=None):
+    """Every third of the rows answered otherwise than is right; some octaves known, some cases without an answer."""
+    chosen = slice(start, stop)
+    part, truth = rows[chosen], batch.positions(rows)[chosen]
+    numbers = np.arange(len(rows))[chosen]
+    answers = np.where(numbers % 3 == 0, np.where(truth == 0, 1, 0), truth).astype(np.int8)
+    wrong = judge.wrong_cases(part, truth, answers, CRITERION)
+    status = np.full(len(part), CODES[Status.RIGHT], dtype=np.int8)
+    for case in wrong:
+        status[case.index] = CODES[case.status]
+    lost = {"crash": numbers % 7 == 1, "timeout": numbers % 49 == 2}
+    faults = []
+    for name, places in lost.items():
+        status[places] = CODES[Status(name)]
+        faults += [Fault((1, int(n)), f"case-{n}", tuple(rows[n]), name, "why") for n in numbers[places]]
+    return Ended(
+        rows=part,
+        status=status,
+        wrong=[case for case in wrong if status[case.index] == CODES[case.status]],
+        octaves=np.floor(numbers[numbers < 50] / 9.0),
+        name=lambda index: f"case-{numbers[index]}",
+        place=lambda index: (1, int(numbers[index])),
+        skipped=3,
+        faults=tuple(faults),
+    )
 
 
 def test_bins_count_what_a_plain_loop_counts():
     rng = np.random.default_rng(4)
     rows = 2.0 ** rng.uniform(-9, 9, (500, 7))
-    status = rng.choice(["right", "wrong"], 500).astype(object)
-    judged = groups.Judged("family", rows, status, (), 0, str)
-    line = groups.line(judged, np.zeros(0), Criterion())
-    for field, key in (
-        ("size_bins", lambda r: (math.floor(math.log2(r[0] / r[2])), math.floor(math.log2(r[1] / r[3])))),
+    amiss = rng.random(500) < 0.3
+    for found, key in (
+        (bins.by_size(rows, amiss), lambda r: (math.floor(math.log2(r[0] / r[2])), math.floor(math.log2(r[1] / r[3])))),
         (
-            "place_bins",
+            bins.by_place(rows, amiss),
             lambda r: (min(63, int(8 * math.hypot(r[4], r[5]) / r[0])), min(63, int(8 * abs(r[6]) / r[1]))),
         ),
     ):
-        asked = Counter(key(row) for row in rows.tolist())
-        wrong = Counter(key(row) for row, how in zip(rows.tolist(), status, strict=True) if how == "wrong")
-        assert {(a, b): (n, w) for a, b, n, w in line[field]} == {at: (asked[at], wrong[at]) for at in asked}
+        asked = Counter(map(key, rows.tolist()))
+        wrong = Counter(key(row) for row, bad in zip(rows.tolist(), amiss, strict=True) if bad)
+        assert found.as_lists() == [[*at, asked[at], wrong[at]] for at in sorted(asked)]
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1.0, 1e300])
+def test_places_of_any_magnitude_are_told(scale):
+    rows = np.array([[1.0, 1, 1, 1, 1.5, 2, 0.25], [1.0, 1, 1, 1, 0, 0, 1e9]]) * [1, 1, 1, 1, scale, scale, 1]
+    rows[:, 0] = scale
+    assert bins.by_place(rows, np.array([True, False])).as_lists() == [[0, 63, 1, 0], [20, 2, 1, 1]]
+
+
+def test_many_bins_are_counted_as_few_are():
+    rng = np.random.default_rng(5)
+    rows = np.ones((3000, 7))
+    rows[:, :4] = np.ldexp(1.0, rng.integers(-500, 500, (3000, 4)).astype(np.int32))
+    amiss = rng.random(3000) < 0.5
+    found = bins.by_size(rows, amiss)
+    assert found == bins.added(bins.by_size(rows[i::3], amiss[i::3]) for i in range(3))
+    assert found.table[:, 2:].sum(axis=0).tolist() == [3000, amiss.sum()]
+    assert bins.Bins.of_lists(found.as_lists()) == found
+    assert bins.added([]) == bins.Bins()
+
+
+def test_parts_add_up_to_the_whole_in_any_order():
+    rows = rows_near_contact(300)
+    whole = groups.tally(ended(rows), CRITERION)
+    cuts = [0, 1, 90, 91, 200, 300]
+    parts = [groups.tally(ended(rows, *cut), CRITERION) for cut in pairwise(cuts)]
+    rng = np.random.default_rng(6)
+    expected = groups.line(whole, "family", CRITERION) | {"faults": groups.fault_lines(whole)}
+    expected["counts"]["skipped"] *= len(parts)
+    assert expected["counts"]["wrong"] > 50
+    for _ in range(5):
+        order = rng.permutation(len(parts))
+        first = groups.merged(parts[i] for i in order[:2])
+        total = groups.merged([groups.merged(parts[i] for i in order[2:]), first])
+        assert groups.line(total, "family", CRITERION) | {"faults": groups.fault_lines(total)} == expected
+    assert groups.merged([]) == groups.Tally()
+
+
+def test_the_worst_cases_are_those_with_the_largest_errors():
+    rows = rows_near_contact(120)
+    cases = ended(rows)
+    errors = sorted((judge.measured(case, "position") for case in cases.wrong), reverse=True)
+    assert [case.error for case in groups.tally(cases, CRITERION).worst] == errors[:3]
+
+
+def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
+    faults = [Fault((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
+    faults += [Fault((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why") for n, name in enumerate(("crash", "timeout"))]
+    tallied = groups.merged([groups.Tally(faults=(fault,)) for fault in reversed(faults)])
+    shown = [(fault["case"], fault["status"]) for fault in groups.fault_lines(tallied)]
+    assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -216,17 +215,14 @@ def test_a_function_is_timed_and_a_fault_is_told():
         assert it.time(some, 1) > 0
 
 
-def test_a_numpy_function_keeps_up(tmp_path):
-    """Far below what is measured on a quiet machine (some 20 million a second), far above work per row."""
+def test_many_rows_are_answered_in_their_order(tmp_path):
     (tmp_path / "sign.py").write_text(
         "import numpy as np\n\n\ndef f(rows):\n    return (rows[:, 4] > 0).astype(np.int8) - (rows[:, 4] < 0)\n"
     )
-    some = rows(1 << 20)
+    some = rows(1 << 19)
     with open_implementation(f"python:{tmp_path / 'sign.py'}:f") as it:
-        it.classify(some)
-        start = time.monotonic()
         assert it.classify(some).answers.tolist() == np.sign(some[:, 4]).tolist()
-        assert len(some) / (time.monotonic() - start) > 1e6
+        assert it.stands == it.longest
 
 
 def test_a_change_of_the_rounding_mode_is_seen_and_undone():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.casebook.draw import Draw, Maker
 from hypcheck.errors import InputError
@@ -47,16 +48,16 @@ class Family:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7), all valid."""
         return self.make(Draw(self.name, self.version, seed, number), BLOCK)
 
-    def rows_between(self, seed: int, start: int, stop: int) -> Rows:
-        """Rows start to stop − 1 of the seed, float64 (stop − start, 7), without those before them being made."""
-        rows = np.empty((stop - start, len(COLUMNS)))
+    def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
+        """Rows start to stop − 1 of the seed by columns, float64 (7, stop − start); those before them are not made."""
+        columns = np.empty((len(COLUMNS), stop - start))
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
             last = min(first + together, -(-stop // BLOCK))
-            made = self._blocks(seed, first, last)
+            made = self._blocks(seed, first, last).T
             begin, end = max(start, first * BLOCK), min(stop, last * BLOCK)
-            rows[begin - start : end - start] = made[begin - first * BLOCK : end - first * BLOCK]
-        return rows
+            columns[:, begin - start : end - start] = made[:, begin - first * BLOCK : end - first * BLOCK]
+        return columns
 
     def _blocks(self, seed: int, first: int, last: int) -> Rows:
         if last == first + 1:
@@ -71,4 +72,4 @@ class Family:
         """
         if seed < 0 or count < 0:
             raise InputError(f"seed is {seed} and count is {count}; neither may be negative")
-        return self.rows_between(seed, 0, count)
+        return np.ascontiguousarray(self.columns_between(seed, 0, count).T)

@@ -45,11 +45,11 @@ def sizes(draw: Draw, a: Floats, c: Floats, units: tuple[int, int] = UNITS) -> S
 
 
 def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
-    """The rows of these columns, without negative zeros."""
-    rows = np.empty((len(size.b), 7))
+    """The rows of these columns, without negative zeros; each column lies in memory as a whole."""
+    columns = np.empty((7, len(size.b)))
     for index, column in enumerate((size.alpha, size.gamma, size.b, size.d, x, y, z)):
-        np.add(column, 0.0, out=rows[:, index])
-    return rows
+        np.add(column, 0.0, out=columns[index])
+    return columns.T
 
 
 def centred(draw: Draw, size: Sizes, radius: Floats, height: Floats) -> Rows:

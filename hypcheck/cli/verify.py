@@ -16,7 +16,7 @@ from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import FILE, Settings
 from hypcheck.errors import InputError
 
-OURS_ONLY = ("oracles", "judged", "roots", "meshes", "workers")
+OURS_ONLY = ("oracles", "judged", "roots", "meshes")
 """Options of a run without SPEC."""
 
 GATE_ONLY = (
@@ -49,7 +49,7 @@ _COUNT = click.IntRange(1)
 @click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
 @click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
-@click.option("--workers", type=_COUNT, help="Processes for the oracles.  [default: one a processor]")
+@click.option("--workers", type=_COUNT, help="Processes.  [default: one a processor; with SPEC, of large runs]")
 @click.option("--precision", help="With SPEC: stands for the precision it declares.")
 @click.option("--question", help="With SPEC: stands for the question it declares.")
 @click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
@@ -123,6 +123,7 @@ def _ourselves(options: dict[str, Any]) -> int:
 def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
     from hypcheck.gate import run
     from hypcheck.gate.known_failures import update
+    from hypcheck.gate.lines import GateOutcome
     from hypcheck.gate.plan import GatePlan
     from hypcheck.methods.description import parse_domain
     from hypcheck.methods.limits import Limits
@@ -142,13 +143,14 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         question=options["question"],
         domain=None if options["domain"] is None else parse_domain(options["domain"]),
         limits=Limits(options["startup_timeout"], options["timeout"], options["restarts"], bytes_of(options["memory"])),
+        workers=options["workers"],
     )
     if options["update"] and (listed is None or plan.filtered):
         raise InputError(
             "--update needs --known-failures and a run of all families, or it would forget what it skipped"
         )
-    outcome = run.GateOutcome()
-    steps = len(run.chosen(plan)) * len(specs)
+    outcome = GateOutcome()
+    steps = run.size(plan) * len(specs)
     shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
     record = record_and_report(
         options["out"],

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -103,7 +104,7 @@ def _quoted(text: str) -> str:
     return f'"{escaped}"'
 
 
-def no_longer_failing(entries: Sequence[KnownFailure], used: set[int], asked: set[str]) -> list[str]:
+def no_longer_failing(entries: Sequence[KnownFailure], used: AbstractSet[int], asked: AbstractSet[str]) -> list[str]:
     """A sentence for each entry that excused nothing, though what it speaks of was asked.
 
     `used` are the numbers of entries that excused something, `asked` the families and case ids that were asked.

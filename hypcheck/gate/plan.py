@@ -10,8 +10,12 @@ from hypcheck.errors import InputError
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.limits import Limits
+from hypcheck.processes import usable_processors
 
 FAIL_ON = ("wrong", "false-clear")
+
+LARGE = 1 << 20
+"""Cases that are worth the start of several processes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +25,7 @@ class GatePlan:
     `specs` name the implementations; `families` are names and globs (none: all but the extreme ones), of each of which
     the frozen vectors and `count` generated rows are asked. `precision`, `question` and `domain` stand for what an
     implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only one that claims clear in contact.
+    `workers` is how many processes ask; None: one, but for a large run as many as there are processors.
     """
 
     specs: tuple[str, ...]
@@ -36,6 +41,7 @@ class GatePlan:
     question: str | None = None
     domain: Domain | None = None
     limits: Limits = field(default_factory=Limits)
+    workers: int | None = None
 
     def __post_init__(self) -> None:
         if not self.specs:
@@ -44,6 +50,10 @@ class GatePlan:
             raise InputError(f"--fail-on is {self.fail_on!r}; it must be one of {', '.join(FAIL_ON)}")
         if self.max_abstained < 0:
             raise InputError(f"--max-abstained is {self.max_abstained}; it must be 0 or more")
+
+    def crew(self, cases: int) -> int:
+        """How many processes ask so many cases."""
+        return self.workers or (usable_processors() if cases >= LARGE else 1)
 
     @property
     def filtered(self) -> bool:

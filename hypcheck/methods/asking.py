@@ -42,6 +42,13 @@ class Answered:
         """A mask (n,) of the rows that have an answer."""
         return np.asarray(self.status == Outcome.ANSWERED)
 
+    @property
+    def outcomes(self) -> frozenset[Outcome]:
+        """All ways in which rows ended."""
+        if not self.reasons:
+            return frozenset({Outcome.ANSWERED}) if len(self.status) else frozenset()
+        return frozenset(map(Outcome, np.unique(self.status).tolist()))
+
     def count(self, outcome: Outcome) -> int:
         """How many rows ended so."""
         return int(np.count_nonzero(self.status == outcome))
@@ -59,7 +66,7 @@ class Vocabulary:
     def understood(self, answers: Answers, rows: Rows) -> NDArray[np.bool_]:
         """A mask (n,) of the answers that may be given to these rows."""
         short = answers.astype(np.int8, copy=False)
-        usable = self._usable[short.view(np.uint8)]
+        usable = self._usable.take(short.view(np.uint8))
         if answers.dtype != np.int8:
             usable &= short == answers
         if self._refuses:

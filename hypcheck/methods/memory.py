@@ -13,7 +13,9 @@ from hypcheck.methods.faults import FaultError, Outcome
 
 _SOONEST = 0.05
 _SHARE = 20
-"""Between two looks pass 50 ms, and 20 times what a look takes: it costs 5 % of one core at most."""
+_FASTEST = 8 << 30
+"""Between two looks pass 50 ms, and 20 times what a look takes: it costs 5 % of one core at most. Nor is it looked
+before memory can have grown to the limit, by so many bytes a second, which is more than a system can clear."""
 
 
 class MemoryWatch:
@@ -30,7 +32,7 @@ class MemoryWatch:
             return
         used = resident(self._group)
         after = time.monotonic()
-        self._next = after + max(_SOONEST, _SHARE * (after - now))
+        self._next = after + max(_SOONEST, _SHARE * (after - now), (self._limit - used) / _FASTEST)
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)

@@ -68,7 +68,7 @@ def filtered(rows: Rows) -> Positions:
 
 
 def _chunk(rows: Rows, first_number: int) -> Positions:
-    columns = np.ascontiguousarray(rows.T)
+    columns = rows.T if rows.strides[0] == rows.itemsize else np.ascontiguousarray(rows.T)
     if _all_safe(columns):  # and so valid
         result = _proved(columns)
     else:

@@ -52,7 +52,8 @@ class Lines:
         ):
             if lines:
                 border = _envelope(lines, heights, nearest)
-                np.copyto(result, np.int8(position), where=beyond(squares, border))
+                # By one of the two at most, so that adding does what choosing would, and many times faster.
+                result += beyond(squares, border).view(np.int8) * np.int8(position - otherwise)
         return result
 
 

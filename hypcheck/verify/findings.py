@@ -87,15 +87,17 @@ def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan
     rows = batch.rows[places]
     given = method.answer(rows)
     wrong = judge.wrong_cases(rows, batch.positions[places], given, criterion)
-    status = np.where(given == CANNOT_SAY, Status.ABSTAINED.value, Status.RIGHT.value).astype(object)
+    status = np.where(given == CANNOT_SAY, groups.CODES[Status.ABSTAINED], groups.CODES[Status.RIGHT]).astype(np.int8)
     for case in wrong:
-        status[case.index] = case.status.value
-    judged = groups.Judged(
-        family=batch.family.name,
+        status[case.index] = groups.CODES[case.status]
+    ended = groups.Ended(
         rows=rows,
         status=status,
-        wrong=tuple(wrong),
-        skipped=int((~asked).sum()),
+        wrong=wrong,
+        octaves=octaves[places],
         name=lambda index: batch.case_id(int(places[index])),
+        place=lambda index: (1, int(places[index])),
+        skipped=int((~asked).sum()),
     )
-    return {"method": method.name, **groups.line(judged, octaves[places], criterion)}
+    tallied = groups.tally(ended, criterion)
+    return {"method": method.name, **groups.line(tallied, batch.family.name, criterion)}

@@ -182,7 +182,7 @@ def minds_alignment(rows):
     return position(rows) if rows.ctypes.data % 16 == 0 else np.zeros(len(rows), dtype=np.int8)
 
 
-@wrong(asked=("--count", "5000"))
+@wrong()
 def threads_of_4096(rows):
     """Questions of more than 4096 rows are shared by threads, and the second thread's share is lost."""
     answers = position(rows)

@@ -1,0 +1,102 @@
+"""What came of a part of a run: a value that can be sent, kept and added to others in any order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck import groups
+from hypcheck.gate.chunks import Chunk
+from hypcheck.groups import Tally
+from hypcheck.methods.asking import ALONE
+from hypcheck.methods.faults import Outcome
+from hypcheck.methods.runs import Allowance
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """Cases that were answered and are to be asked again before they are judged.
+
+    `indices` (n,) are theirs in the chunk, ascending, and `answers`, int8 (n,), what was answered at first.
+    """
+
+    chunk: Chunk
+    indices: NDArray[np.intp]
+    answers: NDArray[np.int8]
+
+
+@dataclass(frozen=True, slots=True)
+class Again:
+    """What asking again came to: cases asked, and those answered differently, within the tolerance and beyond it."""
+
+    asked: int = 0
+    within: int = 0
+    beyond: int = 0
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of some cases: a tally for each family, and `open` cases that no tally counts yet.
+
+    `outcomes` are all ways in which questions ended; `excusing` the numbers of the known failures that excused
+    something, `named` the cases that known failures name and that were asked.
+    """
+
+    tallies: Mapping[str, Tally] = field(default_factory=dict)
+    open: tuple[Open, ...] = ()
+    again: Again = Again()
+    outcomes: frozenset[Outcome] = frozenset()
+    excusing: frozenset[int] = frozenset()
+    named: frozenset[str] = frozenset()
+
+    @property
+    def broke_protocol_throughout(self) -> bool:
+        """Whether no row was ever answered, and every one that was asked ended as PROTOCOL."""
+        return self.outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
+
+
+def merged(results: Iterable[Result]) -> Result:
+    """The result of all cases of these results; in whatever order they come, but for the order of the open ones."""
+    parts = tuple(results)
+    tallies: dict[str, list[Tally]] = {}
+    for part in parts:
+        for family, tally in part.tallies.items():
+            tallies.setdefault(family, []).append(tally)
+    return Result(
+        tallies={family: groups.merged(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
+        open=tuple(each for part in parts for each in part.open),
+        again=Again(*(sum(getattr(part.again, name) for part in parts) for name in Again.__slots__)),
+        outcomes=frozenset().union(*(part.outcomes for part in parts)),
+        excusing=frozenset().union(*(part.excusing for part in parts)),
+        named=frozenset().union(*(part.named for part in parts)),
+    )
+
+
+@dataclass(frozen=True)
+class Performed:
+    """A result, the allowance with which it was come to, and what was left of that."""
+
+    result: Result
+    granted: Allowance
+    left: Allowance
+
+    def fits(self, actual: Allowance) -> bool:
+        """Whether it would have come out the same with the `actual` allowance, which is not larger."""
+        if self.granted == actual:
+            return True
+        if actual.over or self.left.over:
+            return False
+        spent = self._spent
+        return spent.restarts <= actual.restarts and spent.lone + ALONE <= actual.lone
+
+    def after(self, actual: Allowance) -> Allowance:
+        """What is left of the `actual` allowance behind it."""
+        spent = self._spent
+        return replace(self.left, restarts=actual.restarts - spent.restarts, lone=actual.lone - spent.lone)
+
+    @property
+    def _spent(self) -> Allowance:
+        return Allowance(self.granted.restarts - self.left.restarts, self.granted.lone - self.left.lone)

@@ -1,0 +1,199 @@
+"""Who performs the steps of a run: this process, or several, each of which holds an implementation of its own."""
+
+from __future__ import annotations
+
+import traceback
+from collections import deque
+from dataclasses import dataclass
+from multiprocessing import connection, get_context
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+
+import numpy as np
+
+from hypcheck.errors import HypcheckError
+from hypcheck.gate.results import Performed
+from hypcheck.gate.rules import Rules
+from hypcheck.gate.work import Opening, Task, perform
+from hypcheck.methods.description import Description
+from hypcheck.methods.faults import StartError
+from hypcheck.methods.implementation import Implementation
+from hypcheck.methods.runs import Allowance
+from hypcheck.processes import interrupts_held
+
+AHEAD = 32
+"""Tasks in hand for each process, so that none is idle while cases are asked again."""
+
+DEATHS = 3
+"""Processes of ours that one task may cost."""
+
+_KEPT = 24 << 20
+_PATIENCE = 5.0
+
+
+class Here:
+    """Performs tasks in this process, when their results are asked for."""
+
+    ahead = 1
+
+    def __init__(self, implementation: Implementation, rules: Rules) -> None:
+        self._implementation = implementation
+        self._rules = rules
+        self._tasks: dict[int, tuple[Task, Allowance]] = {}
+        self._count = 0
+
+    def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:  # noqa: ARG002 - asked in order
+        """Put a task in line."""
+        self._count += 1
+        self._tasks[self._count] = task, allowance
+        return self._count
+
+    def result(self, number: int) -> Performed:
+        """Perform it."""
+        task, allowance = self._tasks.pop(number)
+        return perform(task, self._implementation, self._rules, allowance)
+
+
+class LostError(HypcheckError):
+    """Processes of ours ended, one after the other, over the same task."""
+
+    exit_code = 70
+
+
+@dataclass
+class _Worker:
+    process: SpawnProcess
+    line: Connection
+    task: int | None = None
+
+
+class Workers:
+    """Performs tasks in processes of our own; a context manager. Raises what a worker cannot begin with or ends with.
+
+    `declared` is what the implementation must say of itself in each of them.
+    """
+
+    def __init__(self, count: int, opening: Opening, rules: Rules, declared: Description) -> None:
+        self.ahead = AHEAD * count
+        self._what = opening, rules, declared
+        self._tasks: dict[int, tuple[Task, Allowance]] = {}
+        self._deaths: dict[int, int] = {}
+        self._waiting: deque[int] = deque()
+        self._done: dict[int, Performed] = {}
+        self._workers: list[_Worker] = []
+        self._count = 0
+        try:
+            for _ in range(count):
+                self._workers.append(self._begin())
+        except BaseException:
+            self._kill()
+            raise
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is None:
+            for worker in self._workers:
+                worker.line.send(None)
+            for worker in self._workers:
+                worker.process.join(_PATIENCE)
+        self._kill()
+
+    def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:
+        """Put a task in line, before all others if it is `first`."""
+        self._count += 1
+        self._tasks[self._count] = task, allowance
+        (self._waiting.appendleft if first else self._waiting.append)(self._count)
+        self._hand_out()
+        return self._count
+
+    def result(self, number: int) -> Performed:
+        """Wait for a task's result."""
+        while number not in self._done:
+            lines = {worker.line: worker for worker in self._workers}
+            for line in connection.wait(lines):
+                self._hear(lines[line])  # type: ignore[index]
+            self._hand_out()
+        return self._done.pop(number)
+
+    def _hand_out(self) -> None:
+        for worker in self._workers:
+            if worker.task is None and self._waiting:
+                worker.task = self._waiting.popleft()
+                try:
+                    worker.line.send(self._tasks[worker.task])
+                except OSError:  # it has ended, which its line will tell
+                    return
+
+    def _hear(self, worker: _Worker) -> None:
+        try:
+            said = worker.line.recv()
+        except (EOFError, OSError):
+            self._replace(worker)
+            return
+        if isinstance(said, BaseException):
+            raise said
+        if worker.task is not None:
+            del self._tasks[worker.task]
+            self._done[worker.task] = said
+            worker.task = None
+
+    def _replace(self, worker: _Worker) -> None:
+        """Begin another process in place of one that has ended, which had no reason of its own to."""
+        self._workers.remove(worker)
+        worker.process.join()
+        if worker.task is not None:
+            self._deaths[worker.task] = self._deaths.get(worker.task, 0) + 1
+            if self._deaths[worker.task] == DEATHS:
+                last = f"the last with status {worker.process.exitcode}"
+                raise LostError(f"{DEATHS} processes of hypcheck ended over the same cases, {last}")
+            self._waiting.appendleft(worker.task)
+        self._workers.append(self._begin())
+
+    def _begin(self) -> _Worker:
+        context = get_context("spawn")  # forking would copy locks, threads and open pipes
+        ours, theirs = context.Pipe()
+        process = context.Process(target=_serve, args=(theirs, *self._what), daemon=True)
+        with interrupts_held():
+            process.start()
+        theirs.close()
+        return _Worker(process, ours)
+
+    def _kill(self) -> None:
+        """End them all now; whoever guards the implementations ends these with them."""
+        for worker in self._workers:
+            worker.line.close()
+            worker.process.terminate()
+        for worker in self._workers:
+            worker.process.join()
+
+
+def _serve(line: Connection, opening: Opening, rules: Rules, declared: Description) -> None:
+    """What a worker does: perform the tasks that come, until there are no more or the parent is gone."""
+    keep_memory()
+    try:
+        with opening.open() as implementation:
+            _require_same(implementation, declared)
+            while (task := line.recv()) is not None:
+                line.send(perform(task[0], implementation, rules, task[1]))
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        return
+    except HypcheckError as error:
+        line.send(error)
+    except Exception as error:  # noqa: BLE001 - whatever it is, the parent tells it
+        line.send(RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+
+
+def _require_same(implementation: Implementation, declared: Description) -> None:
+    if implementation.declared != declared:
+        raise StartError(f"{implementation.spec} describes itself otherwise in each process")
+
+
+def keep_memory() -> None:
+    """Let the C library keep what numpy frees.
+
+    glibc gives memory back to the system at once, and clears it again when it is asked for the next time, unless so
+    large a piece was freed before; arrays that come and go would cost more time so than what is computed in them.
+    """
+    np.empty(_KEPT, dtype=np.uint8)
