@@ -40,7 +40,7 @@ class Identity:
 
 @dataclass(frozen=True)
 class Sign:
-    """An expression whose sign its form shows, for letters > 0 (`positive`) and ≥ 0 (`nonnegative`)."""
+    """An expression whose sign its form shows, for letters > 0 (`positive`), ≥ 0 (`nonnegative`) and of any sign."""
 
     text: str
     expression: sympy.Expr

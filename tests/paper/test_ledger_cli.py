@@ -125,7 +125,7 @@ def test_a_link_that_fails_ends_with_6_and_is_shown(capsys, monkeypatch, form):
 @pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
 def test_a_verdict_that_is_not_borne_out_ends_with_6(capsys, monkeypatch, form):
     changed = tuple(
-        replace(entry, verdict="proved", evidence=()) if entry.number == "Table 2" else entry for entry in entries()
+        replace(entry, verdict="proved", grounds=tuple) if entry.number == "Table 2" else entry for entry in entries()
     )
     monkeypatch.setattr(choosing, "entries", lambda: changed)
     code, output, errors = told(capsys, "--only", "ledger", "--format", form)

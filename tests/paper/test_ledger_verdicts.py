@@ -115,7 +115,7 @@ def named(statement: Statement) -> str:
 
 @pytest.mark.parametrize("statement", TRUE_STATEMENTS, ids=named)
 def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
-    entry = Entry("X", "2", statement.text, FALSE, "so they say", "nothing", (with_counterexample(statement),))
+    entry = Entry("X", "2", statement.text, FALSE, "so they say", "nothing", lambda: (with_counterexample(statement),))
     assert not entry.confirmed
     assert "nothing found among" in entry.evidence[0].text
     assert without_counterexample(statement).holds
@@ -124,7 +124,7 @@ def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
 @pytest.mark.parametrize("statement", FALSE_STATEMENTS, ids=named)
 def test_a_false_statement_that_is_called_proved_is_not_confirmed(statement):
     evidence = (by_chain("rule"), without_counterexample(statement))
-    assert not Entry("X", "2", statement.text, PROVED, "so they say", "nothing", evidence).confirmed
+    assert not Entry("X", "2", statement.text, PROVED, "so they say", "nothing", lambda: evidence).confirmed
     assert with_counterexample(statement).holds
 
 
@@ -132,7 +132,7 @@ def test_a_verdict_needs_evidence_unless_nothing_can_be_checked():
     entry = Entry("X", "2", "so it is", PROVED, "because", "nothing")
     assert not entry.confirmed
     assert replace(entry, verdict=NOT_CHECKABLE).confirmed
-    assert not replace(entry, verdict=NOT_CHECKABLE, evidence=(Evidence("count", "1", holds=True),)).confirmed
+    assert not replace(entry, verdict=NOT_CHECKABLE, grounds=lambda: (Evidence("count", "1", holds=True),)).confirmed
     assert set(VERDICTS) == {PROVED, MISPRINT, FALSE, NOT_CHECKABLE}
 
 

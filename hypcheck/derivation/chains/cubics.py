@@ -37,7 +37,7 @@ def distinct_roots() -> Link:
         (
             known("Δ is the product of the squared differences of the roots"),
             identity("Δ = −4·q²·((s − p)² + q²)²", of_pair_discriminant),
-            sign("−4·q²·(t² + q²)² < 0", "q", "t"),
+            sign("−4·q²·(t² + q²)² < 0", "q"),
         ),
     )
 

@@ -166,7 +166,7 @@ def _sides() -> Link:
             identity("φ'(0) = P/A − Q/B − 1", _SLOPE.subs(LAMBDA, 0)),
             identity("h(C) = P/A − Q/B − 1", _SURFACE.subs({X: XC, Y: YC, Z: ZC}), **_centre()),
             identity("φ − φ(0) − φ'(0)·λ = −λ²·(P/(A·u) + Q/(B·v))", tangent, u=_U, v=_V),
-            sign("−λ²·(P/(A·u) + Q/(B·v)) ≤ 0", "A B u v", "P Q lambda"),
+            sign("−λ²·(P/(A·u) + Q/(B·v)) ≤ 0", "A B u v", "P Q"),
         ),
     )
 
@@ -190,6 +190,6 @@ def _no_fourth_position() -> Link:
         (
             known("the line (α, αt, γt), turned about the axis, lies on the hyperboloid"),
             identity("|(α, α·t, γ·t)|² = α² + (α² + γ²)·t²", reach),
-            sign("α² + (α² + γ²)·t² > 0", "alpha gamma", "t"),
+            sign("α² + (α² + γ²)·t² > 0", "alpha gamma"),
         ),
     )

@@ -30,7 +30,7 @@ def _only_sums_and_products() -> Entry:
         FALSE,
         f"each position takes {count} divisions, P ← …/b² and Q ← (z0/d)², and each scene {cost.scene.divisions}",
         "keep 1/b² and 1/d outside the loop: then it is true, and a division's latency is gone from every query",
-        (
+        lambda: (
             Evidence(
                 "count",
                 f"{count} divisions a query, {cost.by_fixed} of them by a number that the sizes fix",
@@ -51,7 +51,7 @@ def _taken_out() -> Entry:
         PROVED,
         f"A, B, c0 and C leave the loop, which keeps {printed.rounded} operations; {left} more could leave it",
         f"take b², A − B + 1 and 27·c0² out as well: {cost.query.rounded} operations a query",
-        (
+        lambda: (
             Evidence(
                 "count", f"{cost.scene.rounded} operations depend on the sizes alone", 0 < left < cost.scene.rounded
             ),
@@ -69,7 +69,7 @@ def _trigonometric() -> Entry:
         f"by cosines {roots.query.functions} functions and {roots.query.rounded} operations a query, Table 2 none and "
         f"{table_2.query.rounded}",
         "signs of coefficients do without roots; so does g at its local maximum, with one square root",
-        (
+        lambda: (
             Evidence(
                 "count",
                 f"{roots.query.functions} functions against {table_2.query.functions}",
@@ -90,7 +90,7 @@ def _no_angle() -> Entry:
         PROVED,
         "the other three rotors have T1 and T2 of the first, exchanged and with other signs",
         "one cosine and one sine for all four rotors",
-        (
+        lambda: (
             by_programs(FORMULAS["procedure-2a"]),
             Evidence(
                 "count",
@@ -114,7 +114,7 @@ def _discriminant() -> Entry:
         PROVED,
         f"{share} of the {whole} rounded operations of Procedure 2.a for a position are those of its four Δ(g_i)",
         "decide by a fixed λ first where that proves enough: two products and a comparison (docs/mathematics.md)",
-        (Evidence("count", f"{share} of {whole}", 2 * share > whole),),
+        lambda: (Evidence("count", f"{share} of {whole}", 2 * share > whole),),
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 from hypcheck.derivation.chains.book import chains, proved
 from hypcheck.derivation.formulas import Formula
@@ -36,7 +38,8 @@ class Entry:
 
     `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
     `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
-    statement put right, where something is wrong and can be; `printed` a formula's own text.
+    statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
+    verdict rests on.
     """
 
     number: str
@@ -45,9 +48,14 @@ class Entry:
     verdict: str
     why: str
     follows: str
-    evidence: tuple[Evidence, ...] = ()
+    grounds: Callable[[], tuple[Evidence, ...]] = tuple
     correction: str = ""
     printed: str = ""
+
+    @cached_property
+    def evidence(self) -> tuple[Evidence, ...]:
+        """What the verdict rests on, looked for when it is asked for."""
+        return self.grounds()
 
     @property
     def confirmed(self) -> bool:

@@ -66,9 +66,7 @@ def equation(checked: EquationCheck) -> Entry:
     section, statement, follows = _EQUATIONS[checked.number]
     misprinted = checked.number in _EXPECTED_MISPRINTS
     expected = "misprint" if misprinted else "holds"
-    evidence = [Evidence("identity", checked.finding, checked.verdict == expected)]
-    if checked.number == "12":
-        evidence.append(_misled_by_12())
+    found = Evidence("identity", checked.finding, checked.verdict == expected)
     return Entry(
         number=checked.number if checked.number.startswith("A") else f"({checked.number})",
         section=section,
@@ -76,7 +74,7 @@ def equation(checked: EquationCheck) -> Entry:
         verdict=MISPRINT if misprinted else PROVED,
         why=checked.finding,
         follows=follows,
-        evidence=tuple(evidence),
+        grounds=lambda: (found, _misled_by_12()) if checked.number == "12" else (found,),
         correction=checked.correction,
         printed=checked.statement,
     )
@@ -122,6 +120,6 @@ def regime_of_section_4() -> Entry:
         verdict=MISPRINT,
         why=f"(12) has a = α/b already, so that a/b is {printed}",
         follows="read (α/b) ≥ 1, as Table 4 prints it",
-        evidence=(Evidence("identity", checked.finding, checked.verdict == "misprint"),),
+        grounds=lambda: (Evidence("identity", checked.finding, checked.verdict == "misprint"),),
         correction=f"{checked.correction.partition('= ')[2]} ≥ 1, where a = α/b",
     )

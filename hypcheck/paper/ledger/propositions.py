@@ -44,7 +44,7 @@ def _theorem_1() -> Entry:
         PROVED,
         "a one-to-one linear map takes the two equations into each other, values inside and outside included",
         "seven numbers become four; the position too stays the same, not contact alone",
-        (by_chain("Theorem 1"), Evidence("identity", "(7), (8) and (10) hold", _holds("7", "8", "10"))),
+        lambda: (by_chain("Theorem 1"), Evidence("identity", "(7), (8) and (10) hold", _holds("7", "8", "10"))),
     )
 
 
@@ -61,7 +61,7 @@ def _known_root() -> Entry:
         PROVED,
         "f is (a² + λ)·g(λ) times a constant",
         "three roots, or three coefficients, decide; the fourth root is always there",
-        (Evidence("identity", factor.text, factor.holds),),
+        lambda: (Evidence("identity", factor.text, factor.holds),),
     )
 
 
@@ -74,7 +74,7 @@ def _remark_2() -> Entry:
         PROVED,
         product.text,
         "Δ > 0 means three different real roots",
-        (Evidence("identity", product.text, product.holds and _holds("13", "14")),),
+        lambda: (Evidence("identity", product.text, product.holds and _holds("13", "14")),),
     )
 
 
@@ -102,7 +102,7 @@ def _proposition_3_1() -> Entry:
         FALSE,
         "“⟸” is proved; “⟹” fails on the ring z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a, and nowhere else",
         _RING_FOLLOWS,
-        (
+        lambda: (
             with_counterexample(say.PROPOSITION_3_1),
             by_chain("Proposition 3, repaired"),
             without_counterexample(say.REPAIRED_3),
@@ -119,7 +119,7 @@ def _proposition_3_2() -> Entry:
         FALSE,
         "on the ring g has the double root B below which it is positive: Δ = 0, and no contact",
         "Δ ≤ 0 is no proof of contact; ask for the ring as well",
-        (
+        lambda: (
             with_counterexample(say.PROPOSITION_3_2),
             by_chain("Proposition 3, repaired"),
             without_counterexample(say.REPAIRED_3),
@@ -137,7 +137,7 @@ def _proof_of_3() -> tuple[Entry, ...]:
             FALSE,
             "on the ring two of the three positive roots are one",
             _RING_FOLLOWS,
-            (with_counterexample(say.THREE_POSITIVE_ROOTS), by_chain("Proposition 3, repaired")),
+            lambda: (with_counterexample(say.THREE_POSITIVE_ROOTS), by_chain("Proposition 3, repaired")),
             "exterior ⟺ g has three different positive roots, or the double root B above a simple one",
         ),
         Entry(
@@ -147,7 +147,7 @@ def _proof_of_3() -> tuple[Entry, ...]:
             FALSE,
             "“⟸” fails where two roots are complex",
             "harmless: it is used where Δ > 0, and there it holds",
-            (with_counterexample(say.ALL_POSITIVE), by_chain("Proposition 3, repaired")),
+            lambda: (with_counterexample(say.ALL_POSITIVE), by_chain("Proposition 3, repaired")),
             "if Δ > 0: c2 < 0 and c1 > 0 ⟺ all roots of g are positive",
         ),
     )
@@ -161,7 +161,7 @@ def _remark_4() -> Entry:
         PROVED,
         f"exterior has no negative root; {_TWO_PAIRS}",
         "for α/b < 1 compare with A as well: interior ⟺ also c2 < 3A and g'(−A) > 0",
-        (
+        lambda: (
             by_chain("Proposition 3, repaired"),
             without_counterexample(say.REMARK_4),
             _undecided(lambda facts: say.tall(facts) and facts.delta > 0 and facts.negative_roots == 2, say.interior),
@@ -196,7 +196,7 @@ def _proposition_5_1() -> Entry:
         FALSE,
         "“⟸” is proved; “⟹” drops the interior positions with c2 = 0 > c1 and with c1 = 0 < c2, and no others",
         "valid movements are refused where a coefficient vanishes; ask for not (c2 < 0 and c1 > 0) instead",
-        (
+        lambda: (
             with_counterexample(say.PROPOSITION_5_1_WITH_C2, say.PROPOSITION_5_1_WITH_C1),
             by_chain("Proposition 5, repaired"),
             without_counterexample(say.REPAIRED_5),
@@ -213,7 +213,7 @@ def _proposition_5_2() -> Entry:
         FALSE,
         "the ring again, which is exterior with Δ = 0 for every α/b; interior positions all have Δ > 0",
         "harmless for who flies inside: Δ ≤ 0 does mean “not interior”, at α/b = 1 too",
-        (
+        lambda: (
             with_counterexample(say.PROPOSITION_5_2),
             by_chain("Proposition 5, repaired"),
             without_counterexample(say.REPAIRED_5),
@@ -230,7 +230,7 @@ def _remark_6() -> Entry:
         PROVED,
         f"interior has two negative roots; {_TWO_PAIRS}",
         "for (γ/d)² < α/b Procedure 1 calls such contact valid; compare with B as well: not (c2 < −3B and g'(B) > 0)",
-        (
+        lambda: (
             by_chain("Proposition 5, repaired"),
             without_counterexample(say.REMARK_6),
             _undecided(lambda facts: say.wide(facts) and facts.delta > 0 and facts.negative_roots == 0, say.exterior),
