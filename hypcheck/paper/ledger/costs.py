@@ -113,7 +113,7 @@ def _discriminant() -> Entry:
         "Δ(g_i) costs much in comparison to other operations",
         PROVED,
         f"{share} of the {whole} rounded operations of Procedure 2.a for a position are those of its four Δ(g_i)",
-        "decide by a fixed λ first where that proves enough: two products and a comparison (docs/mathematics.md)",
+        "a fixed λ decides most first, for a product and a comparison (docs/mathematics.md, “A line is a proof”)",
         lambda: (Evidence("count", f"{share} of {whole}", 2 * share > whole),),
     )
 
