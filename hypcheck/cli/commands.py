@@ -25,6 +25,7 @@ COMMANDS = {
     "plan": "hypcheck.cli.plan:plan",
     "emit": "hypcheck.cli.emit:emit",
     "init": "hypcheck.cli.init:init",
+    "info": "hypcheck.cli.info:info",
 }
 """Name → module:attribute of the click command."""
 

@@ -22,12 +22,15 @@ from hypcheck.pairs import REFUSED, Pair
 from hypcheck.rows import Positions, Rows, invalid
 
 CHUNK = 8192
-"""Rows at a time: the buffers of one chunk stay in the cache (measured: 4k to 16k are alike)."""
+"""Rows at a time: the buffers of one chunk stay in the cache, and the calls of ufuncs are few."""
+
+LINES_CHUNK = 1 << 14
+"""The same for the lines, which need fewer buffers."""
 
 LINES_FROM = 1 << 14
 """Centres from which a scene's half planes are worth their making."""
 
-TOO_MANY_LEFT = CHUNK // 100
+TOO_MANY_LEFT = LINES_CHUNK // 100
 """Of a chunk, by one line a side: then it is two."""
 
 Floats = NDArray[np.float64]
@@ -37,7 +40,7 @@ Mask = NDArray[np.bool_]
 def positions(rows: Rows) -> Positions:
     """The exact position of every row, int8 (n,), 127 for invalid ones; rows float64 (n, 7) as in rows.py."""
     result = np.empty(len(rows), dtype=np.int8)
-    buffers = Buffers(chunks.CERTIFIED_BUFFERS)
+    buffers = Buffers(chunks.CERTIFIED_BUFFERS, min(CHUNK, len(rows)))
     for start in range(0, len(rows), CHUNK):
         part = rows[start : start + CHUNK]
         _certified(part, buffers, result[start : start + CHUNK])
@@ -83,24 +86,27 @@ def _answers(found: Positions, question: Question) -> tuple[Positions, int]:
 
 
 class Buffers:
-    """Memory for one chunk's intermediate values, used again for every chunk."""
+    """Memory for the intermediate values of one chunk, used again for every chunk."""
 
-    def __init__(self, counts: tuple[int, int]) -> None:
-        self._numbers = np.empty((counts[0], CHUNK))
-        self._truths = np.empty((counts[1], CHUNK), dtype=np.bool_)
+    def __init__(self, counts: tuple[int, int], rows: int) -> None:
+        self._numbers = [np.empty(rows) for _ in range(counts[0])]
+        self._truths = [np.empty(rows, dtype=np.bool_) for _ in range(counts[1])]
+        self._rows = rows
 
-    def of(self, count: int) -> tuple[list[Floats], list[Mask]]:
-        """Arrays for chunks of `count` rows."""
-        return list(self._numbers[:, :count]), list(self._truths[:, :count])
+    def of(self, rows: int) -> tuple[list[Floats], list[Mask]]:
+        """Arrays for a chunk of so many rows."""
+        if rows == self._rows:
+            return self._numbers, self._truths
+        return [each[:rows] for each in self._numbers], [each[:rows] for each in self._truths]
 
 
 def _by_lines(constants: dict[str, float], x: Floats, y: Floats, z: Floats, result: Positions) -> NDArray[np.intp]:
     """Fill in what the scene's half planes prove, and return the places of the rest."""
     left: list[NDArray[np.intp]] = []
     stage: Callable[..., tuple[Floats, Mask, Mask, Mask]] = chunks.one_line
-    buffers = Buffers(chunks.ONE_LINE_BUFFERS)
-    for start in range(0, len(x), CHUNK):
-        part = slice(start, start + CHUNK)
+    buffers = Buffers(chunks.ONE_LINE_BUFFERS, LINES_CHUNK)
+    for start in range(0, len(x), LINES_CHUNK):
+        part = slice(start, start + LINES_CHUNK)
         with np.errstate(all="ignore"):
             numbers, truths = buffers.of(len(x[part]))
             sums, exterior, interior, decided = stage(x[part], y[part], z[part], constants, numbers, truths)
@@ -110,7 +116,7 @@ def _by_lines(constants: dict[str, float], x: Floats, y: Floats, z: Floats, resu
             rest = np.flatnonzero(~decided) if within_cap else np.arange(len(sums))
             left.append(rest + start)
             if len(rest) > TOO_MANY_LEFT and stage is chunks.one_line:
-                stage, buffers = chunks.two_lines, Buffers(chunks.TWO_LINES_BUFFERS)
+                stage, buffers = chunks.two_lines, Buffers(chunks.TWO_LINES_BUFFERS, LINES_CHUNK)
     return np.concatenate(left) if left else np.empty(0, dtype=np.intp)
 
 

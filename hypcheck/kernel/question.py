@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal
 
 from hypcheck.errors import InputError
+from hypcheck.scene.model import QUESTIONS
 
 Question = Literal["position", "exterior", "interior", "contact"]
 """`position` is answered by +1, 0 or −1, the others by 1 (yes) or 0 (no)."""
 
-QUESTIONS: tuple[Question, ...] = get_args(Question)
-
-NUMBER_OF: dict[Question, int] = {question: number for number, question in enumerate(QUESTIONS)}
+NUMBER_OF = {question: number for number, question in enumerate(QUESTIONS)}
 """As in core/hypcheck.h."""
 
-POSITION_OF: dict[Question, int] = {"exterior": 1, "interior": -1, "contact": 0}
+POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 """The position to which a question is answered yes."""
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.programs.lines import (
+    CAP,
     GREATEST_SIZE,
     GREATEST_SLOPE,
     LEAST_CONSTANT,
@@ -74,11 +75,14 @@ def constants_of(sizes: Sizes, z: Floats) -> dict[str, float] | None:
 
 
 def _heights(z: Floats) -> tuple[float, float, float]:
-    """0, a height below most of the sample or about the middle, one above nearly all of it; their squares are exact."""
+    """0, a height below most of the sample or about the middle, one above nearly all of it; their squares are exact.
+
+    The last is not 0: T ≤ reach must not hold for heights whose squares have underflowed.
+    """
     sample = np.abs(z[:: len(z) // SAMPLE + 1])
     sample = sample[sample < GREATEST_HEIGHT]
     least, greatest = (float(sample.min()), float(sample.max())) if len(sample) else (0.0, 0.0)
-    top = _short(1.0625 * greatest, up=True) if greatest > LEAST_HEIGHT else 0.0
+    top = _short(1.0625 * greatest, up=True) if greatest > LEAST_HEIGHT else LEAST_HEIGHT
     return 0.0, _short(max(0.55 * top, 0.999 * least if least < greatest else 0.0), up=False), top
 
 
@@ -98,7 +102,7 @@ def _multiplier(A: float, B: float, Q: float, side: int) -> float:
             low = middle
         else:
             high = middle
-    return low
+    return (low + high) / 2  # never 0
 
 
 def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
@@ -111,6 +115,8 @@ def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
     A, B, Q = _ratios(sizes, height**2)
     at = side * _multiplier(A, B, Q, side)
     edge = (A + at) * (1 + 1 / at) + Q * (A + at) / (B - at)
+    if not edge < CAP:
+        return None
     for step in STEPS:
         x = _short(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
         if exact_position(*sizes, x, 0.0, height) != side:
@@ -141,7 +147,8 @@ def _chord(side: str, first: Point | None, last: Point | None) -> Line | None:
     else:
         through_origin = first.R - slope * first.T < 0
         M = last.R / last.T * (1 + NUDGE) if through_origin else slope
-        K = max((first.R - M * first.T) * (1 + NUDGE), LEAST_CONSTANT if M > 0 else 0.0)
+        moved = (first.R - M * first.T) * (1 + NUDGE)
+        K = max(moved, LEAST_CONSTANT) if M > 0 or moved > 0 else 0.0
     below, above = scalars.chord(K, M, first.T, first.R, last.T, last.R)
     proved = (below and K >= LEAST_CONSTANT) if side == "under" else above
     return (K, M) if proved and 0 <= M <= GREATEST_SLOPE else None

@@ -92,12 +92,15 @@ def grid(random: np.random.Generator, count: int) -> np.ndarray:
 
 
 def scenes(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:
-    """Scenes with centres beside the surface: at all heights, in a high band, at one height, at the waist."""
+    """Scenes with centres beside the surface at all heights, in a high band, at one height, at the waist, on the axis.
+
+    The last two are also so near the origin that squares underflow.
+    """
     for number in range(count):
         four = sizes(random, 1)
         some = np.repeat(four, size, axis=0)
         centres = beside(random, some, size, reach=float(random.uniform(0.05, 3)))
-        style = number % 4
+        style = number % 5
         if style == 1:
             centres[:, 2] = np.abs(centres[:, 2]) + np.abs(centres[:, 2]).max()
             centres[:, :2] *= _edge_scale(four[0], centres, random)[:, None]
@@ -106,8 +109,25 @@ def scenes(random: np.random.Generator, count: int, size: int) -> Iterator[Scene
             centres[:, :2] *= _edge_scale(four[0], centres, random)[:, None]
         elif style == 3:
             centres[:, 2] *= random.choice([0.0, 1e-200, 1e-9, 1e-3], size)
+        elif style == 4:
+            four[0, [0, 1]] = four[0, [2, 3]] * random.choice([1.0, 1.0, 0.5, 2.0], 2)  # a = 1 more often than not
+            centres = random.uniform(-1, 1, (size, 3)) * random.choice([1e-300, 1e-200, 1e-160, 1e-9, 1.0])
+            centres[::2, :2] = 0.0
         x, y, z = np.ascontiguousarray(centres.T)
         yield Scene(f"scene-{number}-{style}", tuple(four[0].tolist()), x, y, z)
+
+
+def wild_scenes(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:
+    """Scenes of any sizes at all, with centres of any magnitude: what the choice of lines must survive."""
+    for number in range(count):
+        spread = random.choice([1, 5, 20, 60, 110, 300, 1000])
+        four = np.exp2(random.uniform(-spread, spread, 4))
+        reach = np.array([four[0] + four[2], four[0] + four[2], four[1] + four[3]])
+        with np.errstate(all="ignore"):
+            centres = random.uniform(-1, 1, (size, 3)) * reach * random.choice([1e-300, 1e-9, 1, 1, 30, 1e9, 1e200])
+        centres[~np.isfinite(centres)] = 1.0
+        centres[:: random.integers(1, 9), random.integers(0, 3)] = 0.0
+        yield Scene(f"wild-{number}", tuple(four.tolist()), *np.ascontiguousarray(centres.T))
 
 
 def on_the_lines(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:

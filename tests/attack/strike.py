@@ -26,6 +26,8 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
     size = min(1 << 15, max(2048, share // 64))  # scenes large enough that every kernel makes lines for them
     for scene in places.scenes(random, 2 * share // size, size):
         yield "scenes", scene
+    for scene in places.wild_scenes(random, share // 10_000 + 1, 1100):
+        yield "wild scenes", scene
     for scene in places.on_the_lines(random, 2 * share // size, size):
         yield "lines", scene
 

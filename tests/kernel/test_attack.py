@@ -9,7 +9,7 @@ import pytest
 
 from hypcheck.kernel.core import generate
 from hypcheck.truth import batch
-from tests.attack.places import near_contact, scenes
+from tests.attack.places import Scene, near_contact, scenes
 from tests.attack.strike import batches, strike, tally
 from tests.attack.subjects import Subject, of_library, subjects
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
@@ -60,6 +60,16 @@ def test_the_attack_finds_a_bound_that_does_not_hold(weaker, struck, tmp_path, m
     subject = built(tmp_path, header=generate.header())
     _, wrong, _ = tally(strike([subject], struck))
     assert sum(wrong.values()) > 0
+
+
+def test_heights_whose_squares_underflow_are_heights_all_the_same():
+    """a = 1 on the axis: contact at the waist, interior anywhere above it, were it by 1e-300."""
+    random = np.random.default_rng(9)
+    for sizes in ((4.0, 1.0, 4.0, 4.0), (1.0, 4.0, 1.0, 2.0), (0.5, 4.0, 1.0, 2.0)):
+        z = random.uniform(-1, 1, 3000) * 10.0 ** random.choice([-310, -300, -200, -162, -150, -45], 3000)
+        scene = Scene("axis", sizes, np.zeros(3000), np.zeros(3000), z)
+        _, wrong, _ = tally(strike(subjects(), [("axis", scene)]))
+        assert sum(wrong.values()) == 0
 
 
 MODES = """

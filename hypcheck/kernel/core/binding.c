@@ -12,7 +12,7 @@
 static int filled(PyObject *object, Py_buffer *buffer, const char *format, int flags) {
     if (PyObject_GetBuffer(object, buffer, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | flags) != 0) return 0;
     if (buffer->format != NULL && strcmp(buffer->format, format) == 0) return 1;
-    PyErr_Format(PyExc_ValueError, "a buffer of format %s, not %s", format, buffer->format ? buffer->format : "B");
+    PyErr_Format(PyExc_ValueError, "a buffer of format %s is needed, not %s", format, buffer->format ? buffer->format : "B");
     PyBuffer_Release(buffer);
     return 0;
 }

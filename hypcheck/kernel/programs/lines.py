@@ -14,9 +14,11 @@ Margins (u = 2⁻⁵², which covers every rounding mode). R̂ carries 2 roundin
 all terms being positive; so a comparison of R̂ with K + M T̂ decides that of R with K + M T where K and M have been moved
 to the safe side by MARGIN = 16u relatively: 16 > 2 + 3 with room for the constants' own roundings, counted below.
 A product that underflows (or is flushed) changes a side by at most 2⁻¹⁰²¹ (1 + M); with K ≥ LEAST_CONSTANT = 2⁻³⁰⁰ and
-M ≤ GREATEST_SLOPE = 2⁴⁰⁰ that is less than uK. Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing
-overflows, and no comparison with an infinity or NaN passes for a proof. It suffices to ask that of the sum of R + T
-over many rows, since no term is negative.
+M ≤ GREATEST_SLOPE = 2⁴⁰⁰ that is less than uK; the line R ≥ 0, K = M = 0, needs no margin. `reach` is the square of a
+height ≥ 2⁻¹⁵⁰ less a margin, so that it bounds T and not T̂ alone.
+
+Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing overflows, and no comparison with an infinity
+or NaN passes for a proof. It suffices to ask that of the sum of R + T over many rows, since no term is negative.
 """
 
 from __future__ import annotations

@@ -126,7 +126,7 @@ static void hc_chord(hc_point from, hc_point to, int side, hc_line *line) {
     const double M = side < 0 && R_0 - slope * T_0 < 0 ? R_1 / T_1 * (1 + 9.3132257461547852e-10) : slope;
     const double start = (side > 0 && R_1 < R_0 ? R_1 : R_0) - M * T_0;
     const double moved = start * (1 - side * 9.3132257461547852e-10);
-    const double K = side < 0 && M > 0 && !(moved >= HC_least_constant) ? HC_least_constant : moved;
+    const double K = side < 0 && (M > 0 || moved > 0) && !(moved >= HC_least_constant) ? HC_least_constant : moved;
     /* printed from the program "chord" */
     @CHORD@
     /* end of the program "chord" */
@@ -159,9 +159,10 @@ static int hc_make_scene(hc_scene *scene, const double sizes[4], size_t n, const
     for (i = 0; i < 4; i++)
         if (!(sizes[i] > HC_least_size && sizes[i] < HC_greatest_size)) return 0;
     hc_sample_heights(n, z, &least, &greatest);
-    /* Three heights: 0, one below most of the sample, one above nearly all of it. */
+    /* Three heights: 0, one below most of the sample, one above nearly all of it. Not 0 itself: T <= reach must not hold
+       for heights whose squares have underflowed. */
     heights[0] = 0;
-    heights[2] = greatest > HC_least_height ? hc_short(1.0625 * greatest, 1) : 0;
+    heights[2] = greatest > HC_least_height ? hc_short(1.0625 * greatest, 1) : HC_least_height;
     heights[1] = hc_short(least < greatest && least > 0.55 * heights[2] ? 0.999 * least : 0.55 * heights[2], 0);
     for (i = 0; i < 3; i++) {
         Q[i] = heights[i] / sizes[3] * (heights[i] / sizes[3]);

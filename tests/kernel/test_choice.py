@@ -1,0 +1,99 @@
+"""Which kernel answers: what the environment may force, what happens where there is none, and that all answer alike."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.kernel import choice as module
+from hypcheck.kernel.choice import LEVELS, Choice, choice, most_threads
+
+
+@pytest.fixture
+def fresh(monkeypatch):
+    """A process that has not chosen yet, in an environment that asks for nothing."""
+    for name in ("HYPCHECK_KERNEL", "HYPCHECK_LEVEL", "HYPCHECK_THREADS"):
+        monkeypatch.delenv(name, raising=False)
+    choice.cache_clear()
+    yield monkeypatch
+    choice.cache_clear()
+
+
+def absent():
+    raise ImportError("No module named 'hypcheck.kernel._compiled'")
+
+
+def test_without_a_compiled_kernel_it_is_numpy_and_the_reason_is_told(fresh):
+    fresh.setattr(module, "compiled", absent)
+    reason = "there is no compiled kernel: No module named 'hypcheck.kernel._compiled'"
+    assert choice() == Choice("numpy", None, reason)
+
+
+def test_asking_for_what_is_not_there_is_bad_input(fresh):
+    fresh.setattr(module, "compiled", absent)
+    fresh.setenv("HYPCHECK_KERNEL", "compiled")
+    with pytest.raises(InputError, match="HYPCHECK_KERNEL is 'compiled', but there is no compiled kernel: No module"):
+        choice()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "sentence"),
+    [
+        ("HYPCHECK_KERNEL", "numba", "HYPCHECK_KERNEL is 'numba'; it must be compiled or numpy, or unset"),
+        ("HYPCHECK_LEVEL", "avx", "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, plain, or unset"),
+    ],
+)
+def test_nonsense_is_refused_with_what_would_be_right(fresh, name, value, sentence):
+    pytest.importorskip("hypcheck.kernel._compiled")
+    fresh.setenv(name, value)
+    with pytest.raises(InputError, match=sentence):
+        choice()
+
+
+def test_a_level_that_this_machine_lacks_is_refused(fresh):
+    class Old:
+        use_level = staticmethod(lambda name: name == "sse2")
+        level = staticmethod(lambda: "sse2")
+
+    fresh.setattr(module, "compiled", lambda: Old)
+    fresh.setenv("HYPCHECK_LEVEL", "avx512")
+    with pytest.raises(InputError, match="'avx512', but this machine or build has no more than sse2"):
+        choice()
+
+
+def test_threads_are_the_processors_unless_they_are_told(fresh):
+    assert most_threads() >= 1
+    fresh.setenv("HYPCHECK_THREADS", "7")
+    assert most_threads() == 7
+
+
+ASK = """
+import json, sys, hypcheck
+from hypcheck.kernel.choice import choice
+rows = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0], [1, 1, 1, 1, 1, 0, 0]] * 700
+x, y, z = zip(*(row[4:] for row in rows))
+by_row, by_scene = hypcheck.classify(rows).tolist(), hypcheck.classify_scene((4, 9, 1, 2), x, y, z).tolist()
+one_by_one = [hypcheck.position(*map(float, row)) for row in rows[:4]]
+print(json.dumps([choice().kernel, choice().level, by_row, by_scene, one_by_one]))
+"""
+
+
+def test_every_kernel_and_level_can_be_forced_and_answers_the_same():
+    pytest.importorskip("hypcheck.kernel._compiled")
+    found = {}
+    for kernel, level in [("numpy", ""), *(("compiled", level) for level in LEVELS)]:
+        environment = os.environ | {"HYPCHECK_KERNEL": kernel, "HYPCHECK_LEVEL": level}
+        done = subprocess.run([sys.executable, "-c", ASK], env=environment, capture_output=True, text=True, check=False)
+        if done.returncode and "but this machine" in done.stderr:
+            continue
+        used, at, *answers = json.loads(done.stdout)
+        assert (used, at) == (kernel, level or None)
+        found[kernel, level] = answers
+    assert len(found) >= 2
+    assert len({json.dumps(answers) for answers in found.values()}) == 1
+    assert found["numpy", ""][0][:4] == [1, 0, -1, 0]

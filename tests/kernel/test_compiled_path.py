@@ -1,0 +1,140 @@
+"""The compiled kernel behind the public functions: questions, threads, strides, and what it refuses."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.kernel import compiled_path, numpy_path
+from hypcheck.scene.model import QUESTIONS
+from hypcheck.truth import batch
+from tests.attack.places import near_contact, scenes
+
+compiled = pytest.importorskip("hypcheck.kernel._compiled")
+
+SIZES = (2.0, 17.8, 0.25, 0.15)
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return near_contact(np.random.default_rng(4), 3000)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return next(scenes(np.random.default_rng(5), 1, 5000))
+
+
+@pytest.mark.parametrize("kernel", [compiled_path, numpy_path], ids=["compiled", "numpy"])
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_a_question_is_answered_yes_where_the_position_is_the_one(kernel, question, rows, scene):
+    yes = {"exterior": 1, "interior": -1, "contact": 0}
+    for truth, (answers, refused) in (
+        (batch.positions(rows), kernel.answer_rows(rows, question)),
+        (batch.positions(scene.rows), kernel.answer_scene(scene.sizes, (scene.x, scene.y, scene.z), question)),
+    ):
+        assert refused == 0
+        assert answers.tolist() == (truth if question == "position" else (truth == yes[question]).astype(int)).tolist()
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("kernel", [compiled_path, numpy_path], ids=["compiled", "numpy"])
+def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, question):
+    random = np.random.default_rng(1)
+    x, y, z = random.uniform(-4, 4, (3, 40_000))
+    before, _ = kernel.answer_scene(SIZES, (x, y, z), question)
+    places = random.permutation(40_000)[:60]
+    for place, column, value in zip(places, [x, y, z] * 20, [np.nan, np.inf, -np.inf] * 20, strict=True):
+        column[place] = value
+    after, refused = kernel.answer_scene(SIZES, (x, y, z), question)
+    assert refused == 60
+    assert (after[places] == 127).all()
+    others = np.ones(40_000, dtype=bool)
+    others[places] = False
+    assert (after[others] == before[others]).all()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7])
+def test_any_number_of_threads_answers_the_same(threads, rows, scene):
+    truth = batch.positions(rows)
+    assert (hypcheck.classify(rows, threads=threads) == truth).all()
+    found = hypcheck.classify_scene(scene.sizes, scene.x, scene.y, scene.z, threads=threads)
+    assert (found == batch.positions(scene.rows)).all()
+    assert hypcheck.classify(rows[:2], threads=threads).tolist() == truth[:2].tolist()
+    assert hypcheck.classify(rows[:0], threads=threads).tolist() == []
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.0, True, "2"])
+def test_a_number_of_threads_that_is_none_is_refused(threads):
+    with pytest.raises(InputError, match=r"threads is .*; it must be a whole number greater than 0"):
+        hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]], threads=threads)
+
+
+def test_an_unknown_question_is_refused():
+    with pytest.raises(
+        InputError, match="question is 'inside'; it must be one of position, exterior, interior, contact"
+    ):
+        hypcheck.classify_scene(SIZES, 1, 2, 3, question="inside")
+
+
+def test_a_million_rows_are_shared_among_threads_and_the_interpreter_is_free_meanwhile(monkeypatch):
+    monkeypatch.setattr(compiled_path, "ROWS_A_THREAD", 1000)
+    monkeypatch.setenv("HYPCHECK_THREADS", "3")
+    seen = set()
+    ask = compiled.ask_scene
+
+    class Watched:
+        @staticmethod
+        def ask_scene(*arguments):
+            seen.add(threading.current_thread().name)
+            return ask(*arguments)
+
+    monkeypatch.setattr(compiled_path, "compiled", lambda: Watched)
+    x, y, z = np.random.default_rng(1).uniform(-4, 4, (3, 10_001))
+    answers, refused = compiled_path.answer_scene(SIZES, (x, y, z), "position")
+    assert len(seen) == 3
+    assert refused == 0
+    assert (answers == numpy_path.positions_of_scene(SIZES, x, y, z)).all()
+
+
+def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):
+    monkeypatch.setattr(compiled_path, "CHUNK", 999)
+    truth = batch.positions(scene.rows)
+    table = np.column_stack([scene.x, scene.y, scene.z])
+    assert (hypcheck.classify_scene(scene.sizes, *table.T) == truth).all()
+    assert (hypcheck.classify_scene(scene.sizes, scene.x[::-1], scene.y[::-1], scene.z[::-1]) == truth[::-1]).all()
+    swapped = [column.astype(">f8") for column in (scene.x, scene.y, scene.z)]
+    assert (hypcheck.classify_scene(scene.sizes, *swapped) == truth).all()
+    shifted = np.frombuffer(b"\0" + np.ascontiguousarray(scene.x).tobytes(), np.float64, len(scene.x), 1)
+    assert not shifted.flags.aligned
+    assert (hypcheck.classify_scene(scene.sizes, shifted, scene.y, scene.z) == truth).all()
+
+
+def test_rows_of_any_alignment_will_do(rows):
+    shifted = np.frombuffer(b"\0" + rows.tobytes(), np.float64, rows.size, 1).reshape(rows.shape)
+    assert (hypcheck.classify(shifted) == batch.positions(rows)).all()
+
+
+def test_the_extension_looks_at_its_buffers():
+    out, rows = np.zeros(2, np.int8), np.ones((2, 7))
+    for sentence, *arguments in (
+        ("a question is a number from 0 to 3", 4, rows, out),
+        ("seven numbers for each answer", 0, rows, np.zeros(3, np.int8)),
+        ("a buffer of format d is needed, not f", 0, rows.astype(np.float32), out),
+        ("a buffer of format b is needed, not B", 0, rows, np.zeros(2, np.uint8)),
+        ("not C-contiguous", 0, rows.T, out),
+    ):
+        with pytest.raises(ValueError, match=sentence):
+            compiled.ask(*arguments)
+    with pytest.raises(ValueError, match="as many x, y and z"):
+        compiled.ask_scene(0, SIZES, np.ones(2), np.ones(2), np.ones(3), out)
+    frozen = np.zeros(2, np.int8)
+    frozen.flags.writeable = False
+    with pytest.raises(ValueError, match="read-only"):
+        compiled.ask(0, rows, frozen)
+    with pytest.raises(TypeError, match="takes 7 numbers"):
+        compiled.position(1.0, 2.0)

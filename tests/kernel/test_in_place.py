@@ -1,0 +1,55 @@
+"""Programs over buffers in numpy: every step the same to the bit, in as few buffers as that takes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.evaluation import evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.listing import program_of
+from hypcheck.kernel.printing.in_place import in_place_statements
+from tests.kernel.printing_samples import PROGRAMS, columns
+
+WITHOUT_CHOICES = {
+    name: program for name, program in PROGRAMS.items() if not any(step.operation == "select" for step in program.steps)
+}
+
+
+def run(program, wanted, inputs):
+    """The wanted values, from statements run in buffers that begin with rubbish."""
+    printed = in_place_statements(program, wanted)
+    shape = next(iter(inputs.values())).shape
+    names = {f"n{k}": np.full(shape, np.pi) for k in range(printed.numbers)}
+    names |= {f"t{k}": np.ones(shape, bool) for k in range(printed.truths)}
+    with np.errstate(all="ignore"):
+        exec("\n".join(printed.statements), {"np": np}, names | inputs)  # noqa: S102 - what was printed is to be run
+    return {name: names[printed.place[name]] for name in wanted}, printed
+
+
+@pytest.mark.parametrize("program", WITHOUT_CHOICES.values(), ids=WITHOUT_CHOICES)
+@pytest.mark.parametrize("alone", [True, False], ids=["one-by-one", "all-at-once"])
+def test_every_step_is_the_same_to_the_bit(program, alone):
+    inputs = dict(zip(program.inputs, columns(program, "float64"), strict=True))
+    before = {name: value.copy() for name, value in inputs.items()}
+    expected = evaluate(program, float_arithmetic("float64"), inputs)
+    steps = tuple(step.name for step in program.steps)
+    for wanted in [(step,) for step in steps] if alone else [steps]:
+        found, _ = run(program, wanted, inputs)
+        for name in wanted:
+            right = np.broadcast_to(expected[name], found[name].shape)
+            assert np.array_equal(found[name], right, equal_nan=right.dtype != bool), name
+    assert all(np.array_equal(inputs[name], before[name], equal_nan=True) for name in inputs)
+
+
+def test_a_buffer_is_used_again_once_its_value_was_read():
+    program = program_of("chain", ("x",), "a = x + 1\nb = a * a\nc = b + x\nd = c - -2\np = d > 0\nq = not p")
+    printed = in_place_statements(program, ("q",))
+    assert (printed.numbers, printed.truths) == (1, 1)
+    assert printed.statements[:2] == ("np.add(x, 1.0, n0)  # a = x + 1", "np.multiply(n0, n0, n0)  # b = a * a")
+    assert printed.statements[3] == "np.subtract(n0, -2.0, n0)  # d = c - -2"
+
+
+def test_a_selection_has_no_statement():
+    with pytest.raises(ValueError, match="step y: there is no ufunc in place for select"):
+        in_place_statements(program_of("choice", ("x",), "p = x > 0\ny = p ? x : 1"), ("y",))

@@ -1,0 +1,54 @@
+"""hypcheck.position: one pair, compiled or not, exact, and a sentence for what is no pair."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.kernel.scalar import exact_position
+from hypcheck.truth import batch, exact
+from tests.attack.places import near_contact, on_the_ring
+from tests.strategies import pairs
+
+FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_position], ids=["public", "plain-python"])
+
+
+@FUNCTIONS
+@given(pair=pairs)
+def test_a_pair_of_any_size_is_answered_exactly(function, pair):
+    assert function(*pair.row) == exact.position(pair.lengths)
+
+
+@FUNCTIONS
+def test_pairs_at_the_borders_are_answered_exactly(function):
+    random = np.random.default_rng(6)
+    rows = np.concatenate([near_contact(random, 3000), on_the_ring(random, 500)])
+    assert [function(*row) for row in rows.tolist()] == batch.positions(rows).tolist()
+
+
+@FUNCTIONS
+def test_numbers_that_are_no_floats_are_taken_for_what_they_are_worth(function):
+    assert function(1, 2, 1, 1, 2.5, 0, 0) == 1
+    assert function(*np.float64([4, 4, 1, 1, 0, 0, 0])) == -1
+    assert function(1.0, 2.0, 1.0, 1.0, -2.0, 0.0, -0.0) == 0
+
+
+@FUNCTIONS
+@pytest.mark.parametrize(
+    ("row", "sentence"),
+    [
+        ((1, 2, 1, -1.0, 2.5, 0, 0), "d is -1.0; a semi-axis must be greater than 0"),
+        ((1.0, float("nan"), 1.0, 1.0, 2.5, 0.0, 0.0), "gamma is nan; it must be finite"),
+        ((1.0, 2.0, 1.0, 1.0, 2.5, 0.0, float("inf")), "z is inf; it must be finite"),
+        ((-0.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0), "alpha is -0.0; a semi-axis must be greater than 0"),
+        ((1, 2, 1, 1, "2.5", 0, 0), "x is '2.5'; it must be a number"),
+        ((1, 2, 1, 1, True, 0, 0), "x is True; it must be a number"),
+        ((1, 2, 1, 1, 10**400, 0, 0), "x is an integer too large for float64"),
+    ],
+)
+def test_what_is_no_pair_is_refused_by_name(function, row, sentence):
+    with pytest.raises(InputError, match=sentence):
+        function(*row)
