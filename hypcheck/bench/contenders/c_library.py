@@ -50,16 +50,21 @@ def bodies() -> list[Body]:
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
     """The library, made in a folder. Raises UnavailableError where there is no compiler that makes it."""
-    program = _program()
     code, library = folder / "methods.c", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
+    return library, compile_c(code, library)
+
+
+def compile_c(code: Path, library: Path) -> Compiler:
+    """Make a library of a file in C. Raises UnavailableError where there is no compiler that makes it."""
+    program = _program()
     trouble = ""
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
         done = _run([program, *flags, "-shared", str(code), "-o", str(library), "-lm"])
         if done.returncode == 0:
-            return library, Compiler(program, _version(program), flags)
+            return Compiler(program, _version(program), flags)
         trouble = trouble or (done.stderr.strip().splitlines() or ["it says nothing"])[0]
-    raise UnavailableError(f"{program} does not compile the methods in C: {trouble}")
+    raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
 
 
 def _program() -> str:

@@ -44,6 +44,8 @@ class Dialect:
         return self.phrases[phrase].format(**words)
 
 
+_CHOOSE = "if (has_sizes(sizes, {sizes})) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
+
 _C_LIKE = {
     "constant": "const {number} {name} = {value};",
     "begin": "static int position_{place}({number} x, {number} y, {number} z)\n{{",
@@ -58,7 +60,7 @@ _C_LIKE = {
     "search": "search(R, zz, height, &setting_{place})",
     "setting": "static const setting setting_{place} = {{{values}}};",
     "field": ".{name} = {value}",
-    "choose": "if (has_sizes(sizes, {sizes})) return position_{place};",
+    "choose": _CHOOSE.replace("TRUE", "1"),
     "note": "/* {text} */",
     "unused": "(void){name};",
 }
@@ -70,6 +72,7 @@ _CPP = {
     "search": "search(R, zz, height, setting_{place})",
     "setting": "constexpr Setting setting_{place} = {{{values}}};",
     "field": "{value}",
+    "choose": _CHOOSE.replace("TRUE", "true"),
     "note": "// {text}",
 }
 

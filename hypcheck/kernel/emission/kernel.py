@@ -8,6 +8,7 @@ from typing import Any
 
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
+from hypcheck.kernel.emission.batch import OPEN, many
 from hypcheck.kernel.emission.body import function
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.filling import filled, template
@@ -19,6 +20,9 @@ from hypcheck.version import VERSION
 
 COMMENTS = {"c": " * ", "cpp": "// ", "rust": "//! ", "javascript": "// ", "python": ""}
 EXTENSIONS = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}
+BY_BLOCK = ("c", "cpp")
+"""Languages whose kernels have loops over many centres that compilers make vectors of."""
+
 SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
 """The constants of a search, in the order in which a kernel holds them."""
 
@@ -36,6 +40,10 @@ def emitted(plan: Plan, language: str, command: Sequence[str]) -> str:
         "number": number,
         "search": _search(plan, dialect, extension) if _searches(plan) else "",
         "settings": "\n\n".join([*_settings(plan, dialect), *functions]),
+        "many": "\n\n".join(many(plan, stages, place, dialect) for place, stages in _numbered(plan))
+        if language in BY_BLOCK
+        else "",
+        "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
         "description": _quoted(description(plan, language), language),

@@ -1,0 +1,179 @@
+"""Many centres of one setting at once, in C and C++: the stages as loops without branches, block by block.
+
+The first loop asks the lines, the second, where they leave a centre of the block open, the discriminant; what is open
+after that goes to the setting's function one by one. After an open block the lines are passed over for a while: where
+centres are spread all over a region, nearly every block is open, and along a path hardly any.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from hypcheck.derivation.program import Program, needed
+from hypcheck.kernel.emission.body import answer
+from hypcheck.kernel.emission.dialects import Dialect
+from hypcheck.kernel.specialise.centre import CENTRE
+from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
+from hypcheck.pairs import Position
+from hypcheck.rows import CANNOT_SAY
+
+BLOCK = 256
+PASSED_OVER = 15
+"""Blocks that go straight to the discriminant after an open one."""
+
+OPEN = 3
+"""The code of a centre that is not decided yet."""
+
+_MANY = """static void many_{place}(size_t n, const double *x, const double *y, const double *z, int8_t *positions)
+{{
+    int pass_over = 0;
+    for (size_t start = 0; start < n; start += {block}) {{
+        const double *xs = x + start, *ys = y + start, *zs = z + start;
+        const size_t count = n - start < {block} ? n - start : {block};
+        {number} code[{block}];
+        if (pass_over > 0) {{
+            for (size_t i = 0; i < count; i++) code[i] = {open};
+        }} else {{
+            for (size_t i = 0; i < count; i++) {{
+{first}
+            }}
+        }}
+        int left = any_open(code, count);
+{second}        for (size_t i = 0; i < count; i++) positions[start + i] = (int8_t)code[i];
+        if (left) {{
+            for (size_t i = 0; i < count; i++)
+                if (code[i] == {open})
+                    positions[start + i] = (int8_t)position_{place}(({number})xs[i], ({number})ys[i], ({number})zs[i]);
+        }}
+    }}
+}}"""
+
+_SECOND = """        if (left) {{
+            pass_over = pass_over > 0 ? pass_over - 1 : {passed};
+            for (size_t i = 0; i < count; i++) {{
+{body}
+            }}
+            left = any_open(code, count);
+        }}
+"""
+
+
+def many(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
+    """The function for many centres of the setting at this place."""
+    batch = _Batch(plan, stages, dialect)
+    second = "\n".join(batch.second())
+    words = {"place": place, "block": BLOCK, "number": batch.number, "open": batch.code(OPEN)}
+    loop = _SECOND.format(body=_indented(second), passed=PASSED_OVER) if second else ""
+    return _MANY.format(**words, first=_indented("\n".join(batch.first())), second=loop)
+
+
+def _indented(text: str) -> str:
+    return "\n".join(f"                {line}" if line else "" for line in text.splitlines())
+
+
+class _Batch:
+    """The bodies of the two loops of one setting."""
+
+    def __init__(self, plan: Plan, stages: Stages, dialect: Dialect) -> None:
+        self._question, self._precision = plan.question, plan.format.name
+        self._stages, self._dialect = stages, dialect
+        self.number = dialect.number_of(self._precision)
+
+    def code(self, value: int) -> str:
+        """An answer, or OPEN, as a number: comparisons and selections of one type become vectors."""
+        return self._dialect.literal(float(value), self._precision)
+
+    def first(self) -> Iterator[str]:
+        """Everything that costs a few operations; what it leaves is OPEN."""
+        stages, choices, rest = self._stages, self._beyond_height(), OPEN
+        yield from self._centre_read(("x", "y", "z"))
+        if stages.always is not None:
+            rest = answer(stages.always, self._question)
+        elif stages.thresholds is not None:
+            yield from self._entry(("R",))
+            choices += self._thresholds()
+            rest = answer(Position.CONTACT, self._question)
+        else:
+            yield from self._entry(("R", "zz"))
+            for line in stages.lines:
+                yield from self._constants(line.constants)
+                yield from self._printed(line.program, (line.holds,))
+                choices.append((line.holds, answer(line.side, self._question)))
+            if self._question in ONE_SIDED:
+                yield from self._side()
+                choices.append(("outside" if self._question == "interior" else "!outside", 0))
+        yield f"code[i] = {self._chosen(choices, self.code(rest))};"
+
+    def second(self) -> Iterator[str]:
+        """The discriminant, for those that are open."""
+        delta = self._stages.discriminant
+        if delta is None:
+            return
+        yield f"const {self.number} before = code[i];"
+        yield from self._centre_read(("x", "y", "z"))
+        yield from self._entry(("R", "zz"))
+        clear = self.code(0 if self._question == "contact" else 1)
+        if self._question == "position" and delta.clear_where_positive:
+            yield from self._side()
+            clear = f"(outside ? {self.code(1)} : {self.code(-1)})"
+        yield from self._constants(delta.constants)
+        yield from self._printed(delta.program, ("delta_3",))
+        bound, widest, highest = map(self._literal, (delta.bound, delta.widest, delta.highest))
+        yield f"const {self._truth} within = (R <= {widest}) & (zz <= {highest});"
+        yield f"const {self._truth} touching = within & (delta_3 < -{bound});"
+        told = self.code(OPEN)
+        if delta.clear_where_positive:
+            yield f"const {self._truth} clear = within & (delta_3 > {bound});"
+            yield f"const {self.number} told = clear ? {clear} : {told};"
+            told = "told"
+        yield f"const {self.number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {told};"
+        yield f"const {self.number} here = before == {self.code(OPEN)} ? now : before;"
+        yield f"code[i] = {self._chosen(self._beyond_height(), 'here')};"
+
+    @property
+    def _truth(self) -> str:
+        return "bool" if self._dialect.name == "cpp" else "int"
+
+    def _centre_read(self, names: tuple[str, ...]) -> Iterator[str]:
+        for name in names:
+            yield f"const {self.number} {name} = ({self.number}){name}s[i];"
+        yield " ".join(f"(void){name};" for name in names)
+
+    def _beyond_height(self) -> list[tuple[str, int]]:
+        cut = self._stages.setting.cut
+        if cut is None:
+            return []
+        return [(f"(z < {self._literal(cut.low)}) | (z > {self._literal(cut.high)})", CANNOT_SAY)]
+
+    def _thresholds(self) -> Iterator[tuple[str, int]]:
+        found = self._stages.thresholds
+        assert found is not None  # noqa: S101 - the caller has looked
+        yield f"R > {self._literal(found.outer)}", answer(Position.EXTERIOR, self._question)
+        if found.inner is not None:
+            yield f"R < {self._literal(found.inner)}", answer(Position.INTERIOR, self._question)
+
+    def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
+        text = rest
+        for condition, value in reversed(choices):
+            text = f"({condition}) ? {self.code(value)} : ({text})"
+        return text
+
+    def _side(self) -> Iterator[str]:
+        yield from self._constants(self._stages.centre)
+        yield from self._printed(CENTRE, ("outside",))
+
+    def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
+        program, constants = self._stages.entry, self._stages.entry_constants
+        read = {name for step in needed(program, wanted) for name in step.reads}
+        yield from self._constants({name: value for name, value in constants.items() if name in read})
+        yield from self._printed(program, wanted)
+
+    def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
+        for name, value in constants.items():
+            yield self._dialect.say("constant", number=self.number, name=name, value=self._literal(value))
+
+    def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+        return self._dialect.printer(program, wanted, self.number)
+
+    def _literal(self, value: float) -> str:
+        return self._dialect.literal(value, self._precision)
