@@ -93,7 +93,7 @@ class _Batch:
             yield from self._entry(("R",))
             choices += self._thresholds()
             rest = answer(Position.CONTACT, self._question)
-        else:
+        elif stages.lines or self._question in ONE_SIDED:
             yield from self._entry(("R", "zz"))
             for line in stages.lines:
                 yield from self._constants(line.constants)
@@ -112,10 +112,11 @@ class _Batch:
         yield f"const {self.number} before = code[i];"
         yield from self._centre_read(("x", "y", "z"))
         yield from self._entry(("R", "zz"))
-        clear = self.code(0 if self._question == "contact" else 1)
-        if self._question == "position" and delta.clear_where_positive:
+        clear = self.code(0)
+        if self._question != "contact" and delta.clear_where_positive:
             yield from self._side()
-            clear = f"(outside ? {self.code(1)} : {self.code(-1)})"
+            sides = (answer(side, self._question) for side in (Position.EXTERIOR, Position.INTERIOR))
+            clear = "(outside ? {} : {})".format(*map(self.code, sides))
         yield from self._constants(delta.constants)
         yield from self._printed(delta.program, ("delta_3",))
         bound, widest, highest = map(self._literal, (delta.bound, delta.widest, delta.highest))

@@ -1,0 +1,145 @@
+"""Emitted kernels, built by real compilers, against exact positions: never farther off than they promise."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck import judge
+from hypcheck.casebook.fixed_sizes import families_for
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.kernel import description, emitted
+from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.methods.description import Description, described_by_json
+from hypcheck.methods.domain import representable
+from hypcheck.methods.domain_reading import domain_of
+from hypcheck.rows import CANNOT_SAY
+from hypcheck.scene.model import Hyperboloid, Mover, Region, Scene, Span
+from hypcheck.scene.reading import read_scene
+from hypcheck.truth import batch
+from tests.emission.building import COMMAND, answers, answers_by_scene, built, needs, skip_without
+from tests.specialise.scenes import random_scene, scene
+
+TOWER = read_scene("tower")
+SCENES = {
+    "tower": TOWER,
+    "level flight": replace(TOWER, region=Region(z=Span(3.0, 3.0))),
+    "waist": scene(z=Span(0.0, 0.0)),
+    "far": scene(x=Span(9.0, 12.0), z=Span(-1.0, 1.0)),
+    "thin drone": scene((30.0, 70.0, 0.01, 0.005)),
+    "narrow": scene((0.4, 3.0, 1.0, 1.0)),
+    "steep": scene((3.0, 1.0, 1.0, 1.0)),
+}
+
+
+def worst_error(library, plan, count):
+    """The largest backward error of a kernel, in units u, over the families of its own sizes; and its rows."""
+    claimed = description(plan, "c")
+    domain = domain_of(claimed["domain"], "the domain")
+    criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
+    worst, asked = 0.0, 0
+    for family in families_for(domain.settings):
+        rows = family.rows(0, count)
+        rows = rows[domain.holds(rows) & representable(rows, plan.format.name)]
+        if not len(rows):
+            continue
+        found = answers(library, rows)
+        assert (found == answers_by_scene(library, rows)).all(), family.name
+        for case in judge.wrong_cases(rows, batch.positions(rows), found, criterion):
+            worst = max(worst, judge.in_units(judge.measured(case, plan.question), criterion.unit))
+        asked += len(rows)
+    return worst, asked
+
+
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+@pytest.mark.parametrize("name", SCENES)
+@needs("c")
+def test_c_is_within_its_bound(name, precision, tmp_path):
+    for question in ("position", "interior") if name != "tower" else ("position", "exterior", "interior", "contact"):
+        chosen = replace(SCENES[name], question=question)
+        plan = plan_of(chosen, precision)
+        worst, asked = worst_error(built(tmp_path, chosen, "c", precision), plan, 512)
+        assert asked > 0
+        assert worst <= min(8, plan.bound_u)
+
+
+@pytest.mark.parametrize("part", range(4))
+@needs("c")
+def test_kernels_of_random_scenes_are_within_their_bound(part, tmp_path):
+    for seed in range(50 * part, 50 * part + 50):
+        chosen = random_scene(seed)
+        precision = ("float64", "float32")[seed % 2]
+        plan = plan_of(chosen, precision)
+        worst, _ = worst_error(built(tmp_path, chosen, "c", precision, "-O0"), plan, 64)
+        assert worst <= min(8, plan.bound_u), seed
+
+
+@pytest.mark.parametrize(
+    ("language", "precision"), [("cpp", "float64"), ("cpp", "float32"), ("rust", "float64"), ("rust", "float32")]
+)
+def test_other_compiled_languages_are_within_their_bound(language, precision, tmp_path):
+    skip_without(language)
+    for chosen in (replace(TOWER, question="position"), SCENES["steep"]):
+        plan = plan_of(chosen, precision)
+        worst, asked = worst_error(built(tmp_path, chosen, language, precision), plan, 256)
+        assert asked > 0
+        assert worst <= 8
+
+
+@needs("c")
+def test_beyond_the_modelled_height_and_for_other_sizes_it_cannot_say(tmp_path):
+    stump = Scene("s", "position", (Hyperboloid("stump", 1.0, 2.0, height=Span(-1.0, 1.0)),), Mover(0.5, 0.5))
+    library = built(tmp_path, stump, "c")
+    rows = np.tile([1.0, 2.0, 0.5, 0.5, 1.2, 0.0, 0.0], (600, 1))
+    rows[:, 6] = np.linspace(-2, 2, 600)
+    beyond = np.abs(rows[:, 6]) > 1
+    for found in (answers(library, rows), answers_by_scene(library, rows)):
+        assert (found[beyond] == CANNOT_SAY).all()
+        assert (found[~beyond] == batch.positions(rows[~beyond])).all()
+    rows[:, 0] = 1.5
+    assert (answers(library, rows) == CANNOT_SAY).all()
+    assert (answers_by_scene(library, rows) == CANNOT_SAY).all()
+
+
+@needs("c")
+def test_fast_math_is_refused(tmp_path):
+    with pytest.raises(AssertionError, match="compile without -ffast-math"):
+        built(tmp_path, TOWER, "c", "float64", "-ffast-math")
+
+
+@pytest.mark.parametrize("language", DIALECTS)
+def test_a_scene_cannot_say_anything_in_a_kernel_but_its_name(language, tmp_path):
+    """Whatever a scene is called, it is one line of comment and a text."""
+    name = 'x */ int main(void) { return 1; } /* """ \' \\" ${header} \\u000a // \n#error no\n\u202e'
+    skip_without(language)
+    hostile = replace(SCENES["waist"], name=name)
+    path = built(tmp_path, hostile, language)
+    text = emitted(plan_of(hostile), language, [*COMMAND, name])
+    assert text.isascii()
+    assert language == "python" or "\n#error no" not in text
+    if language == "python":
+        compile(text, "kernel.py", "exec")
+    if language == "javascript":
+        subprocess.run([str(shutil.which("node")), "--check", str(path)], check=True)
+
+
+@pytest.mark.parametrize("language", DIALECTS)
+def test_a_kernel_is_the_same_every_time_and_says_how_it_was_made(language):
+    plan = plan_of(TOWER)
+    text = emitted(plan, language, COMMAND)
+    assert text == emitted(plan_of(TOWER), language, COMMAND)
+    head = text[:2500]
+    for word in ("cooling tower", "hypcheck emit --scene", "multiplications", "8 u", "2^-53"):
+        assert word in head
+
+
+def test_a_description_is_what_the_protocol_reads():
+    claimed = described_by_json(json.dumps(description(plan_of(TOWER, "float32"), "rust")), Description(""))
+    assert (claimed.precision, claimed.question) == ("float32", "interior")
+    assert [setting.sizes for setting in claimed.domain.settings] == [(2.0, 17.8, 0.25, 0.15), (2.0, 17.8, 0.1, 0.05)]
