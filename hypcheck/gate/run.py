@@ -7,6 +7,7 @@ from contextlib import ExitStack
 
 from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
+from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import NothingJudgedError
 from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
@@ -17,6 +18,7 @@ from hypcheck.gate.schedule import Crew, State, states, steps
 from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import Here, Workers, keep_memory
 from hypcheck.judge import Criterion
+from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
 from hypcheck.record import Recorder
@@ -61,11 +63,15 @@ def _known(plan: GatePlan) -> tuple[KnownFailure, ...]:
     return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
 
 
-def _chunks(plan: GatePlan) -> Iterator[Chunk]:
+def _chunks(plan: GatePlan, domain: Domain | None = None) -> Iterator[Chunk]:
+    """The chunks of a run; a domain of given sizes alone has families made for them."""
     for family in chosen(plan):
         yield from chunks(family, plan.seed, plan.count)
-    if not plan.filtered:
-        yield from found_by_search()
+    if plan.filtered:
+        return
+    yield from found_by_search()
+    for family in families_for(domain.settings) if domain is not None else ():
+        yield from chunks(family, plan.seed, plan.count)
 
 
 def _gate(
@@ -81,7 +87,7 @@ def _gate(
     criterion = Criterion(used.question, used.precision, plan.tolerance)
     rules = Rules(criterion, used.domain, listed, plan.seed)
     lines = Lines(plan, opening.spec, implementation.declared, used, rules)
-    asked = steps(_chunks(plan), refuses=used.refuses)
+    asked = steps(_chunks(plan, used.domain), refuses=used.refuses)
     begun = State(implementation.allowance)
     state = begun
     with ExitStack() as stack:
