@@ -126,6 +126,7 @@ _KEYWORDS: dict[str, tuple[type | tuple[type, ...], Check]] = {
     "maxItems": (list, _rule(lambda v, w: len(v) <= w, lambda _, w: f"has more than {w} items")),
     "exclusiveMinimum": ((int, float), _rule(lambda v, w: v > w, lambda v, w: f"is {v}, not above {w}")),
     "minimum": ((int, float), _rule(lambda v, w: v >= w, lambda v, w: f"is {v}, below {w}")),
+    "maximum": ((int, float), _rule(lambda v, w: v <= w, lambda v, w: f"is {v}, above {w}")),
     "pattern": (
         str,
         _rule(lambda v, w: re.search(w, v) is not None, lambda v, w: f"is {_shown(v)}, not like {w}"),

@@ -78,12 +78,68 @@ class Region:
     z: Span | None = None
 
 
+TURNS = ("executed", "free")
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Where flights begin: at a height uniform in `z`, uniform over a disc about the axis, heading anywhere.
+
+    The disc has the `radius`, or ends `margin` before the surface at that height; one of the two is None.
+    """
+
+    z: Span
+    radius: float | None = None
+    margin: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Flight:
+    """How a quadcopter flies at random until it has covered `distance`: what the paper says of it, and leaves open.
+
+    Each draw is straight with the chance `straight`, up or down (half each) with the chance `vertical`, else a turn
+    uniform within ±`largest_turn` degrees. Straight is ahead, or half of the time back where `backward`. A turn that is
+    "executed" asks the procedure in place, ignores the answer and is followed by a step ahead; a "free" one only turns.
+    After a refusal it turns by `refused_turn` degrees, left or right alike.
+    """
+
+    distance: float
+    straight: float
+    vertical: float
+    largest_turn: float
+    refused_turn: float
+    backward: bool
+    turn: str
+    start: Start
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """How a walker wanders: `steps` moves of length `step`, each after a turn uniform within ±`largest_turn` degrees.
+
+    It begins at `start` with `heading` (degrees from the x axis). After a refusal it turns by `refused_turn` degrees,
+    left or right alike, in place of the next turn.
+    """
+
+    start: Point
+    heading: float
+    steps: int
+    step: float
+    largest_turn: float
+    refused_turn: float
+
+
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """One or more hyperboloids, a mover, the region it moves in, and the `question` (one of QUESTIONS) to answer."""
+    """One or more hyperboloids, a mover, the region it moves in, and the `question` (one of QUESTIONS) to answer.
+
+    `flight` and `walk` are for `hypcheck simulate` alone.
+    """
 
     name: str
     question: str
     hyperboloids: tuple[Hyperboloid, ...]
     mover: Mover
     region: Region = Region()
+    flight: Flight | None = None
+    walk: Walk | None = None

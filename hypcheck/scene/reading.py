@@ -14,6 +14,7 @@ from typing import Any
 from hypcheck.errors import InputError
 from hypcheck.scene import tables
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Part, Region, Scene
+from hypcheck.scene.moving import flight_of, walk_of
 from hypcheck.scene.tables import Source, Table
 
 if sys.version_info >= (3, 11):
@@ -26,7 +27,7 @@ LARGEST_FILE = 64 << 20
 
 SUFFIX = ".toml"
 
-_SCENE = ("name", "question", "hyperboloid", "mover", "region")
+_SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
 _HYPERBOLOID = ("name", "alpha", "gamma", "center", "height")
 _MOVER = ("b", "d", "part")
 _PART = ("b", "d", "arm", "angle")
@@ -61,7 +62,7 @@ def _scene(top: Table) -> Scene:
     name = top.required("name", tables.text)
     question = top.optional("question", tables.one_of(*QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
-    return Scene(name, question, hyperboloids, _mover(top), _region(top))
+    return Scene(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
 
 
 def _file(name: str) -> tuple[str, str]:

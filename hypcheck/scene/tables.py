@@ -142,6 +142,38 @@ def not_negative(value: object) -> float:
     return result
 
 
+def turn(value: object) -> float:
+    """An angle, in degrees."""
+    wanted = "a number of degrees, from -180 to 180"
+    result = _number(value, wanted)
+    if not -180 <= result <= 180:
+        raise ValueError(wanted)
+    return result
+
+
+def share(value: object) -> float:
+    """A chance."""
+    wanted = "a number from 0 to 1"
+    result = _number(value, wanted)
+    if not 0 <= result <= 1:
+        raise ValueError(wanted)
+    return result
+
+
+def whole(value: object) -> int:
+    """How many of something."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
+        raise ValueError("a whole number, 0 or more and below 2^31")
+    return value
+
+
+def truth(value: object) -> bool:
+    """Whether something is so."""
+    if not isinstance(value, bool):
+        raise ValueError("true or false")  # noqa: TRY004 - as in _number
+    return value
+
+
 def point(value: object) -> Point:
     """Three coordinates."""
     wanted = "three finite numbers, [x, y, z]"

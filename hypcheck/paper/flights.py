@@ -1,0 +1,239 @@
+"""Random flights inside a tower, many at once: the paper's section 4, with Procedure 2.b deciding each movement.
+
+A flight is a sequence of draws. A draw leads to a movement that the procedure is asked about before it is made, at the
+position it leads to; each question is an *execution* of the procedure. The rules, and what the paper leaves open of
+them, are a scene's `Flight`. A vertical draw to beyond the tower's height is drawn again without an execution.
+
+Every draw of a flight takes two words of its block's stream, whatever comes of it, and a block has LANES flights,
+whether they are asked for or not: so a flight depends on nothing but the name of its block and its place in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.casebook.draw import Draw, Floats
+from hypcheck.errors import InputError
+from hypcheck.paper.flights_circle import EIGHTH, Direction, any_angle, quarter_turns, small_angle, turned
+from hypcheck.paper.flights_craft import Craft, Mask, Point, Procedures
+from hypcheck.scene.model import Flight, Start
+
+LANES = 1000
+"""Flights of a block: enough that numpy works and does not wait."""
+
+VERSION = 1
+"""Of the flights: raised whenever other words, or the same in another order, come to be drawn."""
+
+_PATIENCE = 100
+"""Draws for each accepted move, and for a hundred more, after which a flight is stuck."""
+
+Counts = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Moves:
+    """What one draw came to, for the flights still under way; arrays (n,) throughout.
+
+    `lane` says which flights; they went, or would have gone, from `start` to `end`. `accepted` and `refused` are
+    movements the procedure was asked about; `vertical` ones go up or down. A turn in place (`turning`) was asked about
+    too where `executed`. `touching` is Δ ≤ 0 at `end`. The heading was `before`; it turned by `turn` degrees, in place.
+    """
+
+    lane: NDArray[np.int64]
+    start: Point
+    end: Point
+    before: Direction
+    turn: Floats
+    accepted: Mask
+    refused: Mask
+    vertical: Mask
+    turning: Mask
+    executed: Mask
+    touching: Mask
+
+
+@dataclass(slots=True)
+class Tallies:
+    """How often what happened to each flight of a block; int64 (lanes,) each."""
+
+    executions: Counts
+    touching: Counts
+    accepted: Counts
+    vertical: Counts
+    refused: Counts
+    redrawn: Counts
+
+    @classmethod
+    def of(cls, lanes: int) -> Tallies:
+        """Zeros."""
+        return cls(*(np.zeros(lanes, dtype=np.int64) for _ in fields(cls)))
+
+    def add(self, moves: Moves) -> None:
+        """Count what a draw came to."""
+        drawn = moves.lane
+        self.executions[drawn] += moves.executed
+        self.touching[drawn] += moves.executed & moves.touching
+        self.accepted[drawn] += moves.accepted
+        self.vertical[drawn] += moves.accepted & moves.vertical
+        self.refused[drawn] += moves.refused
+        self.redrawn[drawn] += ~moves.executed & moves.vertical
+
+
+@dataclass(slots=True)
+class _State:
+    """The flights under way: where they are, where they head, whether a step ahead is due."""
+
+    lane: NDArray[np.int64]
+    at: Point
+    heading: Direction
+    due: Mask
+    left: Counts = field(repr=False)
+
+    def kept(self, those: Mask) -> _State:
+        """The state of those flights alone."""
+        (x, y, z), (cosine, sine) = self.at, self.heading
+        return _State(
+            self.lane[those],
+            (x[those], y[those], z[those]),
+            (cosine[those], sine[those]),
+            self.due[those],
+            self.left[those],
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Chosen:
+    """What was drawn for each flight: the way ahead (1, −1 or 0), up or down (likewise), the turn."""
+
+    ahead: Floats
+    up: Floats
+    turning: Mask
+    turn: Floats
+    refused_turn: Floats
+
+
+def fly(
+    craft: Craft,
+    flight: Flight,
+    step: float,
+    moves: int,
+    draw: Draw,
+    lanes: int = LANES,
+    observe: Callable[[Moves], object] | None = None,
+) -> Tallies:
+    """Let `lanes` flights make `moves` accepted moves of length `step` each.
+
+    `draw` is the stream of the block; `lanes` of its LANES flights are flown, the first ones. `observe` sees every
+    draw. Raises InputError where a flight is stuck: nothing it tries is accepted.
+    """
+    procedures, tallies = Procedures(craft), Tallies.of(lanes)
+    state = _begin(craft, flight.start, draw, lanes, moves)
+    patience = _PATIENCE * (moves + 100)
+    for _ in range(patience):
+        if not len(state.lane):
+            return tallies
+        words = draw.words(2 * LANES).reshape(2, LANES)[:, state.lane]
+        done = _advance(craft, flight, step, procedures, state, words)
+        tallies.add(done)
+        if observe is not None:
+            observe(done)
+        if not state.left.all():
+            state = state.kept(state.left > 0)
+    raise InputError(
+        f"a flight with steps of {step!r} is stuck: of {patience} draws fewer than {moves} led to an accepted "
+        "move; the scene's flight must leave it a way"
+    )
+
+
+def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _State:
+    alpha, gamma, _, _ = craft.sizes
+    z = draw.between(LANES, start.z.low, start.z.high)
+    ratio = z / gamma
+    wall = alpha * np.sqrt(1 + ratio * ratio)
+    reach = np.full(LANES, start.radius) if start.margin is None else np.maximum(wall - start.margin, 0)
+    radius = reach * np.sqrt(draw.unit(LANES))
+    (cosine, sine), heading = _anywhere(draw), _anywhere(draw)
+    return _State(
+        lane=np.arange(lanes),
+        at=((radius * cosine)[:lanes], (radius * sine)[:lanes], z[:lanes]),
+        heading=(heading[0][:lanes], heading[1][:lanes]),
+        due=np.zeros(lanes, dtype=np.bool_),
+        left=np.full(lanes, moves, dtype=np.int64),
+    )
+
+
+def _anywhere(draw: Draw) -> Direction:
+    """Directions uniform over the circle."""
+    words = draw.words(LANES)
+    return quarter_turns(*small_angle((2 * _unit(words) - 1) * EIGHTH), (words & np.uint64(3)).astype(np.int64))
+
+
+def _unit(words: NDArray[np.uint64]) -> Floats:
+    """Multiples of 2⁻⁵³ in [0, 1), of the high bits."""
+    return (words >> np.uint64(11)).astype(np.float64) * 2.0**-53
+
+
+def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
+    """What the two words of each flight say. A step that is due goes before what they say."""
+    chance, sense = _unit(words[0]), np.where(words[0] & np.uint64(1) == 0, 1.0, -1.0)
+    straight = ~due & (chance < flight.straight)
+    vertical = ~due & ~straight & (chance < flight.straight + flight.vertical)
+    turning = ~(due | straight | vertical)
+    left = np.where(words[0] & np.uint64(2) == 0, 1.0, -1.0)
+    return _Chosen(
+        ahead=np.where(due, 1.0, np.where(straight, sense if flight.backward else 1.0, 0.0)),
+        up=np.where(vertical, sense, 0.0),
+        turning=turning,
+        turn=np.where(turning, (2 * _unit(words[1]) - 1) * flight.largest_turn, 0.0),
+        refused_turn=left * flight.refused_turn,
+    )
+
+
+def _advance(
+    craft: Craft, flight: Flight, step: float, procedures: Procedures, state: _State, words: NDArray[np.uint64]
+) -> Moves:
+    """One draw of every flight under way; the state becomes what it leads to."""
+    chosen, start, before = _choose(flight, state.due, words), state.at, state.heading
+    heading = _turned(before, chosen.turn)
+    end = _moved(start, heading, chosen, step)
+    vertical = chosen.up != 0
+    executed = ~(vertical & _beyond(craft, end)) & ~(chosen.turning & (flight.turn == "free"))
+    valid, touching = procedures.ask(end, heading)
+    moving = executed & ~chosen.turning
+    accepted, refused = moving & valid, moving & ~valid
+    turn = np.where(refused, chosen.refused_turn, chosen.turn)
+    state.at = _where(accepted, end, start)
+    state.heading = _turned(heading, np.where(refused, chosen.refused_turn, 0.0))
+    state.due = chosen.turning & (flight.turn == "executed")
+    state.left = state.left - accepted
+    return Moves(state.lane, start, end, before, turn, accepted, refused, vertical, chosen.turning, executed, touching)
+
+
+def _moved(start: Point, heading: Direction, chosen: _Chosen, step: float) -> Point:
+    (x, y, z), along = start, chosen.ahead * step
+    return x + along * heading[0], y + along * heading[1], z + chosen.up * step
+
+
+def _beyond(craft: Craft, at: Point) -> Mask:
+    """Which positions are outside the modelled height."""
+    z = at[2]
+    if craft.height is None:
+        return np.zeros(z.shape, dtype=np.bool_)
+    return np.asarray((z < craft.height.low) | (z > craft.height.high))
+
+
+def _turned(heading: Direction, degrees: Floats) -> Direction:
+    """The headings after a turn; one that does not turn stays as it is, bit for bit."""
+    some = np.flatnonzero(degrees)
+    cosine, sine = heading[0].copy(), heading[1].copy()
+    cosine[some], sine[some] = turned((cosine[some], sine[some]), any_angle(degrees[some]))
+    return cosine, sine
+
+
+def _where(those: Mask, one: Point, other: Point) -> Point:
+    x, y, z = (np.where(those, a, b) for a, b in zip(one, other, strict=True))
+    return x, y, z

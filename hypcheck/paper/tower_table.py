@@ -1,0 +1,206 @@
+"""The paper's Table 5: how many executions of Procedure 2.b meet Δ ≤ 0, beside the printed figures.
+
+A cell is v·t: what the quadcopter covers at speed v in its response time t is the step it moves and looks ahead by.
+Each of its runs is a flight over the scene's distance; its figure is the mean of the runs' percentages.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from hypcheck.casebook.draw import Draw
+from hypcheck.errors import InputError
+from hypcheck.paper.flights import LANES, VERSION, Tallies, fly
+from hypcheck.paper.flights_craft import Craft
+from hypcheck.paper.flights_ways import Ways
+from hypcheck.processes import perform
+from hypcheck.scene.model import Flight
+
+SPEEDS = (5, 6, 7, 8, 9, 10)
+"""v, metres a second: the columns."""
+
+TIMES = (0.1, 0.2, 0.3)
+"""t, seconds: the rows."""
+
+SECOND_READING = 0.25
+"""The t of the second row, if the one that is printed, 0.2, is a misprint."""
+
+PRINTED = (
+    (13.9532, 13.9029, 13.5640, 13.1907, 12.9477, 12.4708),
+    (11.7990, 10.9387, 10.3449, 9.6364, 8.9626, 8.5885),
+    (10.9574, 10.2549, 9.4475, 8.6942, 7.8514, 7.4627),
+)
+PRINTED_RUNS = 1000
+
+STATEMENT = (
+    "The unstated parameters are not identified by the table: many rules of flight fit its 18 figures about as well, "
+    "so a good fit tells nothing about which rules the authors used."
+)
+"""What has to be said wherever the table is shown."""
+
+MOST_MOVES = 1_000_000
+
+Advance = Callable[[int], object]
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Some runs of a cell, flown together: the `number`-th block, the first `lanes` flights of it."""
+
+    craft: Craft
+    flight: Flight
+    speed: float
+    time: float
+    seed: int
+    number: int
+    lanes: int
+    watched: bool
+
+    @property
+    def moves(self) -> int:
+        """Accepted moves of a run."""
+        return moves_of(self.flight, self.speed * self.time)
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A figure of the table: the mean percentage and its standard error (None for a single run), and means a run."""
+
+    percent: float
+    standard_error: float | None
+    executions: float
+    refused: float
+    redrawn: float
+    ways: Ways | None
+
+
+def moves_of(flight: Flight, step: float) -> int:
+    """How many steps cover the distance; a last one that overshoots by rounding alone is not made."""
+    moves = math.ceil(flight.distance / step * (1 - 2.0**-40))
+    if moves > MOST_MOVES:
+        raise InputError(
+            f"a run of {flight.distance!r} with steps of {step!r} would take {moves:,} moves; it must be "
+            f"{MOST_MOVES:,} at most"
+        )
+    return moves
+
+
+def fly_block(block: Block) -> tuple[Tallies, Ways | None]:
+    """The runs of a block, with exact verdicts on their ways where it is `watched`."""
+    ways = Ways() if block.watched else None
+    draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
+    observe = None if ways is None else lambda moves: ways.watch(block.craft, moves)
+    step = block.speed * block.time
+    return fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe), ways
+
+
+def blocks(
+    craft: Craft, flight: Flight, seed: int, runs: int, *, watched: bool
+) -> dict[tuple[float, float], list[Block]]:
+    """The blocks of each cell (t, v): those of the table, and of its second row read as 0.25."""
+    return {
+        (time, speed): [
+            Block(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched)
+            for number in range(math.ceil(runs / LANES))
+        ]
+        for time in (*TIMES, SECOND_READING)
+        for speed in SPEEDS
+    }
+
+
+def table_5(
+    cells: Mapping[tuple[float, float], Sequence[Block]], executor: Executor | None, advance: Advance
+) -> dict[tuple[float, float], Cell]:
+    """Every cell, flown by the executor's processes; advanced by a block's moves whenever one is done."""
+    tasks = sorted((block for each in cells.values() for block in each), key=lambda block: -block.moves)
+    done = {}
+    for block, result in perform(fly_block, tasks, executor):
+        done[block.time, block.speed, block.number] = result
+        advance(block.moves)
+    return {
+        (time, speed): _cell([done[time, speed, block.number] for block in each])
+        for (time, speed), each in cells.items()
+    }
+
+
+def _cell(results: Sequence[tuple[Tallies, Ways | None]]) -> Cell:
+    executions, touching, refused, redrawn = (
+        np.concatenate([getattr(tallies, name) for tallies, _ in results])
+        for name in ("executions", "touching", "refused", "redrawn")
+    )
+    percents = (100.0 * touching / executions).tolist()
+    mean = math.fsum(percents) / len(percents)
+    spread = math.fsum((percent - mean) ** 2 for percent in percents)
+    error = None if len(percents) == 1 else math.sqrt(spread / (len(percents) - 1) / len(percents))
+    return Cell(
+        percent=mean,
+        standard_error=error,
+        executions=float(np.mean(executions)),
+        refused=float(np.mean(refused)),
+        redrawn=float(np.mean(redrawn)),
+        ways=together(ways for _, ways in results),
+    )
+
+
+def together(several: Iterable[Ways | None]) -> Ways | None:
+    """All verdicts in one; None where there are none."""
+    seen = [ways for ways in several if ways is not None]
+    total = Ways()
+    for ways in seen:
+        total.add(ways)
+    return total if seen else None
+
+
+def as_json(cells: Mapping[tuple[float, float], Cell], runs: int) -> dict[str, Any]:
+    """The table in rows t and columns v, as docs/simulate.md has it."""
+    rows = [[cells[time, speed] for speed in SPEEDS] for time in TIMES]
+    other = [cells[SECOND_READING, speed] for speed in SPEEDS]
+    ways = together(cell.ways for cell in cells.values())
+    return {
+        "statement": STATEMENT,
+        "runs": runs,
+        "v": list(SPEEDS),
+        "t": list(TIMES),
+        "percent": [[cell.percent for cell in row] for row in rows],
+        "standard_error": [[cell.standard_error for cell in row] for row in rows],
+        "printed": [list(row) for row in PRINTED],
+        "difference_in_standard_errors": [
+            [_difference(cell, figure, runs) for cell, figure in zip(row, figures, strict=True)]
+            for row, figures in zip(rows, PRINTED, strict=True)
+        ],
+        "executions": [[cell.executions for cell in row] for row in rows],
+        "root_mean_square_difference": _root_mean_square(rows),
+        "second_row_read_as_0.25": {
+            "t": SECOND_READING,
+            "percent": [cell.percent for cell in other],
+            "standard_error": [cell.standard_error for cell in other],
+            "difference_in_standard_errors": [
+                _difference(cell, figure, runs) for cell, figure in zip(other, PRINTED[1], strict=True)
+            ],
+            "executions": [cell.executions for cell in other],
+            "root_mean_square_difference": _root_mean_square([rows[0], other, rows[2]]),
+        },
+        "ways": None if ways is None else asdict(ways),
+    }
+
+
+def _difference(cell: Cell, figure: float, runs: int) -> float | None:
+    """Ours less theirs over the standard error of that, theirs being as uncertain as 1000 of our runs are."""
+    if not cell.standard_error:
+        return None
+    return (cell.percent - figure) / (cell.standard_error * math.sqrt(1 + runs / PRINTED_RUNS))
+
+
+def _root_mean_square(rows: Sequence[Sequence[Cell]]) -> float:
+    squares = [
+        (cell.percent - figure) ** 2
+        for row, figures in zip(rows, PRINTED, strict=True)
+        for cell, figure in zip(row, figures, strict=True)
+    ]
+    return math.sqrt(math.fsum(squares) / len(squares))

@@ -1,0 +1,86 @@
+"""What is taken out of a loop changes no bit of any answer."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.hoisting import hoisted
+from hypcheck.pairs import COLUMNS, SIZES
+
+NAMES = [name for name, formula in FORMULAS.items() if formula.classifies_pairs]
+ROWS = np.concatenate([FAMILIES[name].rows(1, 50) for name in ("tower-body", "ring", "forest-type-2", "stiff-both")])
+
+
+def inputs(rows):
+    return dict(zip(COLUMNS, rows.T, strict=True))
+
+
+def parts(values):
+    constants = {name: values[name] for name in SIZES}
+    return constants, {name: value for name, value in values.items() if name not in SIZES}
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("precision", ["float16", "float32", "float64"])
+def test_every_value_is_the_same_in_floats(name, precision):
+    formula, arithmetic = FORMULAS[name], float_arithmetic(precision)
+    wanted = (formula.answer, "c1", "c2")
+    values = inputs(ROWS)
+    constants, centre = parts(values)
+    whole = outputs(formula.program, arithmetic, values, wanted)
+    for one, other in zip(whole, hoisted(formula.program, arithmetic, constants, wanted)(centre), strict=True):
+        assert one.dtype == other.dtype
+        assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+
+
+def test_the_loop_can_go_on_with_other_centres():
+    program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float32")
+    constants, centre = parts(inputs(ROWS))
+    body = hoisted(program, arithmetic, constants, ("delta",))
+    first = body(centre)[0].copy()
+    moved = {name: value + 1 for name, value in centre.items()}
+    assert not np.array_equal(body(moved)[0], first, equal_nan=True)
+    assert np.array_equal(body(centre)[0], first, equal_nan=True)
+
+
+def test_exact_numbers_are_the_same():
+    program = FORMULAS["procedure-2b-spheroid"].program
+    values = {name: Fraction(value) for name, value in zip(COLUMNS, (2, 17.8, 0.25, 0.15, 1.5, 0.5, 3), strict=True)}
+    constants, centre = parts(values)
+    body = hoisted(program, EXACT, constants, ("delta", "valid"))
+    assert body(centre) == outputs(program, EXACT, values, ("delta", "valid"))
+
+
+def test_what_is_fixed_is_not_computed_again():
+    program, counted = FORMULAS["table-2"].program, []
+    arithmetic = float_arithmetic("float64")
+    counting = type(arithmetic)(
+        "counting",
+        arithmetic.convert,
+        {
+            name: (lambda *values, name=name: counted.append(name) or arithmetic.operations[name](*values))
+            for name in arithmetic.operations
+        },
+    )
+    body = hoisted(program, counting, dict(zip(SIZES, (2.0, 17.8, 0.25, 0.15), strict=True)), ("delta",))
+    assert counted.count("div") == 2
+    counted.clear()
+    body({"x": 1.0, "y": 2.0, "z": 3.0})
+    assert counted.count("div") == 2  # by b² and by d, as printed
+    assert len(counted) == 28  # 12 for P, Q, c1 and c2, 16 for Δ without 27 c0²
+
+
+def test_a_name_that_is_missing_is_an_error():
+    program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float64")
+    with pytest.raises(KeyError):
+        hoisted(program, arithmetic, {}, ("nothing",))
+    with pytest.raises(KeyError):
+        hoisted(program, arithmetic, dict.fromkeys(SIZES, 1.0), ("delta",))({"x": 1.0, "y": 1.0})

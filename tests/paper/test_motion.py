@@ -1,0 +1,174 @@
+"""Many ways at once are judged as each of them alone, exactly."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.casebook.draw import Draw
+from hypcheck.pairs import Position
+from hypcheck.paper import motion
+from hypcheck.paper.flights import Moves, fly
+from hypcheck.paper.flights_circle import any_angle, small_angle
+from hypcheck.paper.flights_craft import craft_of
+from hypcheck.paper.flights_ways import Ways, valid
+from hypcheck.paper.motion import always, always_turning
+from hypcheck.scene.model import Span
+from hypcheck.scene.reading import read_scene
+from hypcheck.truth.motion import passage
+from hypcheck.truth.turning import turning
+
+INTERIOR, EXTERIOR = Position.INTERIOR, Position.EXTERIOR
+TOWER = (2.0, 17.8, 0.25, 0.15)
+TREE = (0.5, 20.0, 0.3, 0.9)
+COUNT = 300
+
+
+def ways(draw, reach, length):
+    start = tuple(draw.between(COUNT, -size, size) for size in reach)
+    end = tuple(at + draw.between(COUNT, -length, length) for at in start)
+    return start, end
+
+
+def ways_of_each_kind(draw, reach):
+    """Long and short ones, horizontal and vertical ones, and some through the waist."""
+    for length in (0.1, 1.0, 8.0):
+        start, end = ways(draw, reach, length)
+        yield start, end
+        yield start, (end[0], end[1], start[2])
+        yield start, (start[0], start[1], end[2])
+        yield start, (start[0], start[1], -start[2])
+
+
+def alone(side, sizes, start, end, center, lane):
+    here, there = (
+        [Fraction(float(column[lane])) - Fraction(origin) for column, origin in zip(at, center, strict=True)]
+        for at in (start, end)
+    )
+    found = passage(sizes, here, there)
+    return found.clear and found.start is side
+
+
+@pytest.mark.parametrize(
+    ("side", "sizes", "reach", "center"),
+    [
+        (INTERIOR, TOWER, (2, 2, 9), (0.0, 0.0, 0.0)),
+        (EXTERIOR, TREE, (2, 2, 1), (0.0, 0.0, 0.0)),
+        (EXTERIOR, TREE, (2, 2, 1), (0.1, -0.7, 0.3)),
+        (INTERIOR, TOWER, (2, 2, 9), (0.1, -0.7, 0.3)),
+        (INTERIOR, TREE, (0.5, 0.5, 60), (0.0, 0.0, 0.0)),
+        (EXTERIOR, (1.0, 0.25, 1.0, 1.0), (9, 9, 1), (0.0, 0.0, 0.0)),  # c² < a
+    ],
+)
+def test_a_way_keeps_to_a_side_exactly_where_it_alone_does(side, sizes, reach, center):
+    seen = set()
+    for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
+        clear = always(side, sizes, start, end, center)
+        for lane in range(number, COUNT, 12):
+            assert clear[lane] == alone(side, sizes, start, end, center, lane)
+            seen.add(bool(clear[lane]))
+    assert seen == {True, False}
+
+
+def test_a_way_within_rounding_of_a_tangency_is_decided_exactly():
+    """At z = 0 the tower's inside ends at 1.75: a hair on both sides of that, and through it."""
+    radius = np.array([1.75, np.nextafter(1.75, 0), np.nextafter(1.75, 2), 1.75 * (1 - 2.0**-48)])
+    zero = np.zeros(4)
+    low, high = np.full(4, -1.0), np.full(4, 1.0)
+    for center in ((0.0, 0.0, 0.0), (0.25, 0.0, 0.0)):
+        at = radius + center[0]
+        found = always(INTERIOR, TOWER, (at, zero, low), (at, zero, high), center)
+        assert found.tolist() == [False, True, False, True]
+        ahead = always(INTERIOR, TOWER, (zero + center[0], zero, zero), (at, zero, zero), center)
+        assert ahead.tolist() == [False, True, False, True]
+
+
+def test_most_ways_need_no_exact_passage(monkeypatch):
+    asked = []
+    monkeypatch.setattr(motion, "passage", lambda *way: asked.append(way) or passage(*way))
+    for start, end in ways_of_each_kind(Draw("few"), (2, 2, 9)):
+        always(INTERIOR, TOWER, start, (end[0], end[1], start[2]))
+        always(INTERIOR, TOWER, start, (start[0], start[1], end[2]))
+    assert len(asked) < 1000  # of 7,200: those through the throat whose ends are clear
+
+
+@pytest.mark.parametrize("largest", [1.0, 45.0, 180.0])
+def test_an_arm_keeps_inside_exactly_where_it_alone_does(largest):
+    draw, rotor, arm = Draw("arms", largest), (2.0, 17.8, 0.1, 0.05), 0.135
+    at = (draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, -5, 5))
+    direction, degrees = any_angle(draw.between(COUNT, -180, 180)), draw.between(COUNT, -largest, largest)
+    clear = always_turning(rotor, arm, at, direction, degrees)
+    assert 10 < clear.sum() < COUNT - 10
+    for lane in range(0, COUNT, 3):
+        ahead = (float(direction[0][lane]), float(direction[1][lane]))
+        center = tuple(float(column[lane]) for column in at)
+        alone = turning(rotor, center, arm, ahead, float(np.radians(degrees[lane])))
+        assert clear[lane] == (alone is INTERIOR)
+
+
+def test_an_arm_within_rounding_of_a_tangency_is_decided_exactly(monkeypatch):
+    """ρ + l is the largest distance inside at z = 0, α − b_s: touched where the arm comes by, not where it does not."""
+    asked = []
+    monkeypatch.setattr(motion, "turning", lambda *turn: asked.append(turn) or turning(*turn))
+    rotor, arm = (2.0, 17.8, 0.25, 0.15), 0.25
+    at = (np.full(4, 1.5), np.zeros(4), np.zeros(4))
+    direction = any_angle(np.array([-30.0, 30.0, 30.0, -90.0]))
+    degrees = np.array([60.0, 60.0, -30.0, 89.0])
+    assert always_turning(rotor, arm, at, direction, degrees).tolist() == [False, True, False, True]
+    assert len(asked) == 2
+
+
+def floats(*columns):
+    """The points that columns hold, as tuples of floats."""
+    return [tuple(map(float, point)) for point in zip(*columns, strict=True)]
+
+
+def of_one(columns, place):
+    return tuple(column[place : place + 1] for column in columns)
+
+
+def watched_alone(craft, moves, place, expected):
+    """Count one move of one flight, asking each body and each rotor by itself."""
+    start, end, heading = (of_one(columns, place) for columns in (moves.start, moves.end, moves.before))
+    if moves.accepted[place]:
+        kind = "vertical" if moves.vertical[place] else "horizontal"
+        rotors = zip(floats(*craft.rotors(start, heading)), floats(*craft.rotors(end, heading)), strict=True)
+        found = [passage(craft.rotor, one, other) for one, other in rotors]
+        body = passage(craft.sizes, floats(*start)[0], floats(*end)[0])
+        good = (body.clear and body.start is INTERIOR) or all(way.clear and way.start is INTERIOR for way in found)
+        begun = body.start is INTERIOR or all(way.start is INTERIOR for way in found)
+        for name, count in ((kind, True), (f"{kind}_touching", not good), (f"{kind}_begun", not begun)):
+            setattr(expected, name, getattr(expected, name) + count)
+        expected.wrongly_accepted += not (body.end is INTERIOR or all(way.end is INTERIOR for way in found))
+    if moves.turn[place]:
+        angle, center = float(np.radians(moves.turn[place])), floats(*start)[0]
+        expected.turns += 1
+        arms = floats(*craft.arms(heading))
+        expected.turns_touching += any(turning(craft.rotor, center, craft.arm, a, angle) is not INTERIOR for a in arms)
+
+
+def test_flights_are_watched_move_by_move():
+    scene = read_scene("tower")
+    craft, counted, expected = craft_of(scene), Ways(), Ways()
+
+    def observe(moves: Moves) -> None:
+        counted.watch(craft, moves)
+        for place in range(len(moves.lane)):
+            watched_alone(craft, moves, place, expected)
+
+    near = replace(scene.flight.start, margin=0.24, z=Span(-1.0, 1.0))
+    fly(craft, replace(scene.flight, start=near), 0.25, 20, Draw("watched"), 12, observe)
+    assert counted == expected
+    assert counted.wrongly_accepted == counted.wrongly_refused == 0
+    assert counted.turns_touching > 0
+    assert counted.horizontal_touching > 0
+
+
+def test_a_position_is_valid_where_the_rotors_are_though_the_body_is_not():
+    craft = craft_of(read_scene("tower"))
+    at = tuple(np.array(column) for column in ([1.77, 1.77, 1.5, 1.9], [0.0] * 4, [0.0] * 4))
+    heading = small_angle(np.radians(np.array([45.0, 0.0, 0.0, 45.0])))
+    assert valid(craft, at, heading).tolist() == [True, False, True, False]
