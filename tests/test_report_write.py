@@ -8,8 +8,9 @@ import pytest
 
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
-from hypcheck.report import junit, markdown, picture, summary
+from hypcheck.report import junit, markdown, summary
 from hypcheck.report.html import page
+from hypcheck.report.pictures import map as picture
 from hypcheck.report.write import REPORTS, Around, write_reports
 from tests import report_samples as samples
 

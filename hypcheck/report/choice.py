@@ -18,22 +18,40 @@ from hypcheck.report.text import figure
 DISTANCES = (1e-12, 1e-9, 1e-6, 1e-3)
 """Flip distances below which errors may not matter: a metre's 1e-12 is an atom's width, its 1e-3 a millimetre."""
 
+BEYOND = "reliable beyond"
+"""How a need begins that is about a distance."""
+
 IN_FLOATS = ("paper", "algebraic", "roots", "foreign")
 """Kinds that promise no more than their floats allow."""
+
+EVERYWHERE, EVERYDAY = "all workloads", "everyday scenes"
+"""Where a need is: on every workload, or on those that were timed; the others are there because methods err on them."""
+
+POSITION, CLEAR = "position", "clear or not"
+"""What is asked: one of three positions, or whether the two are apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What is needed, where, and what is asked; errors nearer to contact than `distance` do not matter."""
+
+    what: str
+    where: str = EVERYWHERE
+    asked: str = POSITION
+    distance: float = 0.0
+    mode: str = BATCH
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
     """For a need the fastest method that fills it, those that are not told from it, and where it errs nevertheless.
 
-    `errs` are workloads on which it is not reliable above the distance that was asked for. Everyday scenes are the
-    workloads that were timed; the others are there because methods err on them.
+    `errs` are workloads on which it is not reliable above the need's distance.
     """
 
-    need: str
+    need: Need
     use: Measured
     alike: tuple[Measured, ...]
-    mode: str
     workload: str
     errs: tuple[str, ...] = ()
 
@@ -43,58 +61,60 @@ class Choice:
     """The advice of a record: for each need, what fills it; `unmet` are needs that nothing measured fills."""
 
     advice: tuple[Advice, ...]
-    unmet: tuple[str, ...]
+    unmet: tuple[Need, ...]
 
 
 def choice(record: Record) -> Choice:
-    """What the record advises; nothing where it has no times."""
-    advice: list[Advice] = []
-    unmet: list[str] = []
+    """What the record advises; nothing where it has no times. Of needs that lead to the same the strictest is told."""
     timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
+    advice: dict[object, Advice] = {}
+    unmet: list[Need] = []
     if not timed:
         return Choice((), ())
-    everything = measured(record)
-    for need, candidates, distance, mode in _needs(everything, timed):
-        found = _fastest(record, candidates, timed[0], mode)
+    for need, candidates in _needs(measured(record), timed):
+        found = _fastest(record, candidates, timed[0], need.mode)
         if not found:
             unmet.append(need)
             continue
-        errs = tuple(name for name, line in found[0].accuracy.items() if float(line["reliable_above"]) > distance)
-        advice.append(Advice(need, found[0], tuple(found[1:]), mode, timed[0], errs))
-    return Choice(tuple(advice), tuple(unmet))
+        errs = [name for name, line in found[0].accuracy.items() if float(line["reliable_above"]) > need.distance]
+        key = (need.where, need.asked, found[0].name, *errs) if need.what.startswith(BEYOND) else need
+        advice.setdefault(key, Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs)))
+    return Choice(tuple(advice.values()), tuple(unmet))
 
 
-Need = tuple[str, list[Measured], float, str]
-"""What is needed, the methods that fill it, the flip distance above which they must be reliable, and the mode."""
-
-
-def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[Need]:
+def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Need, list[Measured]]]:
     position = [each for each in found if each.line["question"] == "position"]
+    clear = [each for each in found if each.line["question"] in ("position", "exterior")]
     exact = [each for each in position if each.exact and each.asked and not each.wrong]
-    yield "the exact answer, always", exact, 0.0, BATCH
-    yield "the exact answer, one query at a time", exact, 0.0, SINGLE
+    yield Need("never a wrong answer"), exact
+    yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
     floats = [each for each in position if not each.exact and each.line["kind"] in IN_FLOATS]
     for precision in ("float64", "float32"):
-        mine = [each for each in floats if each.line["precision"] == precision]
-        best = min((each.reliable_above for each in mine), default=math.inf)
-        need = f"plain {precision}, as near to contact as that goes: errors end at {figure(best)}"
-        yield need, [each for each in mine if each.reliable_above <= best < math.inf], best, BATCH
-    clear = [each for each in found if each.line["question"] in ("position", "exterior")]
+        yield from _nearest(f"plain {precision}", [each for each in floats if each.line["precision"] == precision])
     for distance in DISTANCES:
-        words = f"errors closer to contact than {distance:g} do not matter"
-        yield f"{words}, in any scene measured", _reliable(position, distance), distance, BATCH
-        yield f"{words}, in everyday scenes", _reliable(position, distance, timed), distance, BATCH
-        yield (
-            f"{words}, in everyday scenes, only whether it is clear",
-            _reliable(clear, distance, timed),
-            distance,
-            BATCH,
-        )
-    meshes = [each for each in found if each.line["kind"] == "mesh"]
-    best = min((each.reliable_above for each in meshes), default=math.inf)
-    if meshes:
-        need = f"a mesh because an engine has one: errors end at {figure(best)}"
-        yield need, [each for each in meshes if each.reliable_above == best], best, BATCH
+        what = f"{BEYOND} {distance:g}"
+        yield Need(what, distance=distance), _reliable(position, distance)
+        yield Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)
+        yield Need(what, EVERYDAY, CLEAR, distance), _reliable(clear, distance, timed)
+    for need, fitting in (
+        (Need("never a wrong answer, in numpy"), exact),
+        (Need(f"{BEYOND} {DISTANCES[0]:g}, in numpy", distance=DISTANCES[0]), _reliable(position, DISTANCES[0])),
+        (
+            Need(f"{BEYOND} {DISTANCES[0]:g}, in numpy", EVERYDAY, distance=DISTANCES[0]),
+            _reliable(position, DISTANCES[0], timed),
+        ),
+    ):
+        if any(each.tier == "numpy" for each in fitting):
+            yield need, [each for each in fitting if each.tier == "numpy"]
+    yield from _nearest("a mesh, because an engine has one", [each for each in found if each.line["kind"] == "mesh"])
+
+
+def _nearest(what: str, found: Sequence[Measured]) -> Iterator[tuple[Need, list[Measured]]]:
+    """Those of the found that are reliable nearest to contact."""
+    best = min((each.reliable_above for each in found), default=math.inf)
+    if best < math.inf:
+        need = Need(f"{what}; errors end at {figure(best)}", distance=best)
+        yield need, [each for each in found if each.reliable_above == best]
 
 
 def _reliable(found: Iterable[Measured], distance: float, names: Sequence[str] | None = None) -> list[Measured]:

@@ -53,7 +53,9 @@ REPORTS = {
     "terminal": Report("report.txt", "terminal", compares=True, kept=False),
     "json": Report("summary.json", "summary"),
     "junit": Report("junit.xml", "junit"),
-    "map": Report("map.svg", "picture", shows="map"),
+    "map": Report("map.svg", "pictures.map", shows="map"),
+    "errors": Report("errors.svg", "pictures.errors", shows="accuracy"),
+    "pareto": Report("pareto.svg", "pictures.pareto", shows="speed"),
     "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
     "html": Report("report.html", "html.page", compares=True),
 }

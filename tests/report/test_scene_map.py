@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from matplotlib.colors import to_rgb
 
 from hypcheck.errors import UnavailableError
-from hypcheck.report import picture
+from hypcheck.report.pictures import map as picture
 from hypcheck.report.plots import scene_map
 from hypcheck.report.plots.style import styled
 from tests import report_samples as samples
@@ -91,7 +91,7 @@ def test_colours_differ_in_lightness():
 
 def test_the_same_record_is_the_same_picture_in_every_process():
     code = (
-        "import sys; from hypcheck.report import picture; from tests import report_samples as samples;"
+        "import sys; from hypcheck.report.pictures import map as picture; from tests import report_samples as samples;"
         "sys.stdout.buffer.write(picture.render(samples.record()))"
     )
     contents = {

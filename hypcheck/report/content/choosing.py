@@ -44,38 +44,36 @@ def sections(record: Record) -> Iterator[Section]:
     said: list[Text] = [f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:
         said.append(("The reference, of ratio 1, is ", Code(against), "."))
-    said += [(f"Nothing measured gives {each}.") for each in chosen.unmet]
+    said += [(f"Nothing measured fills this: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
     worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in beaten(record)]
     if worse:
         lead = "Beaten by a method of the same tier that is faster beyond doubt and errs no farther from contact: "
         said.append((lead, joined(worse), "."))
-    blocks: tuple[Block, ...] = (Paragraph(_HOW), _table(merged(chosen.advice)), bullets(said))
+    blocks: tuple[Block, ...] = (Paragraph(_HOW), _table(chosen.advice), bullets(said))
     yield Section("Which method to use when", blocks)
 
 
-def merged(advice: tuple[Advice, ...]) -> list[tuple[str, Advice]]:
-    """Needs that differ only in how strict they are and lead to the same method share the strictest one's line."""
-    kept: dict[tuple[object, ...], tuple[str, Advice]] = {}
-    for each in advice:
-        words = each.need.partition(", ")[2] if each.need.startswith("errors closer") else each.need
-        kept.setdefault((words, each.use.name, each.errs), (each.need, each))
-    return list(kept.values())
+def _table(advice: tuple[Advice, ...]) -> Block:
+    numbers = (number("time ratio"), number("judged"))
+    columns: tuple[Column | str, ...] = (
+        *("you need", "in", "asked", "use"),
+        *numbers,
+        *("not told from it", "not reliable on"),
+    )
+    return table("which method to use when", columns, [_row(each) for each in advice])
 
 
-def _table(advice: list[tuple[str, Advice]]) -> Block:
-    columns: tuple[Column | str, ...] = ("you need", "use", number("time ratio"), number("judged"), "not relied on for")
-    return table("which method to use when", columns, [_row(need, each) for need, each in advice])
-
-
-def _row(need: str, each: Advice) -> tuple[Cell, ...]:
-    line = each.use.speed[each.workload, each.mode]
+def _row(each: Advice) -> tuple[Cell, ...]:
+    line = each.use.speed[each.workload, each.need.mode]
     interval = line["ratio_ci95"]
-    alike: Text = (" or ", joined([Code(other.name) for other in each.alike])) if each.alike else ()
     ratio = with_interval(float(line["ratio"]), interval and (interval[0], interval[1]))
     return (
-        Cell(need),
-        Cell((Code(each.use.name), alike)),
+        Cell(each.need.what),
+        Cell(each.need.where),
+        Cell(each.need.asked),
+        Cell(Code(each.use.name)),
         Cell(ratio, float(line["ratio"])),
         Cell(f"{each.use.asked:,}", each.use.asked),
+        Cell(joined([Code(other.name) for other in each.alike])),
         Cell(", ".join(each.errs)),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from hypcheck.record import Line, Record
 from hypcheck.report.content.blocks import (
@@ -24,7 +24,7 @@ from hypcheck.report.content.blocks import (
 )
 from hypcheck.report.content.judged import HEAT
 from hypcheck.report.measured import measured, workloads
-from hypcheck.report.plots.places import MISTAKES, right
+from hypcheck.report.plots import places, stability
 from hypcheck.report.text import figure
 
 _DISTANCE = prose(
@@ -39,7 +39,7 @@ _TABLE = prose(
     "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
     " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
 )
-_PLACES = tuple((role, words) for words, role in MISTAKES.values())
+_PLACES = tuple((role, words) for words, role in places.MISTAKES.values())
 
 
 def sections(record: Record) -> Iterator[Section]:
@@ -86,11 +86,15 @@ def _row(line: Line) -> tuple[Cell, ...]:
 def _maps(record: Record) -> Iterator[Section]:
     if record.of("stability"):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
-        blocks = (Paragraph(words), Figures("stability", small=True, legend=HEAT))
-        yield Section("Stability", blocks, page=True)
+        figures = Figures("stability", small=True, legend=HEAT)
+        never = _never("Wrong nowhere: ", stability.right(record))
+        yield Section("Stability", (Paragraph(words), figures, never), page=True)
     if record.of("places"):
         words = "Grid points of the half plane, distance from the axis across and height up, in metres."
-        never = [Code(name) for name in right(record)]
-        items = [("Wrong at none of the grid points: ", joined(never), ".")] if never else []
-        blocks_ = (Paragraph(words), Figures("places", small=True, legend=_PLACES), bullets(items))
-        yield Section("Where the wrong answers lie", blocks_, page=True)
+        figures = Figures("places", small=True, legend=_PLACES)
+        never = _never("Wrong at none of the grid points: ", places.right(record))
+        yield Section("Where the wrong answers lie", (Paragraph(words), figures, never), page=True)
+
+
+def _never(words: str, names: Sequence[str]) -> Block:
+    return bullets([(words, joined([Code(name) for name in names]), ".")] if names else [])

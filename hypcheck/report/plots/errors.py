@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from hypcheck.record import Line, Record
-from hypcheck.report.measured import Measured, measured, workloads
+from hypcheck.report.measured import TIERS, Measured, measured, workloads
 from hypcheck.report.plots.curves import Curve, curve, in_parts, plot
 from hypcheck.report.plots.svg import Plot
 
@@ -42,7 +42,7 @@ def _principal(known: Mapping[str, Line]) -> str:
 
 def _groups(found: list[Measured], workload: str) -> Iterator[tuple[str, list[Curve]]]:
     groups: dict[str, list[Curve]] = {}
-    for each in found:
+    for each in sorted(found, key=lambda each: TIERS.index(each.tier)):
         line = each.accuracy.get(workload)
         if line is not None and line["asked"]:
             groups.setdefault(_group(each), []).append(_curve(each.name, line))
@@ -55,8 +55,10 @@ def _groups(found: list[Measured], workload: str) -> Iterator[tuple[str, list[Cu
 def _group(each: Measured) -> str:
     kind, line = each.line["kind"], each.line
     if kind in FORMULAS:
-        return f"formulas in {line['tier']}, {_SHORT if line['precision'] in SHORT else _LONG}"
-    return {"exact": "exact methods", "mesh": "meshes", "bounding": "bounding volumes"}.get(kind, str(kind))
+        return f"Formulas in {line['tier']}, {_SHORT if line['precision'] in SHORT else _LONG}"
+    return {"exact": "Exact methods", "mesh": "Meshes", "bounding": "Bounding volumes"}.get(
+        kind, str(kind).capitalize()
+    )
 
 
 def _curve(name: str, line: Line) -> Curve:

@@ -13,6 +13,7 @@ from hypcheck.report.text import figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.patches import Rectangle
 
 STEPS = ((0.0, "none wrong"), (0.01, "up to 1 %"), (0.1, "up to 10 %"), (0.5, "up to 50 %"), (1.0, "more"))
 """The shares at which the steps of colour end, and what a legend says of them."""
@@ -60,21 +61,46 @@ def plots(prefix: str, plane: Plane, maps: Mapping[str, Cells]) -> Iterator[Plot
 
 
 def _plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
-    from matplotlib.collections import PatchCollection  # noqa: PLC0415
-    from matplotlib.patches import Rectangle  # noqa: PLC0415
-
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     axes.grid(visible=False)
-    patches = [Rectangle((across + GAP / 2, up + GAP / 2), 1 - GAP, 1 - GAP) for across, up in found]
-    colours = [colour(step(*counts)) for counts in found.values()]
-    axes.add_collection(PatchCollection(patches, facecolors=colours, linewidths=0, gid=name, clip_on=False))
+    wrong = {place: counts for place, counts in found.items() if counts[1]}
+    _right(axes, [place for place in found if place not in wrong])
+    _wrong(axes, wrong, name)
     _axis(axes, "x", plane.across, plane.width, limits[0])
     _axis(axes, "y", plane.up, plane.width, limits[1])
-    asked, wrong = (sum(counts[k] for counts in found.values()) for k in (0, 1))
-    said = f"Share of wrong answers over {plane.across} and {plane.up}: {wrong:,} of {asked:,} wrong."
-    tips = [_tip(plane, place, counts) for place, counts in found.items()]
-    return Plot(name, title, said, drawn, {name: tips})
+    asked, errors = (sum(counts[k] for counts in found.values()) for k in (0, 1))
+    said = f"Share of wrong answers over {plane.across} and {plane.up}: {errors:,} of {asked:,} wrong."
+    tips = {name: [_tip(plane, place, counts) for place, counts in wrong.items()]} if wrong else {}
+    return Plot(name, title, said, drawn, tips)
+
+
+def _right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
+    """The cells without a wrong answer as one shape: there are many, and nothing else to say of each."""
+    from matplotlib.patches import PathPatch  # noqa: PLC0415
+    from matplotlib.path import Path  # noqa: PLC0415
+
+    if places:
+        squares = [_square(place) for place in places]
+        shape = Path.make_compound_path(
+            *(square.get_patch_transform().transform_path(square.get_path()) for square in squares)
+        )
+        axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
+
+
+def _wrong(axes: Axes, found: Cells, gid: str) -> None:
+    from matplotlib.collections import PatchCollection  # noqa: PLC0415
+
+    if found:
+        colours = [colour(step(*counts)) for counts in found.values()]
+        squares = [_square(place) for place in found]
+        axes.add_collection(PatchCollection(squares, facecolors=colours, linewidths=0, gid=gid, clip_on=False))
+
+
+def _square(place: tuple[int, int]) -> Rectangle:
+    from matplotlib.patches import Rectangle  # noqa: PLC0415
+
+    return Rectangle((place[0] + GAP / 2, place[1] + GAP / 2), 1 - GAP, 1 - GAP)
 
 
 def _axis(axes: Axes, which: str, label: str, width: float, limits: tuple[int, int]) -> None:

@@ -168,8 +168,11 @@ def ticks(low: float, high: float, most: int = 7) -> list[tuple[float, str]]:
     powers = [10.0**exponent for exponent in decades(low, high, most)]
     if len(powers) < 2:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-        finer = [digit * 10.0**exponent for exponent in range(first, last + 1) for digit in (1, 2, 5)]
-        powers = [value for value in finer if low <= value <= high]
+        for digits in ((1, 2, 5), (1, 2, 3, 4, 5, 6, 8)):
+            finer = [digit * 10.0**exponent for exponent in range(first, last + 1) for digit in digits]
+            powers = [value for value in finer if low <= value <= high]
+            if len(powers) > 1:
+                break
     return [(value, _named(value)) for value in powers]
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
-from hypcheck.report.plots.style import ROLES
+from hypcheck.report.plots.style import ROLES, styled
 from hypcheck.visible import visible
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ _PAINT = {"fill": "f", "stroke": "s"}
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
 _AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
 _REFERENCE = re.compile(r"#([\w.-]+)")
+_APART = 24.0
+"""Points between two plots of one file."""
+
 _LONGEST = 1000
 """Characters of a title, a description or a tooltip."""
 
@@ -56,7 +59,42 @@ def inline(plot: Plot) -> str:
 
 def standalone(plot: Plot) -> bytes:
     """The plot as a file, which follows the reader's scheme of colours."""
-    root = _element(plot)
+    return _file(_element(plot), plot)
+
+
+def together(name: str, title: str, plots: Sequence[Plot], columns: int = 2) -> bytes:
+    """Several plots as one file, row by row under their titles."""
+    parts = [_element(plot) for plot in plots]
+    sizes = [tuple(float(each) for each in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
+    rows = [range(first, min(first + columns, len(parts))) for first in range(0, len(parts), columns)]
+    width, top = max(size[0] for size in sizes), 0.0
+    whole = Xml.Element(f"{_SVG}svg")
+    for row in rows:
+        for column, place in enumerate(row):
+            left = column * (width + _APART)
+            heading = Xml.SubElement(
+                whole, f"{_SVG}text", {"x": f"{left + 6:g}", "y": f"{top + 14:g}", "class": "f-ink"}
+            )
+            heading.text = _shown(plots[place].title)
+            heading.set("font-size", "12px")
+            heading.set("font-weight", "bold")
+            part = parts[place]
+            part.set("x", f"{left:g}")
+            part.set("y", f"{top + 20:g}")
+            part.set("width", f"{sizes[place][0]:g}")
+            part.set("height", f"{sizes[place][1]:g}")
+            whole.append(part)
+        top += max(sizes[place][1] for place in row) + 20 + _APART
+    across = width * min(columns, len(parts)) + _APART * (min(columns, len(parts)) - 1)
+    whole.set("viewBox", f"0 0 {across:g} {top - _APART:g}")
+    description = "; ".join(plot.title for plot in plots)
+    return _file(whole, Plot(name, title, description, plots[0].figure))
+
+
+def _file(root: Xml.Element, plot: Plot) -> bytes:
+    """An element as a file of its own: with the colours' rules, a ground, a title and a description."""
+    if root.get("aria-labelledby") is None:
+        _describe(root, plot)
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
     style.text = css()
@@ -74,7 +112,7 @@ def css() -> str:
 
 def _element(plot: Plot) -> Xml.Element:
     stream = io.BytesIO()
-    with warnings.catch_warnings():
+    with styled(), warnings.catch_warnings():  # the style says how text and ids are written, too
         warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not
         metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
         plot.figure.savefig(stream, format="svg", metadata=metadata, transparent=True, dpi=144)
@@ -161,6 +199,7 @@ def _describe(root: Xml.Element, plot: Plot) -> None:
     root.set("role", "img")
     root.set("aria-labelledby", f"{plot.name}-title {plot.name}-desc")
     root.set("stroke-linejoin", "round")
+    root.set("text-rendering", "geometricPrecision")  # else a scaled picture spaces its letters as if it were not
 
 
 def _text(root: Xml.Element) -> str:

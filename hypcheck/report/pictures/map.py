@@ -19,4 +19,5 @@ def render(record: Record, _around: Around | None = None) -> bytes:
     if not record.of("map"):
         raise UnavailableError("the record has no map")
     with styled():
-        return standalone(scene_map.together(record))
+        plot = scene_map.together(record)
+    return standalone(plot)

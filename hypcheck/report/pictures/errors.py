@@ -1,0 +1,21 @@
+"""errors.svg: the share of wrong answers against flip distance, one curve a method."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hypcheck.errors import UnavailableError
+from hypcheck.record import Record
+from hypcheck.report.plots.svg import together
+from hypcheck.report.plots.table import draw
+
+if TYPE_CHECKING:
+    from hypcheck.report.write import Around
+
+
+def render(record: Record, _around: Around | None = None) -> bytes:
+    """The plots as one file. Raises UnavailableError where the record has none or matplotlib is missing."""
+    plots = list(draw("errors", record))
+    if not plots:
+        raise UnavailableError("the record has no errors by distance")
+    return together("errors", "Share of wrong answers against flip distance", plots)
