@@ -8,14 +8,14 @@ import pytest
 
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
-from hypcheck.report import junit, markdown, summary
+from hypcheck.report import junit, markdown, summary, table_csv
 from hypcheck.report.html import page
 from hypcheck.report.pictures import map as picture
 from hypcheck.report.write import REPORTS, Around, write_reports
 from tests import report_samples as samples
 
-FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html"}
-TEXTS = ("json", "junit", "markdown")
+FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv"}
+TEXTS = ("json", "junit", "markdown", "csv")
 
 
 def test_all_of_them(tmp_path):
@@ -30,6 +30,7 @@ def test_all_of_them(tmp_path):
         "map.svg": picture.render(record),
         "report.md": markdown.render(record, Around(["map.svg"])),
         "report.html": page.render(record),
+        "measurements.csv": table_csv.render(record),
     }
     assert b"](map.svg)" in contents["report.md"]
 
@@ -48,7 +49,7 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
     path.write_text(text, encoding="utf-8")
     for each in write_reports(read(path), tmp_path):
         assert each.skipped is None
-        if each.path.name != "map.svg":
+        if each.path.suffix not in (".svg", ".csv"):
             assert "TRUNCATED" in each.path.read_text(encoding="utf-8")
 
 

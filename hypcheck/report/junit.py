@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 from hypcheck.record import Record
-from hypcheck.report.suites import Case, Suite, suites
+from hypcheck.report.suite import Case, Suite
+from hypcheck.report.suites import suites
 from hypcheck.visible import visible
 
 if TYPE_CHECKING:

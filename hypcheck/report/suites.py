@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from hypcheck.record import Line, Record
+from hypcheck.report.benchmark_suites import benchmark_suites
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import (
     Implementation,
@@ -23,45 +24,9 @@ from hypcheck.report.digest import (
 )
 from hypcheck.report.failure import Failure
 from hypcheck.report.replays import Replays
+from hypcheck.report.suite import Case, Suite, Trouble, details
 from hypcheck.report.text import classify_command, counted, figure, from_hex
 from hypcheck.report.verdict import UNFINISHED, failures, verdict
-
-
-@dataclass(frozen=True, slots=True)
-class Trouble:
-    """Why a case did not pass: `tag` is "failure", "error" or "skipped"; `kind` and `message` are one line each."""
-
-    tag: str
-    kind: str
-    message: str
-    details: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """A test case; `output` are lines of its system-out. Times are whole milliseconds, so that sums add up."""
-
-    name: str
-    trouble: Trouble | None = None
-    output: tuple[str, ...] = ()
-    milliseconds: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class Suite:
-    """A named group of cases."""
-
-    name: str
-    cases: tuple[Case, ...]
-
-    def count(self, tag: str) -> int:
-        """How many of its cases ended in that trouble."""
-        return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
-
-    @property
-    def milliseconds(self) -> int:
-        """The time of all cases."""
-        return sum(case.milliseconds for case in self.cases)
 
 
 def suites(record: Record) -> Iterator[Suite]:
@@ -83,6 +48,7 @@ def suites(record: Record) -> Iterator[Suite]:
         cases = [case for group in implementation.groups for case in _group(implementation, group, failed, replays)]
         yield Suite(f"implementations.{implementation.name}", tuple(cases))
     yield Suite("implementations", tuple(_as_wholes(record, failed)))
+    yield from benchmark_suites(record, failed)
 
 
 def _ended(record: Record, failed: list[Failure]) -> Case:
@@ -130,20 +96,11 @@ def _oracle(line: Line, failed: list[Failure]) -> Case:
     mine = [each for each in failed if (each.subject, each.name, each.group) == place]
     if mine:
         message = f"{counted(line['disagreeing'], 'disagreement')} in {counted(line['asked'], 'case')}"
-        trouble = Trouble("failure", "disagreement", f"{message}; first: {mine[0].message}", tuple(_details(mine)))
+        trouble = Trouble("failure", "disagreement", f"{message}; first: {mine[0].message}", tuple(details(mine)))
         return Case(line["family"], trouble, output, milliseconds)
     if line["undecided"] == line["asked"]:
         return Case(line["family"], Trouble("skipped", "undecided", "no case could be decided"), output, milliseconds)
     return Case(line["family"], None, output, milliseconds)
-
-
-def _details(failed: Iterable[Failure]) -> Iterator[str]:
-    """Each failure with its case and how to look at it."""
-    for each in failed:
-        place = f" ({each.place})" if each.place else ""
-        yield f"case {each.case}{place}: {each.message}" if each.case else each.message
-        if each.replay:
-            yield f"replay: {each.replay}"
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[Case]:
@@ -190,7 +147,7 @@ def _group(implementation: Implementation, group: Line, failed: list[Failure], r
         place = ("implementation", implementation.name, group["family"], status)
         mine = [each for each in failed if (each.subject, each.name, each.group, each.kind) == place]
         if mine:
-            trouble = Trouble("failure", status, mine[0].message, tuple(_details(mine)))
+            trouble = Trouble("failure", status, mine[0].message, tuple(details(mine)))
             yield Case(name, trouble, tuple(output))
         elif status == "skipped":
             yield Case(name, Trouble("skipped", status, f"{output[0]} are outside the method's domain or its format"))

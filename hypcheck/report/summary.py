@@ -1,4 +1,4 @@
-"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.0.0.json beside this file."""
+"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.1.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -20,12 +20,13 @@ from hypcheck.report.digest import (
     worst_error_u,
 )
 from hypcheck.report.failure import Failure
+from hypcheck.report.measured import Measured, measured
 from hypcheck.report.verdict import failures, verdict
 
 if TYPE_CHECKING:
     from hypcheck.report.write import Around
 
-SCHEMA = "1.0.0"
+SCHEMA = "1.1.0"
 
 Fields = dict[str, Any]
 
@@ -56,6 +57,7 @@ def summary(record: Record) -> Fields:
         "findings": _findings(record),
         "implementations": [_implementation(each, wholes.get(each.name)) for each in implementations(record)],
         "timings": [_timing(total) for total in timing_totals(record)],
+        "methods": [_method(each) for each in measured(record)],
         "failures": [_failure(each) for each in failures(record)],
     }
 
@@ -144,6 +146,21 @@ def _timing(total: TimingTotal) -> Fields:
         "rows": total.rows,
         "median_ns": total.median_ns,
         "ratio": total.ratio,
+    }
+
+
+def _method(each: Measured) -> Fields:
+    line = each.line
+    counts = ("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained", "reliable_above")
+    times = ("workload", "mode", "rows", "median_ns", "ratio", "ratio_ci95")
+    return {
+        "name": each.name,
+        **{name: line[name] for name in ("tier", "kind", "precision", "question", "exact")},
+        "asked": each.asked,
+        "wrong": each.wrong,
+        "reliable_above": each.reliable_above,
+        "workloads": {name: {field: found[field] for field in counts} for name, found in each.accuracy.items()},
+        "times": [{field: found[field] for field in times} for found in each.speed.values()],
     }
 
 

@@ -18,6 +18,7 @@ from hypcheck.report.changes import (
     ratio_changes,
     status_changes,
 )
+from hypcheck.report.choice import EVERYWHERE, POSITION, choice
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, oracle_totals, timing_totals, under_test, worst_error_u
 from hypcheck.report.text import counted, figure, listed
@@ -60,6 +61,7 @@ def summary_lines(
         *_under_test(record),
         *_methods(record),
         *_timings(record),
+        *_benchmark(record),
     ]
     reports = list(_reports(written))
     lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
@@ -156,6 +158,22 @@ def _timings(record: Record) -> Iterator[str]:
     totals = [f"{total.name} {figure(total.median_ns)}" for total in timing_totals(record)]
     if totals:
         yield f"ns a row: {', '.join(totals)}"
+
+
+def _benchmark(record: Record) -> Iterator[str]:
+    """What a benchmark advises, what it says of the paper's claims and of the kernels."""
+    for each in choice(record).advice:
+        ratio = each.use.ratio(each.workload, each.need.mode) or 0.0
+        where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
+        asked = "" if each.need.asked == POSITION else f", {each.need.asked}"
+        yield f"{each.need.what}{where}{asked}: {each.use.name}, {figure(ratio)} times the reference's time"
+    for line in record.of("cost"):
+        yield f"claim {line['verdict']}: {line['claim']}"
+    kernels = record.of("kernel")
+    if kernels:
+        missed = [str(line["name"]) for line in kernels if not line["met"]]
+        named = f"; not met: {listed(missed)}" if missed else ""
+        yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
 
 
 def _reports(written: Sequence[Written]) -> Iterator[str]:

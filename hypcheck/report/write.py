@@ -53,6 +53,7 @@ REPORTS = {
     "terminal": Report("report.txt", "terminal", compares=True, kept=False),
     "json": Report("summary.json", "summary"),
     "junit": Report("junit.xml", "junit"),
+    "csv": Report("measurements.csv", "table_csv"),
     "map": Report("map.svg", "pictures.map", shows="map"),
     "errors": Report("errors.svg", "pictures.errors", shows="accuracy"),
     "pareto": Report("pareto.svg", "pictures.pareto", shows="speed"),

@@ -41,7 +41,7 @@ def samples_read(run):
 
 def test_a_folder_gets_what_a_run_writes(run, tmp_path):
     assert main(["report", str(run), "--out", str(tmp_path / "new")]) == 0
-    assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept()} - {"errors.svg"}
+    assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept()} - {"errors.svg", "pareto.svg"}
     assert main(["report", str(run), "--out", str(tmp_path / "two"), "--format", "json", "--format", "terminal"]) == 0
     assert set(os.listdir(tmp_path / "two")) == {"summary.json", "report.txt"}
 

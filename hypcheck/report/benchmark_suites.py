@@ -1,0 +1,69 @@
+"""A benchmark as test suites: its answers, its times, the baseline it was held to, the targets of the kernels.
+
+Only what fails the run is a failure. What a method that promises nothing gets wrong is a passed case that says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from hypcheck.record import Line, Record
+from hypcheck.report.benchmark import SUBJECT
+from hypcheck.report.failure import Failure
+from hypcheck.report.measured import measured
+from hypcheck.report.suite import Case, Suite, Trouble, details
+from hypcheck.report.text import counted, figure
+
+
+def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[Suite]:
+    """The suites of a benchmark, all of them empty where there was none."""
+    found = [failure for failure in failed if failure.subject == SUBJECT]
+    yield Suite("bench.answers", tuple(_answers(record, found)))
+    yield Suite("bench.times", tuple(_times(record, found)))
+    yield Suite("bench.baseline", tuple(_comparison(line, found) for line in record.of("comparison")))
+    yield Suite("bench.kernels", tuple(_kernel(line) for line in record.of("kernel")))
+
+
+def _answers(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
+    for each in measured(record):
+        for workload, line in each.accuracy.items():
+            reliable = figure(float(line["reliable_above"]))
+            said = f"{line['wrong']:,} of {counted(line['asked'], 'answer')} wrong; reliable above {reliable}"
+            yield Case(f"{each.name} on {workload}", _trouble(failed, "wrong", each.name, workload), (said,))
+
+
+def _times(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
+    for line in record.of("speed"):
+        ratio = "" if line["ratio"] is None else f"{figure(line['ratio'])} times the reference's time, "
+        said = f"{ratio}{figure(line['median_ns'])} ns"
+        yield Case(_name(line), output=(said,))
+    for line in record.of("refused"):
+        yield Case(_name(line), _trouble(failed, "refused", line["method"], _group(line)))
+
+
+def _comparison(line: Line, failed: Sequence[Failure]) -> Case:
+    said = f"{figure(line['change'])} times its former ratio, allowed {figure(line['allowed'])}: {line['verdict']}"
+    trouble = _trouble(failed, line["verdict"], line["method"], _group(line))
+    if trouble is None and line["verdict"] == "inconclusive":
+        trouble = Trouble("skipped", "inconclusive", said)
+    return Case(_name(line), trouble, (said,))
+
+
+def _kernel(line: Line) -> Case:
+    said = (
+        f"wanted {figure(line['wanted'])}, measured {figure(line['measured'])}: {'met' if line['met'] else 'not met'}"
+    )
+    return Case(f"{line['name']}: {line['target']}", output=(said, str(line["says"])))
+
+
+def _name(line: Line) -> str:
+    return f"{line['method']} on {_group(line)}"
+
+
+def _group(line: Line) -> str:
+    return f"{line['workload']}, {line['mode']}"
+
+
+def _trouble(failed: Sequence[Failure], kind: str, name: str, group: str) -> Trouble | None:
+    mine = [each for each in failed if (each.kind, each.name, each.group) == (kind, name, group)]
+    return Trouble("failure", kind, mine[0].message, tuple(details(mine))) if mine else None

@@ -1,0 +1,135 @@
+"""What a benchmark's reports say of how it ended: what fails it, what does not, and what was shown."""
+
+from __future__ import annotations
+
+import json
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.report import junit, markdown, summary, terminal
+from hypcheck.report.json_schema import violations
+from hypcheck.report.verdict import failures, verdict
+from tests.report import bench_lines
+from tests.report.bench_lines import bench_record
+from tests.test_report_schemas import SUMMARY
+
+
+def lines(kind, **changes):
+    """The sample's lines with the first of a kind changed."""
+    body = json.loads(json.dumps(bench_lines.lines()))
+    line = next(line for line in body if line["type"] == kind and line.get("method", "fast") == "fast")
+    line.update(changes)
+    return body
+
+
+REFUSED = {
+    "type": "refused",
+    "method": "numpy-roots",
+    "workload": "flight",
+    "mode": "batch",
+    "reason": "its checksum was 3 and then 4",
+}
+
+
+def test_what_held():
+    said = verdict(bench_record())
+    assert said.passed
+    assert said.sentence == (
+        "HELD: 11 methods compared on 3 workloads, 10 of them timed; right on every row: fast (7,520) and rational"
+        " (7,520); 2 ratios held to the baseline's, 0 of them slower than allowed."
+    )
+
+
+def test_a_promise_that_is_broken():
+    worst = [{**bench_lines.accuracy("x", "uniform", 1)["worst"][0], "truth": -1, "answer": 1}]
+    (failure,) = failures(bench_record(lines("accuracy", wrong=2, abstained=1, worst=worst), 1))
+    assert (failure.subject, failure.name, failure.group, failure.kind) == ("measurement", "fast", "uniform", "wrong")
+    assert failure.message == (
+        "fast promises to be exact, but of 2,500 answers 2 wrong and 1 not told; uniform/1/1/7 is interior,"
+        " and the answer was 1"
+    )
+    assert failure.replay.startswith("hypcheck classify --alpha 1.0")
+
+
+def test_errors_of_those_that_promise_nothing_fail_nothing():
+    assert failures(bench_record()) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "sentence"),
+    [
+        (lines("comparison", verdict="slower", change=1.4), 3, "FAILED with exit code 3: 1 failed measurement."),
+        (
+            lines("comparison", verdict="inconclusive"),
+            4,
+            "INCONCLUSIVE, exit code 4: 1 failed measurement. A quieter machine or more rounds would tell.",
+        ),
+        ([*bench_lines.lines(), REFUSED], 1, "FAILED with exit code 1: 1 failed measurement."),
+        (lines("comparison", verdict="slower"), 0, "CONTRADICTORY: the record ends with exit code 0, but holds"),
+        ([], 0, "NOTHING was asked"),
+    ],
+)
+def test_other_ends(body, code, sentence):
+    said = verdict(bench_record(body, code))
+    assert not said.passed
+    assert said.sentence.startswith(sentence)
+
+
+def test_a_comparison_that_decides_nothing_fails_nothing():
+    assert failures(bench_record(lines("comparison", verdict="slower", gates=False))) == []
+
+
+def test_what_failed_is_named_everywhere():
+    record = bench_record([*lines("comparison", verdict="slower", change=1.4), REFUSED], 1)
+    text = markdown.render(record).decode()
+    assert "**measurement, flight, batch**: numpy-roots is not timed: its checksum was 3 and then 4." in text
+    assert "fast is slower than the baseline allows: 1.4 times its former ratio (0.96 to 1), allowed 1.1" in text
+    assert text.index("## What failed") < text.index("## Against the baseline") < text.index("## Which method")
+    assert "✗ numpy-roots is not timed" in terminal.render(record).decode()
+    assert [each["kind"] for each in json.loads(summary.render(record))["failures"]] == ["refused", "slower"]
+
+
+def test_as_test_suites():
+    record = bench_record([*lines("comparison", verdict="slower"), REFUSED], 1)
+    root = ElementTree.fromstring(junit.render(record))  # noqa: S314 - just written
+    counts = {suite.get("name"): (int(suite.get("tests")), int(suite.get("failures"))) for suite in root}
+    assert counts["bench.answers"] == (33, 0)
+    assert counts["bench.times"] == (42, 1)
+    assert counts["bench.baseline"] == (2, 1)
+    assert counts["bench.kernels"] == (2, 0)
+    skipped = [case.get("name") for case in root.iter("testcase") if case.find("skipped") is not None]
+    assert skipped == ["foreign-adapter on uniform, batch"]
+
+
+def test_the_summary_has_every_method_and_fits_its_schema():
+    found = json.loads(summary.render(bench_record()))
+    assert violations(found, SUMMARY, closed=True) == []
+    dual = next(each for each in found["methods"] if each["name"] == "dual-numpy-float32")
+    assert (dual["tier"], dual["asked"], dual["wrong"], dual["reliable_above"]) == ("numpy", 7520, 1960, 2.0**-24)
+    assert dual["workloads"]["uniform"]["false_clear"] == 130
+    assert [(each["workload"], each["mode"]) for each in dual["times"]] == [
+        ("uniform", "batch"),
+        ("flight", "batch"),
+        ("near-contact", "batch"),
+        ("uniform", "single"),
+    ]
+
+
+def test_every_kind_of_line_is_shown():
+    text = markdown.render(bench_record()).decode()
+    for words in (
+        "what dual-numpy-float32 is",
+        "A drone's way around the tower",
+        "`table-2-numpy-float16` | the uniform rows | 2,500 | 1,250 | **250** | 1,000 | 0 | 0 | ∞ | `uniform/1/1/7` |",
+        "| `fast` | the uniform rows | batch | 0.111 (0.107 to 0.116) | 2 (1.94 to 2.1) | 5.0e8 | ± 2 % | 10,000 |",
+        "| `fcl-sphere` | 1,000 | 0.0045 | 500 | 0 | 949,000 | 2.0e6 |",
+        "| sphere | uniform | 0.5 | 200 | 90 | 45 % | 0.2 |",
+        "Procedure 2.b costs less than 2.a (§ 4) | the tower | **holds**",
+        r"10 +, 12 \*",
+        "| rows, batch | queries a second against the plain formula | 0.8 | 0.5 (0.48 to 0.52) | **no** |",
+        "| `foreign-adapter` | uniform | batch | 1 | 1.02 | 1.02 (1 to 1.04) | 1.1 | inconclusive |",
+        "Not there: coal: coal cannot be imported",
+        "cc 12.2.0",
+    ):
+        assert words in text, words

@@ -1,0 +1,172 @@
+"""Plots show the record's numbers at their places, each with a tooltip, in looks that can be told apart."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import pytest
+
+from hypcheck.report.plots import curves, heat, labels, pareto
+from hypcheck.report.plots.curves import TANGENT, Octave, curve, in_parts
+from hypcheck.report.plots.pareto import Point, front
+from hypcheck.report.plots.style import ROLES, decades, look, new_figure, power_of_ten, styled, ticks
+from hypcheck.report.plots.table import PLOTS, draw
+from tests import report_samples as samples
+from tests.report.bench_lines import bench_record
+
+
+def luminance(colour):
+    channels = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
+    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels)
+    return sum(weight * c for weight, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+@pytest.mark.parametrize("ground", [0, 1])
+def test_colours_stand_out_from_their_ground(ground):
+    surface = ROLES["surface"][ground]
+    for role, both in ROLES.items():
+        least = {"surface": 1, "rule": 1, "share-0": 1, "share-1": 1, "share-2": 1, "ink": 12, "soft": 4.5}.get(role, 3)
+        assert contrast(both[ground], surface) >= least, role
+
+
+def test_each_role_has_a_colour_of_its_own():
+    assert len({light for light, _ in ROLES.values()}) == len(ROLES)
+
+
+def test_curves_are_told_apart_without_colour():
+    looks = [look(place) for place in range(curves.AT_MOST)]
+    for one, other in combinations(looks, 2):
+        assert one.marker != other.marker
+        assert one.dashes != other.dashes
+    assert len({(each.colour, each.marker, str(each.dashes)) for each in map(look, range(40))}) == 40
+
+
+def test_none_of_n_is_drawn_as_its_upper_limit():
+    assert Octave(-3, 300, 0).share == 0.01
+    assert Octave(-3, 300, 6).share == 0.02
+    assert Octave(-3, 2, 0).share == 1.0
+
+
+def test_octaves_are_merged_where_they_are_many_and_nothing_is_lost():
+    few = curve("few", {-3.0: (10, 1), -2.0: (20, 0), TANGENT: (5, 2)})
+    assert few.octaves == (Octave(TANGENT, 5, 2), Octave(-3, 10, 1), Octave(-2, 20, 0))
+    many = curve("many", {float(k): (10, int(k == -30)) for k in range(-40, 0)})
+    assert {octave.width for octave in many.octaves} == {3}
+    assert (many.asked, many.wrong) == (400, 1)
+    wrong = next(octave for octave in many.octaves if octave.wrong)
+    assert wrong.exponent <= -30 < wrong.exponent + wrong.width
+
+
+def test_a_curve_s_marks_stand_where_their_octaves_are():
+    found = curve("m", {-9.0: (10, 5), -5.0: (100, 1), -1.0: (1000, 0)})
+    with styled():
+        plot = curves.plot("p", "title", [found])
+    axes = plot.figure.axes[0]
+    marks = {line.get_gid(): line for line in axes.lines if line.get_gid()}
+    assert [list(line) for line in zip(*marks["p-0-wrong"].get_data(), strict=True)] == [[-8.5, 0.5], [-4.5, 0.01]]
+    assert [list(line) for line in zip(*marks["p-0-none"].get_data(), strict=True)] == [[-0.5, 0.003]]
+    assert marks["p-0-none"].get_marker() == "v" != marks["p-0-wrong"].get_marker()
+    assert plot.tips["p-0-none"] == ["m, about 0.707: 0 of 1,000 wrong, so at most a share of 0.003"]
+    legends = [text.get_text() for legend in plot.figure.legends for text in legend.get_texts()]
+    assert legends == ["none of n wrong: at most 3/n (95 %)", "m"]
+
+
+def test_many_curves_are_shared_out_evenly():
+    assert [len(part) for part in in_parts(range(9))] == [4, 5]
+    assert [len(part) for part in in_parts(range(8))] == [8]
+    assert list(in_parts([])) == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "wrong", "role"),
+    [(10, 0, 0), (1000, 1, 1), (100, 1, 1), (100, 2, 2), (10, 1, 2), (10, 2, 3), (10, 5, 3), (10, 6, 4), (1, 1, 4)],
+)
+def test_steps_of_colour(asked, wrong, role):
+    assert heat.step(asked, wrong) == f"share-{role}"
+
+
+def test_cells_are_merged_by_sums_also_below_zero():
+    assert heat.cells([[-1, 0, 5, 1], [-2, 1, 5, 2], [0, 0, 7, 0]], 2) == {(-1, 0): (10, 3), (0, 0): (7, 0)}
+
+
+def test_the_front_is_what_no_other_beats():
+    points = [
+        Point("fast", "C", 1.0, 1e-3, 5000),
+        Point("beaten", "C", 2.0, 1e-2, 5000),
+        Point("alike", "C", 2.0, 1e-3, 5000),
+        Point("better", "C", 3.0, 1e-6, 5000),
+        Point("never wrong", "numpy", 9.0, 0.0, 5000),
+        Point("slow and sure", "numpy", 10.0, 0.0, 5000),
+        Point("useless", "FCL", 20.0, math.inf, 5000),
+    ]
+    assert [point.name for point in front(points)] == ["fast", "better", "never wrong"]
+
+
+def test_few_answers_are_drawn_hollow():
+    assert Point("a", "C", 1.0, 0.0, pareto.ENOUGH).shown
+    assert not Point("a", "C", 1.0, 0.0, pareto.ENOUGH - 1).shown
+    assert 3 / pareto.ENOUGH == 1 / 1000
+
+
+def test_labels_cover_neither_each_other_nor_points_nor_lines():
+    points = [(x / 10, y / 10) for x in range(2, 9, 2) for y in range(2, 9)]
+    lines = [((0.0, 0.5), (1.0, 0.5))]
+    with styled():
+        drawn = new_figure(380, 300)
+        axes = drawn.subplots()
+        axes.set(xlim=(0, 1), ylim=(0, 1))
+        labels.place(axes, points, [f"name {number}" for number in range(len(points))], lines)
+        renderer = drawn.canvas.get_renderer()
+        boxes = [text.get_window_extent(renderer) for text in axes.texts]
+        places = [axes.transData.transform(point) for point in points]
+        level = axes.transData.transform((0, 0.5))[1]
+    assert len(boxes) > 5
+    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    assert not any(box.contains(*place) for box in boxes for place in places)
+    assert not any(box.y0 <= level <= box.y1 for box in boxes)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "wanted"),
+    [
+        (1e-9, 2.0, ["10⁻⁸", "10⁻⁶", "10⁻⁴", "0.01", "1"]),
+        (0.3, 0.95, ["0.3", "0.4", "0.5", "0.6", "0.8"]),
+        (0.15, 0.6, ["0.2", "0.5"]),
+        (3e5, 6e5, ["3·10⁵", "4·10⁵", "5·10⁵", "6·10⁵"]),
+        (0.5, 2e3, ["1", "10", "100", "10³"]),
+    ],
+)
+def test_an_axis_always_has_two_marks(low, high, wanted):
+    assert [label for _, label in ticks(low, high)] == wanted
+
+
+def test_powers_of_ten():
+    assert [power_of_ten(k) for k in (-17, -3, -2, 0, 2, 3)] == ["10⁻¹⁷", "10⁻³", "0.01", "1", "100", "10³"]
+    assert decades(1e-18, 1.0) == [-18, -15, -12, -9, -6, -3, 0]
+
+
+@pytest.mark.parametrize("name", PLOTS)
+def test_every_plot_has_named_axes_words_and_tooltips(name):
+    found = [plot for record in (samples.record(), bench_record()) for plot in draw(name, record)]
+    assert found
+    for plot in found:
+        assert plot.title
+        assert plot.description.endswith(".")
+        assert any(character.isdigit() for character in plot.description)
+        for axes in plot.figure.axes:
+            assert axes.get_xlabel()
+            assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
+        assert plot.tips or name in ("map", "places", "fields")
+        for tips in plot.tips.values():
+            assert all(tips)
+
+
+def test_without_their_lines_there_are_no_plots():
+    for name in PLOTS:
+        assert list(draw(name, samples.record([]))) == []

@@ -1,0 +1,116 @@
+"""A figure as SVG: classes in place of colours, no style attributes, ids of its own, the same bytes every time."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.errors import UnavailableError
+from hypcheck.report.pictures import errors, pareto
+from hypcheck.report.plots.style import ROLES, colour, new_figure, styled
+from hypcheck.report.plots.svg import Plot, css, inline, standalone
+from hypcheck.report.plots.table import draw
+from tests import report_samples as samples
+from tests.report.bench_lines import bench_record
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def simple(name="p", tips=2, title="a title", label="<x> & $y$"):
+    """Two marks, a line and a label."""
+    with styled():
+        drawn = new_figure(200, 150)
+        axes = drawn.subplots()
+        axes.plot([0, 1], [0, 1], color=colour("series-1"))
+        axes.plot([0, 1], [0, 1], linestyle="none", marker="o", color=colour("series-2"), gid="marks")
+        axes.set_xlabel(label)
+    return Plot(name, title, "a description", drawn, {"marks": [f"mark {number}" for number in range(tips)]})
+
+
+def parsed(text):
+    return ElementTree.fromstring(text)  # noqa: S314 - just written
+
+
+def test_colours_are_classes_and_nothing_is_styled():
+    text = inline(simple())
+    assert "style" not in text
+    assert not set(re.findall(r"#[0-9a-f]{6}", text)) & {light for light, _ in ROLES.values()}
+    classes = set(" ".join(re.findall(r'class="([^"]*)"', text)).split()) - {"plot"}
+    assert {"s-series-1", "f-series-2", "f-ink"} <= classes
+    for each in classes:
+        assert f".{each}{{" in css()
+
+
+def test_text_is_text_and_means_itself():
+    assert [each.text for each in parsed(inline(simple())).iter(f"{SVG}text")].count("<x> & $y$") == 1
+
+
+def test_every_mark_has_its_tooltip():
+    root = parsed(inline(simple()))
+    assert [use.find(f"{SVG}title").text for use in root.iter(f"{SVG}use") if use.find(f"{SVG}title") is not None] == [
+        "mark 0",
+        "mark 1",
+    ]
+
+
+def test_tooltips_that_do_not_fit_their_marks_are_a_defect():
+    with pytest.raises(ValueError, match="marks has 2 marks and 3 tooltips"):
+        inline(simple(tips=3))
+
+
+def test_it_says_what_it_is():
+    root = parsed(inline(simple(title="\x1b[31m<b>\u202e")))
+    assert root.get("role") == "img"
+    texts = {each.get("id"): each.text for each in root if each.get("id")}
+    assert [texts[name] for name in root.get("aria-labelledby").split()] == [r"\x1b[31m<b>\u202e", "a description"]
+
+
+def test_two_plots_share_no_id():
+    first, second = (set(re.findall(r'id="([^"]*)"', inline(simple(name)))) for name in ("p", "q"))
+    assert first
+    assert not first & second
+    used = set(re.findall(r'(?:href="#|url\(#)([^")]*)', inline(simple("p"))))
+    assert used <= first
+
+
+def test_a_file_of_its_own_follows_the_scheme_and_has_a_ground():
+    root = parsed(standalone(simple()))
+    style = root.find(f"{SVG}style").text
+    assert "prefers-color-scheme:dark" in style
+    ground = root.find(f"{SVG}rect")
+    assert (ground.get("width"), ground.get("height"), ground.get("class")) == ("100%", "100%", "f-surface")
+
+
+@pytest.mark.parametrize(("picture", "plots"), [(errors, "errors"), (pareto, "pareto")])
+def test_pictures_of_a_benchmark_have_all_their_plots(picture, plots):
+    root = parsed(picture.render(bench_record()))
+    inner = root.findall(f"{SVG}svg")
+    assert len(inner) == len(list(draw(plots, bench_record())))
+    width, height = (float(each) for each in root.get("viewBox").split()[2:])
+    places = [[float(each.get(name)) for name in ("x", "y", "width", "height")] for each in inner]
+    for number, (x, y, across, up) in enumerate(places):
+        assert x + across <= width + 1e-6
+        assert y + up <= height + 1e-6
+        for x2, y2, across2, up2 in places[:number]:
+            assert x >= x2 + across2 or x2 >= x + across or y >= y2 + up2 or y2 >= y + up
+    with pytest.raises(UnavailableError, match="the record has no"):
+        picture.render(samples.record())
+
+
+def test_the_same_record_is_the_same_bytes_in_every_process():
+    code = (
+        "import sys; from hypcheck.report.pictures import pareto; from tests.report.bench_lines import bench_record;"
+        "sys.stdout.buffer.write(pareto.render(bench_record()))"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, check=True, capture_output=True
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert found == {pareto.render(bench_record())}
