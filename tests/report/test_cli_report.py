@@ -27,7 +27,17 @@ def test_the_summary_is_printed(run, capsys):
     assert os.listdir(run) == ["record.jsonl"]
 
 
-@pytest.mark.parametrize("name", list(REPORTS))
+OF_A_BENCHMARK = ("errors", "pareto")
+
+
+@pytest.mark.parametrize("name", OF_A_BENCHMARK)
+def test_a_picture_of_what_is_not_there_is_refused(run, name, tmp_path, capsys):
+    assert main(["report", str(run), "--format", name, "--out", str(tmp_path / "a.svg")]) == 2
+    assert "hypcheck: error: the record has no " in capsys.readouterr().err
+    assert not (tmp_path / "a.svg").exists()
+
+
+@pytest.mark.parametrize("name", [name for name in REPORTS if name not in OF_A_BENCHMARK])
 def test_one_format_on_standard_output(run, name, capfdbinary):
     assert main(["report", str(run / "record.jsonl"), "--format", name]) == 0
     assert capfdbinary.readouterr().out == REPORTS[name].render(samples_read(run))
