@@ -41,6 +41,7 @@ PARTS = {
     "row",
     "invalid_row",
     "limit",
+    "span",
     "limits",
     "description",
     "bins",
@@ -105,8 +106,8 @@ def test_every_line_of_a_benchmark_fits():
 
 def test_the_older_schema_is_part_of_the_newer():
     older = schema("record-1.0.0.json")
-    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | {"grid", "ratio", "ratios", "load"}
-    alike = older["$defs"].keys() - {"limits"}  # null was added to them
+    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | {"grid", "ratio", "ratios", "load", "span"}
+    alike = older["$defs"].keys() - {"limits", "description"}  # null and the sizes of a domain were added
     assert {name: RECORD["$defs"][name] for name in alike} == {name: older["$defs"][name] for name in alike}
 
 

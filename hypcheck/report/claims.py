@@ -42,8 +42,11 @@ def _said(name: str, value: Any) -> str:  # noqa: ANN401 - a field of a descript
 def domain(value: Mapping[str, Any]) -> str:
     """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
     regimes = listed(value["regimes"]) if value["regimes"] else "every regime"
-    ranges = (f"{name}s {_range(value[name])}" for name in ("ratio", "magnitude"))
-    return f"{regimes}, {', '.join(ranges)}"
+    ranges = [f"{name}s {_range(value[name])}" for name in ("ratio", "magnitude")]
+    settings = value.get("settings") or ()
+    sizes = [f"({', '.join(f'{size:.6g}' for size in each['sizes'])})" for each in settings]
+    only = [f"only α, γ, b, d = {listed(sizes, 'or')}"] if sizes else []
+    return ", ".join([regimes, *only, *ranges])
 
 
 def _range(limits: tuple[float | str, float | str] | None) -> str:

@@ -11,6 +11,7 @@ from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.replay.case import case_of
 from hypcheck.report import junit, markdown, summary
+from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, under_test
 from hypcheck.report.terminal import summary_lines
 from hypcheck.report.verdict import failures
@@ -163,3 +164,10 @@ def test_an_excused_case_is_not_shown_as_the_wrong_one(tmp_path):
     assert group["counts"]["excused"] == len(worst)
     (failure,) = failures(read(out / "record.jsonl"))
     assert failure.case not in worst
+
+
+def test_the_only_sizes_of_a_domain_are_named_and_fit_the_schema(record):
+    line = json.loads(json.dumps(record.of("implementation")[0]))
+    line["used"]["domain"]["settings"] = [{"sizes": [2.0, 17.8, 0.25, 0.15], "x": None, "y": [-1, "inf"], "z": [0, 0]}]
+    assert violations(line, RECORD, closed=True) == []
+    assert any("only α, γ, b, d = (2, 17.8, 0.25, 0.15), " in claim for claim in claims(line))
