@@ -93,7 +93,7 @@ def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
 
 def test_a_run_without_a_compiler_goes_on_with_the_rest_and_says_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr(
-        c_library, "_program", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
+        c_library, "compiler_here", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
     )
     stream = io.StringIO()
     plan = BenchPlan(methods=("table-2-float64*",), folder=tmp_path)

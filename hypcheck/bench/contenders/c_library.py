@@ -57,17 +57,18 @@ def compiled(folder: Path) -> tuple[Path, Compiler]:
 
 def compile_c(code: Path, library: Path) -> Compiler:
     """Make a library of a file in C. Raises UnavailableError where there is no compiler that makes it."""
-    program = _program()
+    program = compiler_here()
     trouble = ""
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
-        done = _run([program, *flags, "-shared", str(code), "-o", str(library), "-lm"])
+        done = run_compiler([program, *flags, "-shared", str(code), "-o", str(library), "-lm"])
         if done.returncode == 0:
             return Compiler(program, _version(program), flags)
         trouble = trouble or (done.stderr.strip().splitlines() or ["it says nothing"])[0]
     raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
 
 
-def _program() -> str:
+def compiler_here() -> str:
+    """The C compiler that is found here. Raises UnavailableError where there is none."""
     named = os.environ.get("CC", "")
     for name in (named, "cc", "gcc", "clang"):
         found = shutil.which(name) if name else None
@@ -76,7 +77,8 @@ def _program() -> str:
     raise UnavailableError("no C compiler is found (cc, gcc, clang, or what CC names)")
 
 
-def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
+def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
+    """What became of a call of the compiler. Raises UnavailableError where it cannot be run, or does not end."""
     try:
         return subprocess.run(words, capture_output=True, text=True, timeout=_SECONDS, check=False)  # noqa: S603
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -84,7 +86,7 @@ def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
 
 
 def _version(program: str) -> str:
-    return (_run([program, "--version"]).stdout.splitlines() or [""])[0]
+    return (run_compiler([program, "--version"]).stdout.splitlines() or [""])[0]
 
 
 @cache
