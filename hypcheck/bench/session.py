@@ -29,6 +29,9 @@ BUILT_FOR = "uniform"
 BUILDS = 2
 """Rounds in which meshes are built: the large ones take most of a second."""
 
+NOT_ANSWERED = "not answered"
+"""Stands in place of a print: it failed when it was judged, which is recorded already."""
+
 LEAST_NS = 0.01
 """What is left at least of a time from which an empty call was taken off."""
 
@@ -102,11 +105,11 @@ def _field(
         rows = timed_rows(session.plan, found[name], workload)
         if mode == "single":
             rows = rows[: found[name].singles]
-        ready = MODES[mode](way, rows)
-        if ready is None:
-            continue
         key = (name, *field.where)
         told = session.expected.get(key)
+        ready = MODES[mode](way, rows) if len(rows) and told != NOT_ANSWERED else None
+        if ready is None:
+            continue
         if told is not None and print_of(ready.answers()) != told:
             reason = "its answers, when it was about to be timed, were not those that were judged"
             field.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))

@@ -8,7 +8,7 @@ from typing import Any
 from hypcheck.bench import session
 from hypcheck.bench.accuracy import Answered
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.session import AGAIN, Key, Measured, Session
+from hypcheck.bench.session import AGAIN, NOT_ANSWERED, Key, Measured, Session
 from hypcheck.bench.statistics import Estimate, estimate, ratios
 from hypcheck.processes import fresh, perform
 
@@ -21,8 +21,8 @@ def expected(answers: list[Answered]) -> dict[Key, str]:
     """The prints of the answers that were judged, by method, workload and mode."""
     found: dict[Key, str] = {}
     for each in answers:
-        found[each.method, each.workload, "batch"] = each.batch_print
-        found[each.method, each.workload, "single"] = each.single_print
+        found[each.method, each.workload, "batch"] = NOT_ANSWERED if each.trouble else each.batch_print
+        found[each.method, each.workload, "single"] = NOT_ANSWERED if each.trouble else each.single_print
     return found
 
 

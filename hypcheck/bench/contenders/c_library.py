@@ -106,6 +106,7 @@ class InC:
 
     library: Path
     place: int
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """Its answers, by the entry for rows."""

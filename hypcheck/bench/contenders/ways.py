@@ -41,6 +41,11 @@ class Empty:
 class Way(Protocol):
     """One method, loaded. What cannot be done in a way is None."""
 
+    @property
+    def trouble(self) -> str:
+        """Why rows went without an answer, where a program was at fault; else empty."""
+        ...
+
     def answer(self, rows: Rows) -> Answers:
         """Its answers, to be judged."""
         ...
@@ -72,6 +77,7 @@ class InPython:
 
     function: Answering
     scene: ByScene | None = None
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """The function's answers."""
