@@ -15,11 +15,12 @@ from time import perf_counter_ns
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contenders.c_source import Body, dual, of_formula, source, trigonometric
+from hypcheck.bench.contenders.c_source import FAST, Body, Ready, dual, of_formula, source, trigonometric
 from hypcheck.bench.contenders.ways import Empty, Prepared
 from hypcheck.bench.rounds import Clocked
 from hypcheck.bench.workloads import scene_of
 from hypcheck.errors import UnavailableError
+from hypcheck.kernel import core
 from hypcheck.methods.method import Answers
 from hypcheck.rows import Rows
 
@@ -41,30 +42,48 @@ class Compiler:
     flags: tuple[str, ...]
 
 
-def bodies() -> list[Body]:
+KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
+"""As the package is built (setup.py): the kernel chooses its instruction set when it runs, and its bounds allow FMA."""
+
+
+def bodies() -> list[Body | Ready]:
     """Every method in C; its place in the table is its place here plus one."""
     listed = [of_formula(name, format_name) for name in FORMULAS for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
-    return [*listed, of_formula("table-2", "longdouble"), *roots, *(dual(format_name) for format_name in FORMATS)]
+    duals = [dual(format_name) for format_name in FORMATS]
+    return [FAST, *listed, of_formula("table-2", "longdouble"), *roots, *duals]
 
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
     """The library, made in a folder. Raises UnavailableError where there is no compiler that makes it."""
     code, library = folder / "methods.c", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
-    return library, compile_c(code, library)
+    kernel = _kernel(folder)
+    return library, compile_c(code, library, kernel)
 
 
-def compile_c(code: Path, library: Path) -> Compiler:
-    """Make a library of a file in C. Raises UnavailableError where there is no compiler that makes it."""
+def compile_c(code: Path, library: Path, *others: str) -> Compiler:
+    """Make a library of a file in C, and of other files. Raises UnavailableError where no compiler is there for it."""
     program = compiler_here()
     trouble = ""
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
-        done = run_compiler([program, *flags, "-shared", str(code), "-o", str(library), "-lm"])
+        words = [program, *flags, f"-I{core.__path__[0]}", "-shared", str(code), *others, "-o", str(library), "-lm"]
+        done = run_compiler(words)
         if done.returncode == 0:
             return Compiler(program, _version(program), flags)
         trouble = trouble or (done.stderr.strip().splitlines() or ["it says nothing"])[0]
     raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
+
+
+def _kernel(folder: Path) -> str:
+    """The object file of the fast path."""
+    program, code, target = compiler_here(), folder / "kernel.c", folder / "kernel.o"
+    code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
+    done = run_compiler([program, *KERNEL_FLAGS, f"-I{core.__path__[0]}", "-c", str(code), "-o", str(target)])
+    if done.returncode != 0:
+        said = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+        raise UnavailableError(f"{program} does not compile the fast path: {said}")
+    return str(target)
 
 
 def compiler_here() -> str:

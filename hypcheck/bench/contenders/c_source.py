@@ -35,13 +35,21 @@ class Body:
     answer: str
 
 
-def source(bodies: Iterable[Body]) -> str:
+def source(bodies: Iterable[Body | Ready]) -> str:
     """The whole file; the table begins with a method that does nothing."""
     listed = list(bodies)
     rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
     scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
-    functions = "\n".join(_functions(each) for each in listed)
+    functions = "\n".join(each.code if isinstance(each, Ready) else _functions(each) for each in listed)
     return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}"
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A method whose two functions, NAME_rows and NAME_scene, are there already."""
+
+    name: str
+    code: str
 
 
 def identifier(name: str) -> str:
@@ -93,6 +101,26 @@ def dual(format_name: str) -> Body:
     )
 
 
+FAST = Ready(
+    "fast",
+    """
+static void fast_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{
+    if (n == 1)
+        *out = (int8_t)hypcheck_position(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]);
+    else
+        hypcheck_classify(n, rows, out);
+}
+
+static void fast_scene(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
+                       const double *restrict zs, int8_t *restrict out)
+{
+    hypcheck_classify_scene(sizes, n, xs, ys, zs, out);
+}
+""",
+)
+"""The fast path as hypcheck.classify runs it where it was compiled."""
+
 _TABLE_2 = FORMULAS["table-2"]
 _CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
 
@@ -139,6 +167,8 @@ _HEAD = """\
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "hypcheck.h"
 
 static void nothing_rows(size_t n, const double *restrict rows, int8_t *restrict out)
 {
