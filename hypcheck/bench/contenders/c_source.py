@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from hypcheck.bench.contenders.c_procedures import procedures_source
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import cut
 from hypcheck.kernel.printing.c import SUFFIXES, c_statements
@@ -41,7 +42,7 @@ def source(bodies: Iterable[Body | Ready]) -> str:
     rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
     scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
     functions = "\n".join(each.code if isinstance(each, Ready) else _functions(each) for each in listed)
-    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}"
+    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
 
 
 @dataclass(frozen=True)
@@ -57,13 +58,13 @@ def identifier(name: str) -> str:
     return name.replace("-", "_").replace(".", "_")
 
 
-def of_formula(name: str, format_name: str) -> Body:
+def of_formula(formula: Formula, format_name: str) -> Body:
     """A formula as it is listed; what sizes alone decide stands before the loop."""
-    formula, number = FORMULAS[name], NUMBERS[format_name]
+    number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
     return Body(
-        f"{name}-{format_name}",
+        f"{formula.name}-{format_name}",
         number,
         c_statements(outside, known, number=number),
         c_statements(inside, (formula.answer,), number=number),
