@@ -84,6 +84,8 @@ class BenchPlan:
     def __post_init__(self) -> None:
         if self.max_slowdown < 1:
             raise InputError(f"--max-slowdown is {self.max_slowdown:g}; it must be 1 or more, as in 1.10 for 10 %")
+        if self.kernel and (self.specs or self.methods or self.workloads or self.baseline):
+            raise InputError("--kernel measures the fast path and nothing else; it goes with no other choice")
 
     @property
     def options(self) -> dict[str, Any]:

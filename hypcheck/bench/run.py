@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from hypcheck.bench import accuracy, convergence, costs, memory, places, shapes, speed, stability
+from hypcheck.bench import accuracy, convergence, costs, kernel, memory, places, shapes, speed, stability
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
 from hypcheck.bench.baseline import Baseline, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
@@ -76,6 +76,8 @@ class _Run:
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
+    if plan.kernel:
+        return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
     plan = met(prepared(plan, recorder), recorder, outcome.not_started)
@@ -93,6 +95,15 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
         Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
         Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
     )
+
+
+def _kernel(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
+    kernel.run(recorder, advance, plan.quick)
+    for line in recorder.lines:
+        if line["type"] == "kernel" and not line["met"]:
+            low, high = line["ci95"]
+            reasons = outcome.inconclusive if low <= line["wanted"] <= high else outcome.slower
+            reasons.append(f"{line['name']}: {line['says']}")
 
 
 def _introduce(run: _Run, advance: Advance) -> None:

@@ -23,7 +23,7 @@ from hypcheck.cli.recording import Part, record_and_report
 @click.option("--workers", type=click.IntRange(1), help="Processes that judge.  [default: one a processor]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A record of an earlier run to be held to.")
 @click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
-@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets instead.")
+@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.

@@ -104,6 +104,7 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
         (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; near to it: table-2-float32"),
         (["--workloads", "everywhere"], "there is no workload 'everywhere'"),
         (["--max-slowdown", "0.9"], "--max-slowdown is 0.9; it must be 1 or more"),
+        (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )
 def test_what_does_not_exist_is_refused_and_nothing_is_written(tmp_path, options, message):

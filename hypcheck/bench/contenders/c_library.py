@@ -86,7 +86,7 @@ def compile_c(code: Path, library: Path, *others: str) -> Compiler:
 
 def _kernel(folder: Path) -> str:
     """The object file of the fast path."""
-    program, code, target = compiler_here(), folder / "kernel.c", folder / "kernel.o"
+    program, code, target = compiler_here(), folder / "fast.c", folder / "fast.o"
     code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
     done = run_compiler([program, *KERNEL_FLAGS, f"-I{core.__path__[0]}", "-c", str(code), "-o", str(target)])
     if done.returncode != 0:

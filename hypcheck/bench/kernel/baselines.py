@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from hypcheck.bench.contenders.c_library import compiler_here, run_compiler
 from hypcheck.bench.contenders.c_source import of_formula
 from hypcheck.bench.rounds import Clocked
+from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.errors import UnavailableError
 from hypcheck.pairs import SIZES
 
@@ -91,7 +92,7 @@ def baselines(folder: Path, level: str) -> list[Baseline]:
 
 def source() -> str:
     """The C of both."""
-    body = of_formula("table-2", "float64")
+    body = of_formula(FORMULAS["table-2"], "float64")
     sizes = "".join(f"    const double {name} = sizes[{place}];\n" for place, name in enumerate(SIZES))
     centre = "".join(f"        const double {name} = {name}s[i];\n" for name in ("x", "y", "z"))
     before = "".join(f"    {line}\n" for line in body.before)
