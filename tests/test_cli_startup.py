@@ -9,6 +9,9 @@ import sys
 import pytest
 
 HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "importlib.metadata")
+PAGE = {"numpy", "matplotlib", "jinja2"}
+"""What writes a report with pictures."""
+
 PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
 
 
@@ -30,6 +33,25 @@ def test_help_and_version_load_nothing_heavy(arguments):
 
 def test_one_pair_needs_no_arrays():
     assert after(PAIR) <= {"mpmath"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "allowed"),
+    [
+        (["cases", "list"], {"numpy"}),
+        (["emit", "--scene", "tower", "--language", "c"], {"numpy"}),
+        (["plan", "tower"], {"numpy"}),
+        (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], PAGE),
+        (
+            ["verify", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
+            {*PAGE, "sympy", "mpmath"},
+        ),
+    ],
+)
+def test_a_command_loads_what_it_uses(arguments, allowed, tmp_path):
+    """A table of cases needs no oracle, a gate no derivation, and two oracles of four no mesh."""
+    out = ["--out", str(tmp_path)] if arguments[0] == "verify" else []
+    assert after([*arguments, *out]) <= allowed | {"importlib.metadata"}
 
 
 def test_importing_the_package_loads_nothing_heavy():

@@ -45,7 +45,8 @@ def _of_fcl(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
 
 
 @cache
-def _without_fcl() -> dict[str, Method]:
+def methods_without_meshes() -> dict[str, Method]:
+    """Every built-in method that needs no FCL, by its name."""
     fast = Method(
         name="fast",
         title="the fast path: certified floats, integers where they cannot tell",
@@ -65,12 +66,12 @@ def _without_fcl() -> dict[str, Method]:
 def builtin_methods() -> dict[str, Method]:
     """Every built-in method by its name, as `builtin:NAME` has it."""
     naive = [_of_fcl(*each) for each in NAIVE_FCL] if fcl_trouble() is None else []
-    return _without_fcl() | {method.name: method for method in naive}
+    return methods_without_meshes() | {method.name: method for method in naive}
 
 
 def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist."""
-    method = _without_fcl().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
+    method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
     if method is None:
         raise InputError(f"there is no built-in method {name!r}; there are {', '.join(builtin_methods())}")
     return method

@@ -42,14 +42,14 @@ def workload(seed: int) -> Rows:
     return FAMILIES[WORKLOAD].rows(seed, ROWS)
 
 
-def contenders() -> list[Contender]:
-    """The methods to be timed; the slow ones on fewer rows. FCL is left out where it cannot be imported."""
+def contenders(*, meshes: bool) -> list[Contender]:
+    """The methods to be timed; the slow ones on fewer rows. FCL is loaded only where `meshes` are asked for."""
     found = [
         Contender(FAST, "certified floats, integers where they cannot tell; exact", _fast, ROWS),
         Contender(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain, ROWS),
         Contender("numpy.roots", "eigenvalues of the companion matrix, one call a row; not certified", by_numpy, 200),
     ]
-    if ORACLES["mesh"].available() is None:
+    if meshes and ORACLES["mesh"].available() is None:
         found += [
             Contender("FCL point-mesh", "distance to a mesh of 2,000 triangles built for each row", point_mesh, 60),
             Contender("FCL certified", "two one-sided meshes built for each row; contact or clear only", _mesh, 60),

@@ -11,7 +11,7 @@ from hypcheck.bench.rounds import measure
 from hypcheck.derivation.printed import check_equations
 from hypcheck.derivation.proofs import prove_formulas
 from hypcheck.judge import Status
-from hypcheck.methods.builtin import builtin_methods
+from hypcheck.methods.builtin import builtin, builtin_methods, methods_without_meshes
 from hypcheck.methods.method import Method
 from hypcheck.processes import processes
 from hypcheck.record import Recorder
@@ -21,6 +21,10 @@ from hypcheck.verify.opinions import ORACLES
 from hypcheck.verify.plan import Batch, Plan, batches, chosen_families
 
 ROUNDS = 9
+
+MESH = "mesh"
+"""The oracle without which nothing of FCL is loaded."""
+
 """Timing rounds: enough for a median that one disturbed round does not move."""
 
 Advance = Callable[[int], object]
@@ -56,7 +60,8 @@ def stages(plan: Plan, recorder: Recorder, outcome: Outcome) -> tuple[Stage, ...
     """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
     families = chosen_families(plan)
     all_batches = batches(plan, families)
-    methods = tuple(method for method in builtin_methods().values() if not method.measured)
+    available = builtin_methods() if MESH in plan.oracles else methods_without_meshes()
+    methods = tuple(method for method in available.values() if not method.measured)
     todo = crosscheck.tasks(_with_available(plan, recorder), all_batches)
     formulas = findings.exact_formulas()
     return (
@@ -158,12 +163,12 @@ def _judge(
 
 def _draw(recorder: Recorder, advance: Advance) -> None:
     for panel in maps.tower_panels():
-        recorder.add("map", **maps.draw(panel, builtin_methods()["table-2-float32"]))
+        recorder.add("map", **maps.draw(panel, builtin("table-2-float32")))
         advance(1)
 
 
 def _time(plan: Plan, recorder: Recorder, advance: Advance) -> None:
-    rows, found = contenders.workload(plan.seed), contenders.contenders()
+    rows, found = contenders.workload(plan.seed), contenders.contenders(meshes=MESH in plan.oracles)
     for _, timings in measure([each.entry(rows) for each in found], ROUNDS):
         advance(1)
         for contender, timing in zip(found, timings, strict=False):
