@@ -1,6 +1,8 @@
 """`python -m hypcheck`, the same as `hypcheck`."""
 
-from hypcheck.cli.main import process
+import sys
+
+from hypcheck.cli.main import main
 
 if __name__ == "__main__":
-    process()
+    sys.exit(main())

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from hypcheck.visible import sentence
+
 
 class HypcheckError(Exception):
-    """An expected failure: its text is the whole message a user sees, and `exit_code` the process's status."""
+    """An expected failure: its text is the whole message a user sees, and `exit_code` the process's status.
+
+    Whatever it quotes, the text is one line, printable, and at most visible.LONGEST characters long.
+    """
 
     exit_code = 70
+
+    def __init__(self, text: object = "") -> None:
+        super().__init__(sentence(text))
 
 
 class InputError(HypcheckError):

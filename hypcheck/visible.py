@@ -14,6 +14,22 @@ def visible(text: object, width: int | None = None) -> str:
     return shown if width is None else shortened(shown, width)
 
 
+LONGEST = 1000
+"""Characters of a sentence: a file that is wrong from end to end does not fill the screen."""
+
+
+def sentence(text: object) -> str:
+    """The text as one visible line of at most LONGEST characters; of a longer one the middle is left out.
+
+    The beginning says where something is wrong, and the end what would be right.
+    """
+    return _without_middle(visible(_without_middle(str(text))))
+
+
+def _without_middle(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 400]} … {text[3 - 400 :]}"
+
+
 def shortened(text: str, width: int) -> str:
     """The text, cut to `width` characters with an ellipsis where it is longer."""
     return text if len(text) <= width else text[: width - 1].rstrip() + "…"

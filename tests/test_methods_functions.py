@@ -80,6 +80,27 @@ def test_right_answers_arrive_whatever_is_printed_and_whatever_integers_they_are
         assert it.classify(some).answers.tolist() == truth(some).tolist()
 
 
+def intruder(name):
+    return function("writes_into_our_pipe").replace(":classify", f":{name}")
+
+
+@pytest.mark.parametrize(("name", "seen"), [("garbage", r"'�\\x1b\[31m"), ("error", "'erro")])
+def test_what_is_written_into_our_own_pipe_costs_its_own_row_and_is_never_taken_for_a_reply(name, seen):
+    some = rows()
+    with open_implementation(intruder(name), LIMITS) as it:
+        for _ in range(2):
+            reason = only_unlucky(it.classify(some), Outcome.PROTOCOL, truth(some))
+            assert re.search(f"it wrote into our own pipe, which reads {seen}", reason), reason
+
+
+def test_forged_times_are_refused():
+    with (
+        open_implementation(intruder("times"), LIMITS) as it,
+        pytest.raises(TimingError, match="it wrote into our own"),
+    ):
+        it.time(rows(), 1)
+
+
 def test_what_is_printed_is_kept_as_evidence():
     with open_implementation(function("prints"), LIMITS) as it:
         it.classify(rows())

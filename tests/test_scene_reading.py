@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.scene import reading
 from hypcheck.scene.model import Hyperboloid, Mover, Part, Region, Scene, Span
@@ -198,8 +199,8 @@ def test_what_is_no_text_is_refused(tmp_path, content, message):
 
 
 def test_a_file_that_is_too_large_is_not_read_to_its_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(reading, "LARGEST_FILE", 1 << 20)
-    with pytest.raises(InputError, match="has more than 1 MiB; a scene must be smaller"):
+    monkeypatch.setattr(toml, "LARGEST", 1 << 20)
+    with pytest.raises(InputError, match="has more than 1 MiB; it must be smaller"):
         read_scene("/dev/zero" if os.path.exists("/dev/zero") else os.devnull)
     path = tmp_path / "s.toml"
     path.write_text(LEAST + "#" * (1 << 20))

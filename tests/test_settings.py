@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.cli import settings
+from hypcheck import toml
 from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
 from hypcheck.cli.main import main
 from hypcheck.cli.settings import _KEYS, ABOUT_ONE, COMMANDS, FILE, read_settings
@@ -217,8 +217,8 @@ def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
 def test_any_value_is_taken_or_refused(values):
     """Nothing that TOML can hold ends otherwise than in settings or in a sentence."""
     with (
-        mock.patch.object(settings, "_text", return_value=""),
-        mock.patch.object(settings, "_parsed", return_value=values),
+        mock.patch.object(toml, "text_of", return_value=""),
+        mock.patch.object(toml, "parsed", return_value=values),
     ):
         said, found = "", None
         try:

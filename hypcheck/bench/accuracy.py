@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from hypcheck import judge
 from hypcheck.bench.contenders import Contender, contenders
-from hypcheck.bench.contenders.ways import Way
 from hypcheck.bench.plan import BenchPlan, chosen
 from hypcheck.bench.workloads import WORKLOADS, Workload
 from hypcheck.judge import Mistake
@@ -47,10 +46,7 @@ class Known:
 
 @dataclass(frozen=True)
 class Answered:
-    """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed.
-
-    `trouble` says why some went without an answer, where a program was at fault.
-    """
+    """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed."""
 
     method: str
     workload: str
@@ -58,7 +54,6 @@ class Answered:
     answers: Answers
     batch_print: str
     single_print: str
-    trouble: str = ""
 
 
 def chosen_workloads(plan: BenchPlan) -> list[Workload]:
@@ -92,12 +87,12 @@ def _ask(task: tuple[BenchPlan, str]) -> list[Answered]:
     contender = contenders(plan)[name]
     way = contender.load()
     try:
-        return [_answered(plan, contender, way, workload) for workload in chosen_workloads(plan)]
+        return [_answered(plan, contender, way.answer, workload) for workload in chosen_workloads(plan)]
     finally:
         way.close()
 
 
-def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> Answered:
+def _answered(plan: BenchPlan, contender: Contender, answer: Any, workload: Workload) -> Answered:  # noqa: ANN401
     rows = workload.rows(plan.seed, plan.amounts.judged)
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
@@ -105,10 +100,9 @@ def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workloa
         contender.name,
         workload.name,
         places,
-        way.answer(rows[places]),
-        print_of(way.answer(part)),
-        print_of(way.answer(part[: contender.singles])),
-        way.trouble,
+        answer(rows[places]),
+        print_of(answer(part)),
+        print_of(answer(part[: contender.singles])),
     )
 
 
@@ -117,8 +111,6 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
     if contender.accuracy_only or not workload.timed:
         return np.empty((0, 7))
     rows = workload.rows(plan.seed, plan.amounts.timed)
-    if contender.tier == "foreign":
-        rows = rows[contender.domain.holds(rows)]
     if contender.scenes is not None:
         rows = rows[(rows[:, :4] == rows[0, :4]).all(axis=1)]
     return rows[: contender.timed]

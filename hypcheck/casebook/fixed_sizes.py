@@ -6,6 +6,7 @@ made for it; their names carry the sizes and the spans of the centre, as in `raz
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -55,6 +56,7 @@ def family_at(name: str) -> Family:
 
 
 def _family(trap: _Trap, setting: FixedSizes) -> Family:
+    _require_room(setting)
     return Family(
         name=f"{trap.name}{MARK}{_written(setting)}",
         version=1,
@@ -66,6 +68,14 @@ def _family(trap: _Trap, setting: FixedSizes) -> Family:
         regimes="that of the sizes",
         make=partial(trap.make, setting),
     )
+
+
+def _require_room(setting: FixedSizes) -> None:
+    """Raise InputError where centres about the hyperboloid, or in the spans, are beyond float64."""
+    alpha, gamma, b, d = setting.sizes
+    widths = [2 * OPEN * (alpha + b), 2 * OPEN * (gamma + d), *(span[1] - span[0] for span in setting.spans if span)]
+    if not all(map(math.isfinite, widths)):
+        raise InputError(f"the sizes {_written(setting)} leave no room in float64 for the centres about them")
 
 
 def _written(setting: FixedSizes) -> str:

@@ -14,7 +14,7 @@ from enum import IntEnum
 import click
 
 from hypcheck.errors import HypcheckError
-from hypcheck.visible import visible
+from hypcheck.visible import sentence
 
 
 class Exit(IntEnum):
@@ -95,12 +95,12 @@ def ending_of(error: BaseException) -> Ending:
 
 def _expected(error: BaseException) -> Ending:
     code = error.exit_code if isinstance(error, HypcheckError) else Exit.INTERNAL
-    return Ending(code, (f"hypcheck: error: {visible(error)}",))
+    return Ending(code, (f"hypcheck: error: {sentence(error)}",))
 
 
 def _usage(error: BaseException) -> Ending:
     message = error.format_message() if isinstance(error, click.ClickException) else str(error)
-    message = visible(message).rstrip(".")
+    message = sentence(message).rstrip(".")
     context = error.ctx if isinstance(error, click.UsageError) else None
     command = context.command_path if context else "hypcheck"
     return Ending(
@@ -114,7 +114,7 @@ def _usage(error: BaseException) -> Ending:
 
 def _system(error: BaseException) -> Ending:
     if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
-        return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {visible(error.strerror or str(error)).lower()}",))
+        return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {sentence(error.strerror or str(error)).lower()}",))
     return _internal(error)
 
 
@@ -122,7 +122,7 @@ _FULL_OR_BROKEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ERO
 
 
 def _internal(error: BaseException) -> Ending:
-    what = visible(f"{type(error).__name__}: {error}".rstrip(": "))
+    what = sentence(f"{type(error).__name__}: {error}".rstrip(": "))
     ask = "this is a fault of hypcheck; please report it, with what `hypcheck --debug` and the same arguments print"
     return Ending(Exit.INTERNAL, (f"hypcheck: internal error: {what}", f"hypcheck: {ask}"))
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from hypcheck.cli.exits import Exit, first_that_applies
-from hypcheck.cli.options import bytes_of
+from hypcheck.cli.options import FiniteRange, bytes_of
 from hypcheck.errors import NothingJudgedError
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ SUBJECT = (
     click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
     click.option("--domain", metavar="JSON", help="Where it is asked, in place of what it declares."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    click.option("--tolerance", type=click.FloatRange(0), default=8.0, show_default=True, help="In units u."),
+    click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u."),
     click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready."),
     click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without an answer."),
     click.option("--restarts", type=click.IntRange(0), default=20, show_default=True, help="After crashes and hangs."),
@@ -92,9 +92,7 @@ Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing)
 
 @click.command(help=_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
-@click.option(
-    "--budget", type=click.FloatRange(0, min_open=True), help="Seconds.  [default: 60, or none with --queries]"
-)
+@click.option("--budget", type=FiniteRange(0, min_open=True), help="Seconds.  [default: 60, or none with --queries]")
 @click.option("--queries", type=click.IntRange(1), help="Rows asked at most; with no --budget the same is found again.")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
 @click.option("--show", type=click.IntRange(0), default=10, show_default=True, help="Kinds of wrong answers in full.")

@@ -7,7 +7,7 @@ from fractions import Fraction
 import click
 
 from hypcheck.cli.exits import Exit
-from hypcheck.cli.options import bytes_of
+from hypcheck.cli.options import FiniteRange, bytes_of
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
@@ -34,7 +34,7 @@ Ends with 0 when the answer is right or tolerated, 1 when it is not, 5 when SPEC
 @click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
 @click.option("--domain", metavar="JSON", help="Where it claims to be right, in place of what it declares.")
-@click.option("--tolerance", type=click.FloatRange(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u.")
 @click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready.")
 @click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without an answer.")
 @click.option("--restarts", type=int, default=20, show_default=True, help="After crashes and hangs.")

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 
 FILE = "hypcheck.toml"
@@ -27,6 +28,8 @@ COMMANDS = ("verify", "replay", "hunt", "minimise")
 """Commands that go by the settings: verify by all of them, the others by ABOUT_ONE."""
 
 _LARGEST_SEED = 2**63 - 1
+_LONGEST_KEY = 100
+"""Characters of a key that is looked for among the known ones and in the text; no setting has so long a name."""
 _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
 
 
@@ -46,43 +49,20 @@ class Settings:
 
 def read_settings(path: Path) -> Settings | None:
     """The settings in a file, None where there is no such file. Raises InputError naming file, line and key."""
-    text = _text(path)
-    if text is None:
-        return None
-    content = _parsed(path, text)
-    checked = {key: _checked(path, text, key, value) for key, value in content.items()}
-    return Settings(checked.pop("specs", ()), checked)
-
-
-def _text(path: Path) -> str | None:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        text = toml.text_of(str(path))
     except FileNotFoundError:
         return None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {(error.strerror or str(error)).lower()}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is not UTF-8 text: {error.reason} at byte {error.start}") from None
-
-
-def _parsed(path: Path, text: str) -> dict[str, Any]:
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: is no TOML: {error}") from None
-    except RecursionError:
-        raise InputError(f"{path}: is no TOML that can be read: it is nested too deeply") from None
+    content = toml.parsed(text, str(path))
+    checked = {key: _checked(path, text, key, value) for key, value in content.items()}
+    return Settings(checked.pop("specs", ()), checked)
 
 
 def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - of the type its option wants
     where = f"{path}{_line_of(text, key)}"
     check = _KEYS.get(key)
     if check is None:
-        near = get_close_matches(key.replace("-", "_"), _KEYS, n=1)
+        near = get_close_matches(key[:_LONGEST_KEY].replace("-", "_"), _KEYS, n=1)
         hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(_KEYS)}"
         raise InputError(f"{where}: there is no setting {key!r}; {hint}")
     try:
@@ -95,6 +75,8 @@ def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: AN
 
 def _line_of(text: str, key: str) -> str:
     """The end of "FILE, line 3" for the line that seems to set the key or begin its table; empty where none does."""
+    if len(key) > _LONGEST_KEY:
+        return ""
     quoted = rf"""["']?{re.escape(key)}["']?"""
     begins = re.compile(rf"\s*(?:{quoted}\s*[=.]|\[+\s*{quoted}\s*[].])")
     for number, line in enumerate(text.splitlines(), start=1):

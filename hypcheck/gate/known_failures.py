@@ -17,14 +17,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.record import Record
 from hypcheck.tables.streams import writing
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 _KEYS = ("case", "family", "max_u", "reason")
 
@@ -51,13 +47,9 @@ class KnownFailure:
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
     """The entries of a file. Raises InputError naming file, entry and what would be right."""
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is not UTF-8 text: {error.reason} at byte {error.start}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: is no TOML: {error}") from None
+        content = toml.parsed(toml.text_of(str(path)), str(path))
+    except FileNotFoundError:
+        raise InputError(f"{path}: cannot be read: there is no such file") from None
     unknown = [key for key in content if key != "known_failure"]
     entries = content.get("known_failure", [])
     if unknown or not isinstance(entries, list):
@@ -79,9 +71,13 @@ def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOM
     if not isinstance(reason, str) or not reason.strip():
         raise InputError(f"{where} has no reason; each entry must say why it is known")
     max_u = item.get("max_u", float("inf"))
-    if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not max_u >= 0:
+    if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not 0 <= max_u or _overflows(max_u):
         raise InputError(f"{where} has max_u = {max_u!r}; it must be a number of units u, 0 or more")
     return KnownFailure(case, family, float(max_u), reason)
+
+
+def _overflows(number: float) -> bool:
+    return isinstance(number, int) and number > sys.float_info.max
 
 
 def render(entries: Iterable[KnownFailure]) -> str:

@@ -55,4 +55,7 @@ def _setting(value: object, where: str) -> FixedSizes:
         if trouble is not None:
             raise InputError(f"{where}'s sizes: {trouble}")
     spans = {key: two_numbers(value[key], f"{where}'s {key}") for key in CENTER if key in value}
+    for key, (low, high) in spans.items():
+        if not low <= high:
+            raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
     return FixedSizes((alpha, gamma, b, d), **spans)

@@ -12,11 +12,15 @@ from hypcheck.rows import Rows
 LARGEST = 65_536
 """Rows of a question."""
 
-REQUEST = struct.Struct("=4sIQ")
-"""What is asked, the number of rows, and how often to repeat; then the rows."""
+REQUEST = struct.Struct("=4sIQQ")
+"""What is asked, the number of rows, how often to repeat, and a mark that nobody can guess; then the rows."""
 
-REPLY = struct.Struct("=4sIQ")
-"""What it is, the bytes that an answer takes (1 or 8), and the bytes that follow."""
+REPLY = struct.Struct("=4sIQQ")
+"""What it is, the bytes that an answer takes (1 or 8), the bytes that follow, and the mark of the request.
+
+Without the mark, what foreign code wrote into our pipe would be taken for a reply, and the reply for that to the next
+question. The first reply, which comes unasked, has the mark 0.
+"""
 
 CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE = b"clas", b"scen", b"time", b"tims"
 READY, ANSWERS, TIMED, ERROR, PROTOCOL = b"here", b"answ", b"took", b"erro", b"prot"
@@ -30,7 +34,7 @@ UNWRITTEN = -86
 
 def row_bytes(rows: Rows) -> memoryview:
     """Rows (n, 7) as little-endian bytes, not copied where they already are."""
-    return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
+    return np.ascontiguousarray(rows, dtype="<f8").data.cast("B")
 
 
 def integers(data: bytes | bytearray | memoryview, width: int) -> NDArray[np.signedinteger]:

@@ -37,6 +37,7 @@ class Line:
         os.dup2(2, 1)
         os.close(nothing)
         sys.stdout = open(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)  # noqa: SIM115
+        self._mark = 0
         self._room = room_at(0, frames.LARGEST * 56 + 56).data
 
     def request(self, count: int) -> tuple[bytes, int, Rows] | None:
@@ -47,7 +48,7 @@ class Line:
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
             return None
-        asked, n, repeat = frames.REQUEST.unpack(head)
+        asked, n, repeat, self._mark = frames.REQUEST.unpack(head)
         shift = 8 * (count % 8)
         body = self._room[shift : shift + n * 56]
         if not self._fill(body):
@@ -64,7 +65,7 @@ class Line:
 
     def reply(self, what: bytes, body: bytes | memoryview, width: int = 1) -> None:
         """Answer."""
-        head = frames.REPLY.pack(what, width, len(body))
+        head = frames.REPLY.pack(what, width, len(body), self._mark)
         for part in (memoryview(head), memoryview(body)):
             rest = part
             while rest:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import sys
 import time
 from pathlib import Path
@@ -10,13 +11,14 @@ from pathlib import Path
 from hypcheck.errors import InputError
 from hypcheck.methods import frames
 from hypcheck.methods.description import LONGEST, Description, described_by_json
-from hypcheck.methods.evidence import last_words, quoted
+from hypcheck.methods.evidence import WIDTH, last_words, quoted
 from hypcheck.methods.faults import FaultError, Outcome, StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.process import Process
 from hypcheck.methods.session import Answers
 from hypcheck.methods.spec import Spec
 from hypcheck.rows import Rows
+from hypcheck.visible import visible
 
 _PROGRAM = """\
 import sys
@@ -65,7 +67,7 @@ class WorkerSession:
             self._process.kill()
             raise StartError(f"{reason}{self.evidence}") from None
         if what != frames.READY:
-            raise StartError(body.decode())
+            raise StartError(_text(body))
         self.scene = body[:1] == b"1"
         name = os.path.basename(spec.words[0]) + "".join(f":{word}" for word in spec.words[1:])
         defaults = Description(name=name, language=_LANGUAGES[spec.kind], binary=True, time=True)
@@ -85,26 +87,29 @@ class WorkerSession:
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int]:
         """Nanoseconds for `repeat` times the rows and the sum of the answers."""
         _, body = self._ask(frames.TIME_SCENE if by_scene else frames.TIME, rows, repeat, frames.TIMED)
+        if len(body) != frames.TIMES.size:
+            raise _broken(f"{len(body)} bytes of times")
         nanoseconds, total = frames.TIMES.unpack(body)
         return nanoseconds, total
 
     def _ask(self, asked: bytes, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
-        self._process.send((frames.REQUEST.pack(asked, len(rows), repeat), frames.row_bytes(rows)))
-        what, width, body = self._reply(self._limits.timeout)
+        mark = secrets.randbits(64)
+        self._process.send((frames.REQUEST.pack(asked, len(rows), repeat, mark), frames.row_bytes(rows)))
+        what, width, body = self._reply(self._limits.timeout, mark)
         if what == expected:
             return width, body
         outcome = {frames.ERROR: Outcome.ERROR, frames.PROTOCOL: Outcome.PROTOCOL}.get(what)
         if outcome is None:
             raise _broken(quoted(what))
-        raise FaultError(outcome, body.decode(), fatal=False)
+        raise FaultError(outcome, _text(body), fatal=False)
 
-    def _reply(self, seconds: float) -> tuple[bytes, int, bytearray]:
+    def _reply(self, seconds: float, mark: int = 0) -> tuple[bytes, int, bytearray]:
         until = time.monotonic() + seconds
         self._await(frames.REPLY.size, until, seconds)
         incoming = self._process.incoming
-        what, width, size = frames.REPLY.unpack_from(incoming)
-        if width not in {1, 8} or size > max(8 * frames.LARGEST, 2 * LONGEST):
+        what, width, size, marked = frames.REPLY.unpack_from(incoming)
+        if marked != mark or width not in {1, 8} or size > max(8 * frames.LARGEST, 2 * LONGEST):
             raise _broken(quoted(incoming))
         self._await(frames.REPLY.size + size, until, seconds)
         body = incoming[frames.REPLY.size : frames.REPLY.size + size]
@@ -134,6 +139,11 @@ class WorkerSession:
     def kill(self) -> None:
         """End it now."""
         self._process.kill()
+
+
+def _text(body: bytes | bytearray) -> str:
+    """What the worker says, which foreign code may have written in its place."""
+    return visible(body.decode("utf-8", "replace"), WIDTH) or "(without a text)"
 
 
 def _broken(shown: str) -> FaultError:

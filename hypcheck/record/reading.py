@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from hypcheck.record.model import Record
@@ -14,7 +15,7 @@ FILE = "record.jsonl"
 
 def file_of(path: Path) -> Path:
     """The file of a record, which may be named by the folder of its run."""
-    return path / FILE if path.is_dir() else path
+    return path / FILE if os.path.isdir(path) else path  # is_dir() raises where a name is too long
 
 
 def read(path: Path) -> Record:

@@ -59,7 +59,7 @@ def _version_of(header: Line) -> tuple[str | None, int]:
 class DamagedError(InputError):
     """A record that is not as it was written. `at` is the byte, from 0, where the first line begins that is not."""
 
-    def __init__(self, sentence: str, at: int) -> None:
+    def __init__(self, sentence: str, at: int = 0) -> None:
         super().__init__(sentence)
         self.at = at
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hypcheck.casebook.families import parse_case_id
 from hypcheck.casebook.family import BLOCK
+from hypcheck.casebook.fixed_sizes import MARK
 from hypcheck.casebook.frozen import refusals
 from hypcheck.casebook.frozen.showing import refusal_of, vector_of
 from hypcheck.errors import InputError
@@ -43,8 +44,8 @@ def case_of(text: str) -> Case:
     """
     recorded = _RECORDED.fullmatch(text)
     if recorded is not None:
-        return _from_record(Path(recorded[1]), int(recorded[2]))
-    if "," in text:
+        return _from_record(Path(recorded[1]), int(recorded[2][:19]))
+    if "," in text and MARK not in text:  # the names of families for given sizes have commas
         return Case("the given row", _given(text))
     if "/" in text:
         case = parse_case_id(text)

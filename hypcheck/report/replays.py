@@ -40,12 +40,19 @@ class Replays:
         return shlex.join(["hypcheck", "replay", str(case["case"]), str(group["spec"]), *self.options])
 
 
+def tolerance_of(options: Mapping[str, Any]) -> float | None:
+    """The tolerance of a run in units u, None where its options, of which the schema says nothing, have no number."""
+    tolerance = options.get("tolerance")
+    return float(tolerance) if isinstance(tolerance, (int, float)) else None
+
+
 def _options(options: Mapping[str, Any]) -> list[str]:
     """Options of the run that are not the usual ones and change what a replay shows."""
     said = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
-    tolerance = options.get("tolerance")
-    if tolerance is not None and float(tolerance) != DEFAULT_TOLERANCE:
-        said.append(f"--tolerance={float(tolerance):g}")
-    limits, usual = options.get("limits") or {}, Limits()
+    tolerance = tolerance_of(options)
+    if tolerance is not None and tolerance != DEFAULT_TOLERANCE:
+        said.append(f"--tolerance={tolerance:g}")
+    limits, usual = options.get("limits"), Limits()
+    limits = limits if isinstance(limits, dict) else {}
     unusual = [name for name in _LIMITS if name in limits and limits[name] != getattr(usual, name)]
     return said + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual]

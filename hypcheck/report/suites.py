@@ -28,6 +28,9 @@ from hypcheck.report.suite import Case, Suite, Trouble, details
 from hypcheck.report.text import classify_command, counted, figure, from_hex
 from hypcheck.report.verdict import UNFINISHED, failures, verdict
 
+_EVER = 1e15
+"""Milliseconds that no run takes; what a record says beyond it is no time."""
+
 
 def suites(record: Record) -> Iterator[Suite]:
     """The suites of a record, some of them empty."""
@@ -91,7 +94,7 @@ def _named_apart(cases: Iterable[Case]) -> Iterator[Case]:
 def _oracle(line: Line, failed: list[Failure]) -> Case:
     stages = ", ".join(f"{stage} {number:,}" for stage, number in line["stages"].items())
     output = (f"{counted(line['asked'], 'case')}, {line['undecided']:,} undecided: {stages}",)
-    milliseconds = round(1000 * line["seconds"])
+    milliseconds = round(min(1000 * line["seconds"], _EVER))
     place = ("oracle", line["oracle"], line["family"])
     mine = [each for each in failed if (each.subject, each.name, each.group) == place]
     if mine:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS
 
 
@@ -33,8 +34,11 @@ def figure(value: float) -> str:
 
 
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
-    """The seven numbers of a row as a record keeps it."""
-    return tuple(float.fromhex(value) for value in row)
+    """The seven numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
+    try:
+        return tuple(float.fromhex(value) for value in row)
+    except OverflowError:
+        raise InputError(f"the record has a number that is too large for float64 in the row {', '.join(row)}") from None
 
 
 def short_row(row: Sequence[float]) -> str:

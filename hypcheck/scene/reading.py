@@ -5,25 +5,16 @@ docs/scenes.md explains the keys; schemas/scene-1.0.0.json has them for editors 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from fractions import Fraction
 from importlib import resources
-from typing import Any
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.scene import tables
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Part, Region, Scene
 from hypcheck.scene.moving import flight_of, walk_of
 from hypcheck.scene.tables import Source, Table
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-LARGEST_FILE = 64 << 20
-"""Bytes: half a million trees, one a line."""
 
 SUFFIX = ".toml"
 
@@ -53,7 +44,7 @@ def shipped_text(name: str) -> str:
 def parse_scene(text: str, source: str = "the scene") -> Scene:
     """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
     try:
-        return _scene(Table(Source(source, text), (), "the scene", _parsed(text, source), _SCENE))
+        return _scene(Table(Source(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
     except RecursionError:
         raise InputError(f"{source}: is no TOML that can be read: it is nested too deeply") from None
 
@@ -70,38 +61,11 @@ def _file(name: str) -> tuple[str, str]:
     if not name.endswith(SUFFIX) and name in shipped_scenes():
         return shipped_text(name), f"the shipped scene {name}"
     try:
-        with open(name, "rb") as file:
-            content = file.read(LARGEST_FILE + 1)
+        return toml.text_of(name), name
     except FileNotFoundError:
         raise InputError(
             f"{name}: there is no such file; it must be one, or a shipped scene: {', '.join(shipped_scenes())}"
         ) from None
-    except OSError as error:
-        raise InputError(f"{name}: cannot be read: {(error.strerror or str(error)).lower()}") from None
-    except ValueError as error:  # a NUL in the name
-        raise InputError(f"{name}: cannot be read: {error}") from None
-    if len(content) > LARGEST_FILE:
-        raise InputError(f"{name}: has more than {LARGEST_FILE >> 20} MiB; a scene must be smaller")
-    return _decoded(content, name), name
-
-
-def _decoded(content: bytes, name: str) -> str:
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise InputError(
-            f"{name}, line {line}: is not UTF-8 text: {error.reason} at byte {error.start}; save it as UTF-8"
-        ) from None
-
-
-def _parsed(text: str, source: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{source}: is no TOML: {error}") from None
-    except ValueError:  # Python reads no integer of more than some thousand digits
-        raise InputError(f"{source}: has an integer with too many digits; a number must fit into float64") from None
 
 
 def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:

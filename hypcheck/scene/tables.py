@@ -50,7 +50,7 @@ class Table:
         self._content: dict[str, Any] = content
         for key in content:
             if key not in keys:
-                near = get_close_matches(key.replace("-", "_").lower(), keys, n=1)
+                near = get_close_matches(key[:_LONGEST].replace("-", "_").lower(), keys, n=1)
                 hint = f"did you mean {near[0]}?" if near else f"it may have {_listed(keys)}"
                 self.refuse(f"{title} has the key {shown(key)}, which is not known; {hint}", key)
 

@@ -6,17 +6,12 @@ fail it.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib import resources
 
+from hypcheck import toml
 from hypcheck.verify.findings import Mathematical
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 FILE = "known_findings.toml"
 
@@ -34,7 +29,7 @@ class Known:
 def known_findings() -> tuple[Known, ...]:
     """The shipped list."""
     text = resources.files("hypcheck.verify").joinpath(FILE).read_text(encoding="utf-8")
-    entries = tomllib.loads(text)["finding"]
+    entries = toml.parsed(text, FILE)["finding"]
     return tuple(Known(each["formula"], each["cause"], tuple(each["families"]), each["reason"]) for each in entries)
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 
 from hypcheck.tables.numbers import Literal
 
 _ZEROS = re.compile(r"\.?0+(?=p)")
 _RATIONAL = re.compile(r"(-?)(0|[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
+_LONGEST = 100_000
+"""Characters of a rational. Shipped ones have 1,236 at most; reading takes a time that grows with the square."""
 _PLACES = 4000
 _SHIFT: int = 10**_PLACES
 """Python turns no text of more than 4300 digits into an integer by itself, so a longer one goes by pieces."""
@@ -36,11 +38,16 @@ def is_shortest(number: float | int) -> bool:
         value = float(text)
     except OverflowError:
         return False
-    return math.isfinite(value) and Decimal(text) == Decimal(repr(value))
+    try:
+        return math.isfinite(value) and Decimal(text) == Decimal(repr(value))
+    except InvalidOperation:  # of a zero, or what rounds to it, with an exponent that even Decimal cannot hold
+        return False
 
 
 def rational_of(text: str) -> Fraction:
     """The rational that `text` writes as "p" or "p/q" in lowest terms. Raises ValueError for any other text."""
+    if len(text) > _LONGEST:
+        raise ValueError(f"must have at most {_LONGEST} digits")
     match = _RATIONAL.fullmatch(text)
     if match is None:
         raise ValueError("must be an integer or p/q, such as -3/4")

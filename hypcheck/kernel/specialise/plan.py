@@ -92,7 +92,7 @@ class Plan:
 
 
 def plan_of(scene: Scene, precision: str = "float64") -> Plan:
-    """The plan for a scene's own question. Raises InputError for another format and for too many sizes."""
+    """The plan for a scene's own question. Raises InputError for another format, too many or too extreme sizes."""
     form = format_of(precision)
     settings = settings_of(scene)
     if len(settings) > MOST_SETTINGS:
@@ -100,7 +100,10 @@ def plan_of(scene: Scene, precision: str = "float64") -> Plan:
             f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {MOST_SETTINGS} "
             "(hypcheck.Scene asks any number)"
         )
-    found = tuple(_stages(setting, scene.question, form) for setting in settings)
+    try:
+        found = tuple(_stages(setting, scene.question, form) for setting in settings)
+    except OverflowError as error:
+        raise InputError(f"no kernel is made for the scene's sizes: {error} (hypcheck.Scene asks any)") from None
     return Plan(scene, scene.question, form, found)
 
 

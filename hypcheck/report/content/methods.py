@@ -21,6 +21,7 @@ from hypcheck.report.content.blocks import (
     table,
 )
 from hypcheck.report.digest import Implementation, implementations, worst_error_u
+from hypcheck.report.replays import tolerance_of
 from hypcheck.report.text import counted, figure
 
 NOTHING = "·"
@@ -55,8 +56,8 @@ def _exact(methods: Sequence[Implementation]) -> Section:
 
 
 def _introduction(record: Record, methods: Sequence[Implementation]) -> Section:
-    tolerance = record.header["options"].get("tolerance")
-    limit = f"at most {figure(float(tolerance))} u" if tolerance is not None else "at most the run's tolerance"
+    tolerance = tolerance_of(record.header["options"])
+    limit = f"at most {figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
     said = (
         prose(
             "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The"

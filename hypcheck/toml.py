@@ -1,0 +1,62 @@
+"""TOML that people write, as text of a bounded length; whatever is wrong with a file is one sentence."""
+
+from __future__ import annotations
+
+import re
+import sys
+from typing import Any
+
+from hypcheck.errors import InputError
+
+LARGEST = 64 << 20
+"""Bytes of a file: half a million trees of a scene, one a line."""
+
+
+def text_of(path: str) -> str:
+    """The text of a file, without a byte order mark. Raises FileNotFoundError, and InputError for all else."""
+    try:
+        with open(path, "rb") as file:
+            content = file.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {(error.strerror or str(error)).lower()}") from None
+    except ValueError as error:  # a NUL in the name
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    if len(content) > LARGEST:
+        raise InputError(f"{path}: has more than {LARGEST >> 20} MiB; it must be smaller")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            f"{path}, line {line}: is not UTF-8 text: {error.reason} at byte {error.start}; save it as UTF-8"
+        ) from None
+
+
+_LONG_INTEGER = re.compile(r"0[xob][0-9A-Fa-f_]{400}")
+_TOO_LONG = "has an integer with too many digits; a number must fit into float64"
+
+MOST_DOTS = 1000
+"""Dots of a line: the parser's time grows with the square of the parts of a key, a.b.c, which is on one line."""
+
+
+def parsed(text: str, name: str) -> dict[str, Any]:
+    """What a text says; `name` is that of its file. Raises InputError."""
+    if _LONG_INTEGER.search(text):  # which would be read, and then not be shown in any message
+        raise InputError(f"{name}: {_TOO_LONG}")
+    for number, line in enumerate(text.split("\n"), start=1):
+        if line.count(".") > MOST_DOTS:
+            raise InputError(f"{name}, line {number}: has more than {MOST_DOTS} dots; a key or value must be shorter")
+    if sys.version_info >= (3, 11):
+        import tomllib  # noqa: PLC0415 - not loaded where there is no file
+    else:
+        import tomli as tomllib  # noqa: PLC0415
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{name}: is no TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{name}: is no TOML that can be read: it is nested too deeply") from None
+    except ValueError:  # Python reads no integer of more than some thousand digits
+        raise InputError(f"{name}: {_TOO_LONG}") from None

@@ -1,0 +1,136 @@
+"""Files as their readers read them: what is read must hold together, and be written again where it can be."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Callable
+from random import Random
+
+from hypcheck.casebook.frozen.examining import examine
+from hypcheck.casebook.frozen.reading import read_vectors
+from hypcheck.casebook.frozen.refusals import read_refusals
+from hypcheck.classification.table import classify_table
+from hypcheck.cli.plan import planned
+from hypcheck.cli.settings import read_settings
+from hypcheck.gate.known_failures import read_known_failures, render
+from hypcheck.kernel.emission.kernel import emitted
+from hypcheck.kernel.emission.telling import plan_as_json, plan_lines
+from hypcheck.record import read
+from hypcheck.record.repairing import check, repair
+from hypcheck.replay.recorded import recorded_cases
+from hypcheck.report import github
+from hypcheck.report.reading import notes, read_checked
+from hypcheck.report.write import REPORTS
+from hypcheck.scene.reading import read_scene
+from hypcheck.tables.route import Route
+from tests.fuzz.judging import require_sentence
+from tests.fuzz.workplace import folder, kept
+from tests.records import resealed
+
+LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
+
+
+def vectors(data: bytes) -> None:
+    """A file of cases."""
+    file = read_vectors(str(kept(data, "cases.json")))
+    assert len(file.rows) == len(file.positions)
+
+
+def refusals(data: bytes) -> None:
+    """A file of rows that must be refused."""
+    file = read_refusals(str(kept(data, "cases.json")))
+    assert len(file.rows) == len(file.cases)
+
+
+def proofs(data: bytes) -> None:
+    """A file of cases whose every label is put to the proof."""
+    for report in examine([str(kept(data, "cases.json"))]):
+        for fault in report.faults:
+            require_sentence(fault.sentence)
+
+
+def record(data: bytes) -> None:
+    """A record; what can be read needs no repair."""
+    path, saved = kept(data, "record.jsonl"), folder() / "saved.jsonl"
+    found = read(path)
+    recorded_cases(found)
+    repair(path, saved)
+    assert read(saved) == found
+    assert check(saved).lost_bytes == 0
+
+
+def repaired(data: bytes) -> None:
+    """A record that is repaired; what comes of it can be read."""
+    saved = folder() / "saved.jsonl"
+    repair(kept(data, "record.jsonl"), saved)
+    read(saved)
+
+
+def reports(data: bytes) -> None:
+    """A record of which every report in text is made."""
+    found = read_checked(kept(data, "record.jsonl"))
+    notes(found)
+    for name in ("terminal", "json", "markdown", "junit"):
+        REPORTS[name].render(found)
+    github.error_lines(found)
+
+
+def page(data: bytes) -> None:
+    """A record of which the page with plots is made."""
+    REPORTS["html"].render(read_checked(kept(data, "record.jsonl")))
+
+
+def with_checksums(data: bytes, random: Random) -> bytes:
+    """Half of the records with checksums that fit what they say, so that what stands behind those is reached."""
+    if random.random() < 0.5:
+        return data
+    lines = []
+    for text in data.split(b"\n")[:200]:
+        with contextlib.suppress(ValueError, RecursionError):
+            line = json.loads(text)
+            if isinstance(line, dict):
+                lines.append(line)
+    if lines and lines[-1].get("type") == "footer" and random.random() < 0.9:
+        lines[-1]["lines"] = len(lines)
+    try:
+        return resealed(lines)
+    except (ValueError, RecursionError):
+        return data
+
+
+def scene(data: bytes) -> None:
+    """A scene."""
+    read_scene(str(kept(data, "scene.toml")))
+
+
+def plan(data: bytes) -> None:
+    """A scene that is planned, told and emitted."""
+    found = planned(str(kept(data, "scene.toml")), "float32" if len(data) % 2 else "float64", None)
+    json.dumps(plan_as_json(found), allow_nan=False)
+    list(plan_lines(found))
+    emitted(found, LANGUAGES[len(data) % len(LANGUAGES)], ["hypcheck", "emit"])
+
+
+def known_failures(data: bytes) -> None:
+    """Known failures; as they are written they are read again."""
+    entries = read_known_failures(kept(data, "known.toml"))
+    assert read_known_failures(kept(render(entries).encode(), "again.toml")) == entries
+
+
+def settings(data: bytes) -> None:
+    """A project's settings."""
+    found = read_settings(kept(data, "hypcheck.toml"))
+    assert found is not None
+    assert found.default_map
+
+
+def table(kind: str) -> Callable[[bytes], None]:
+    """A table that is classified, invalid rows refused or marked."""
+
+    def classified(data: bytes) -> None:
+        source, target = kept(data, f"table.{kind}"), folder() / f"answers.{kind}"
+        classify_table(Route(str(source), kind, str(target), kind), mark=len(data) % 2 == 0)
+        target.unlink()
+
+    return classified

@@ -1,0 +1,48 @@
+"""TOML that people write: read as it is, or refused in one sentence, whatever its size and depth."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck import toml
+from hypcheck.errors import InputError
+
+
+def test_a_byte_order_mark_is_left_aside(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_bytes(b"\xef\xbb\xbfa = 1\r\n")
+    assert toml.parsed(toml.text_of(str(path)), "a.toml") == {"a": 1}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a = ", "a.toml: is no TOML: Invalid value"),
+        ("a = " + "[" * 5000, "a.toml: is no TOML that can be read: it is nested too deeply"),
+        ("a = " + "9" * 5000, "a.toml: has an integer with too many digits"),
+        ("a = 0x" + "f" * 5000, "a.toml: has an integer with too many digits"),
+        ("\n\na" + ".a" * 5000 + " = 1", "a.toml, line 3: has more than 1000 dots"),
+        ("a = '\x1b'", r"a.toml: is no TOML: .* character '\\x1b'"),
+    ],
+)
+def test_what_is_none_is_one_sentence(text, message):
+    with pytest.raises(InputError, match=message):
+        toml.parsed(text, "a.toml")
+
+
+def test_what_cannot_be_read_is_one_sentence(tmp_path):
+    large, other = tmp_path / "large.toml", tmp_path / "other.toml"
+    with large.open("wb") as file:
+        file.truncate(toml.LARGEST + 1)
+    other.write_bytes(b"a = 1\nb = '\xff'\n")
+    for path, message in (
+        (large, "has more than 64 MiB"),
+        (other, r"line 2: is not UTF-8 text: invalid start byte at byte 11"),
+        (tmp_path, "cannot be read: is a directory"),
+        (tmp_path / "a\0b", "cannot be read: embedded null byte"),
+        (tmp_path / ("a" * 5000), "cannot be read: file name too long"),
+    ):
+        with pytest.raises(InputError, match=message):
+            toml.text_of(str(path))
+    with pytest.raises(FileNotFoundError):
+        toml.text_of(str(tmp_path / "none.toml"))
