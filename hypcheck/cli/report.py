@@ -51,7 +51,7 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
     else:
         if any(same_file(str(out), str(each)) for each in (record, against) if each is not None):
             raise InputError(f"--out {out} is a record that is being read; name another file")
-        _into_file(found, out, target, other)
+        _into_file(found, record, out, target, other)
 
 
 def _refuse_silence(wanted: Sequence[str], against: Path | None) -> None:
@@ -68,7 +68,8 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
     if wanted:
         return wanted[0]
     fitting = [name for name, each in REPORTS.items() if Path(each.file).suffix == out.suffix]
-    named = [name for name in fitting if REPORTS[name].file == out.name]
+    usual = [name for name in fitting if name in kept()]
+    named = [name for name in fitting if REPORTS[name].file == out.name] or usual
     if len(named or fitting) != 1:
         raise InputError(f"--out {out}: its name does not tell which report it is; say --format {', '.join(REPORTS)}")
     return (named or fitting)[0]
@@ -97,13 +98,21 @@ def _print(record: Record, name: str, against: Record | None) -> None:
         file.write(content)
 
 
-def _into_file(record: Record, out: Path, name: str, against: Record | None) -> None:
+def _into_file(record: Record, source: Path, out: Path, name: str, against: Record | None) -> None:
     from hypcheck.report.write import Around
 
-    content = REPORTS[name].render(record, Around(against=against))
+    content = REPORTS[name].render(record, Around(_beside(source, out), against))
     with writing(str(out)) as file:
         file.write(content)
     click.echo(f"{name}: {out}")
+
+
+def _beside(source: Path, out: Path) -> list[str]:
+    """The pictures of the same run: those in the record's own folder, where the report goes there too."""
+    folder = source if source.is_dir() else source.parent
+    if folder.resolve() != out.parent.resolve():
+        return []
+    return [each.file for each in REPORTS.values() if (folder / each.file).is_file()]
 
 
 def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Record | None) -> None:

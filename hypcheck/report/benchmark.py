@@ -8,9 +8,12 @@ from hypcheck.pairs import Position
 from hypcheck.record import Line, Record
 from hypcheck.report.failure import Failure
 from hypcheck.report.measured import Measured, measured
-from hypcheck.report.text import classify_command, counted, figure, from_hex, listed
+from hypcheck.report.text import classify_command, counted, figure, from_hex, listed, with_interval
 
 SUBJECT = "measurement"
+
+SLOWER, INCONCLUSIVE = "slower", "inconclusive"
+"""Kinds of failures of speed: for certain, and as far as the noise lets tell."""
 
 
 def failures(record: Record) -> Iterator[Failure]:
@@ -21,10 +24,8 @@ def failures(record: Record) -> Iterator[Failure]:
     for line in record.of("refused"):
         group = f"{line['workload']}, {line['mode']}"
         yield Failure(SUBJECT, line["method"], group, "refused", f"{line['method']} is not timed: {line['reason']}")
-    for verdict in ("slower", "inconclusive"):
-        for line in record.of("comparison"):
-            if line["verdict"] == verdict and line.get("gates", True):
-                yield _compared(line)
+    held = [*_compared(record), *_targets(record), *_claims(record)]
+    yield from sorted(held, key=lambda each: each.kind != SLOWER)
 
 
 def _broken(each: Measured) -> Iterator[Failure]:
@@ -46,12 +47,35 @@ def _of(line: Line) -> str:
     return f"of {counted(line['asked'], 'answer')} {listed(parts)}"
 
 
-def _compared(line: Line) -> Failure:
-    change, allowed = figure(line["change"]), figure(line["allowed"])
-    interval = "" if line["ci95"] is None else f" ({' to '.join(figure(each) for each in line['ci95'])})"
-    words = "is slower than the baseline allows" if line["verdict"] == "slower" else "was too noisy to compare"
-    message = f"{line['method']} {words}: {change} times its former ratio{interval}, allowed {allowed}"
-    return Failure(SUBJECT, line["method"], f"{line['workload']}, {line['mode']}", line["verdict"], message)
+def _compared(record: Record) -> Iterator[Failure]:
+    """Speeds that were held to an earlier run's."""
+    for line in record.of("comparison"):
+        if line["verdict"] in (SLOWER, INCONCLUSIVE) and line.get("gates", True):
+            words = "is slower than the baseline allows" if line["verdict"] == SLOWER else "was too noisy to compare"
+            change = with_interval(line["change"], line["ci95"])
+            message = f"{line['method']} {words}: {change} times its former ratio, allowed {figure(line['allowed'])}"
+            yield Failure(SUBJECT, line["method"], f"{line['workload']}, {line['mode']}", line["verdict"], message)
+
+
+def _targets(record: Record) -> Iterator[Failure]:
+    """Kernels that miss their targets, for certain or as far as the noise lets tell."""
+    for line in record.of("kernel"):
+        if not line["met"]:
+            low, high = line["ci95"] or (line["measured"], line["measured"])
+            kind = INCONCLUSIVE if low <= line["wanted"] <= high else SLOWER
+            measured_ = with_interval(line["measured"], line["ci95"])
+            message = (
+                f"{line['name']} misses its target, {line['target']}: {measured_}, wanted {figure(line['wanted'])}"
+            )
+            yield Failure(SUBJECT, line["name"], "target", kind, message)
+
+
+def _claims(record: Record) -> Iterator[Failure]:
+    """Claims of cost of which the run was too noisy to tell whether they hold."""
+    for line in record.of("cost"):
+        if line["verdict"] == INCONCLUSIVE:
+            message = f"too noisy to tell whether this holds, {line['scene']}: {line['claim']}"
+            yield Failure(SUBJECT, "claim of cost", line["scene"], INCONCLUSIVE, message)
 
 
 def clauses(record: Record) -> Iterator[str]:

@@ -67,7 +67,7 @@ class Choice:
 def choice(record: Record) -> Choice:
     """What the record advises; nothing where it has no times. Of needs that lead to the same the strictest is told."""
     timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
-    advice: dict[object, Advice] = {}
+    advice: list[Advice] = []
     unmet: list[Need] = []
     if not timed:
         return Choice((), ())
@@ -77,9 +77,26 @@ def choice(record: Record) -> Choice:
             unmet.append(need)
             continue
         errs = [name for name, line in found[0].accuracy.items() if float(line["reliable_above"]) > need.distance]
-        key = (need.where, need.asked, found[0].name, *errs) if need.what.startswith(BEYOND) else need
-        advice.setdefault(key, Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs)))
-    return Choice(tuple(advice.values()), tuple(unmet))
+        new = Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs))
+        if not any(_covers(old, new) for old in advice):
+            advice.append(new)
+    return Choice(tuple(advice), tuple(unmet))
+
+
+def _covers(old: Advice, new: Advice) -> bool:
+    """Whether the same method was advised for a stricter need, so that the new one goes without saying."""
+    asked, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
+    stricter = old.need.distance <= new.need.distance and asked in _COVERED and where in _COVERED
+    wider = not old.errs or (old.errs, *where) == (new.errs, EVERYDAY, EVERYDAY)
+    return old.use is new.use and old.need.mode == new.need.mode and stricter and wider
+
+
+_COVERED = (
+    *((each, each) for each in (EVERYWHERE, EVERYDAY, POSITION, CLEAR)),
+    (EVERYWHERE, EVERYDAY),
+    (POSITION, CLEAR),
+)
+"""Who is advised for the first needs no advice for the second."""
 
 
 def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Need, list[Measured]]]:

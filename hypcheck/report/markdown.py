@@ -22,7 +22,7 @@ from hypcheck.report.content.blocks import (
     Text,
     bounded,
 )
-from hypcheck.report.content.report import content
+from hypcheck.report.content.report import Content, content
 
 if TYPE_CHECKING:
     from hypcheck.report.write import Around
@@ -31,7 +31,11 @@ if TYPE_CHECKING:
 def render(record: Record, around: Around | None = None) -> bytes:
     """The report in UTF-8, which refers to the pictures among the files beside it."""
     beside = around.beside if around else ()
-    whole = content(record, around.against if around else None)
+    return page(content(record, around.against if around else None), beside)
+
+
+def page(whole: Content, beside: Collection[str]) -> bytes:
+    """A content in UTF-8; `beside` are the names of the files beside it."""
     lines = [f"# {text(whole.title)}", "", f"**{text(whole.verdict.sentence)}**", ""]
     for section in (section for section in whole.sections if not section.page):
         lines += _section(section, beside)

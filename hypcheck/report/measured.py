@@ -10,11 +10,14 @@ from hypcheck.record import Line, Record
 
 BATCH, SINGLE, BUILD = "batch", "single", "build"
 
+LEAST_NS = 0.01
+"""What a benchmark writes for a time of which nothing was left when the empty call was taken off: it is not known."""
+
 TIERS = ("C", "numpy", "python", "FCL", "foreign")
 """What methods are written in, the fastest first; only those of one tier compare as algorithms."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Measured:
     """A method and its lines: of its errors by workload, of its times by workload and mode, of its memory."""
 
@@ -52,7 +55,12 @@ class Measured:
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:
         """Its time by that of the reference method; None where it was not timed or not compared."""
         line = self.speed.get((workload, mode))
-        return None if line is None or line["ratio"] is None else float(line["ratio"])
+        return None if line is None or line["ratio"] is None or lost(line) else float(line["ratio"])
+
+
+def lost(line: Line) -> bool:
+    """Whether a line of kind speed has no time: the call itself took as long as an empty one."""
+    return float(line["median_ns"]) <= LEAST_NS
 
 
 def measured(record: Record) -> list[Measured]:

@@ -20,7 +20,8 @@ from hypcheck.report.changes import (
 )
 from hypcheck.report.choice import EVERYWHERE, POSITION, choice
 from hypcheck.report.claims import claims
-from hypcheck.report.digest import implementations, oracle_totals, timing_totals, under_test, worst_error_u
+from hypcheck.report.digest import timing_totals, under_test
+from hypcheck.report.facts import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.text import counted, figure, listed
 from hypcheck.report.verdict import failures, verdict
 from hypcheck.visible import shortened, visible
@@ -56,12 +57,13 @@ def summary_lines(
     found = [
         *_failures(record),
         *([] if against is None else _changes(record, against)),
-        *_oracles(record),
-        *_paper(record),
+        *_advice(record),
+        *oracle_facts(record),
+        *paper_facts(record),
         *_under_test(record),
-        *_methods(record),
+        *method_facts(record),
         *_timings(record),
-        *_benchmark(record),
+        *benchmark_facts(record),
     ]
     reports = list(_reports(written))
     lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
@@ -102,56 +104,10 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
         yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
 
 
-def _oracles(record: Record) -> Iterator[str]:
-    """One line for the oracles that were asked, one for those that could not be."""
-    totals = oracle_totals(record)
-    asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
-    if asked:
-        yield f"oracles in agreement: {', '.join(asked)}"
-    missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
-    if missing:
-        yield f"oracles not available: {'; '.join(missing)}"
-
-
-def _paper(record: Record) -> Iterator[str]:
-    """The paper's equations, the proofs and the mathematical findings."""
-    equations = record.of("equation")
-    if equations:
-        numbers: dict[str, list[str]] = {}
-        for line in equations:
-            numbers.setdefault(line["verdict"], []).append(f"({line['number']})")
-        holding = len(numbers.pop("holds", []))
-        wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
-        yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
-    proofs = record.of("proof")
-    if proofs:
-        yield f"proofs: {sum(line['holds'] for line in proofs)} of {len(proofs)} hold"
-    findings = record.of("finding")
-    if findings:
-        inside = [line["family"] for line in findings if line["inside"]]
-        named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
-        outside = len(findings) - len(inside)
-        yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
-
-
 def _under_test(record: Record) -> Iterator[str]:
     """What gated implementations say of themselves, and as what they were judged where that is something else."""
     for tested in under_test(record):
         yield from (f"{tested.name}: {claim}" for claim in claims(tested.line))
-
-
-def _methods(record: Record) -> Iterator[str]:
-    """For each precision how many methods err beyond the tolerance, and the one that does most."""
-    found = [each for each in implementations(record) if each.asked]
-    for precision in dict.fromkeys(each.precision for each in found if not each.exact):
-        methods = [each for each in found if each.precision == precision and not each.exact]
-        wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
-        worst = max(methods, key=lambda each: worst_error_u(each.worst))
-        error, case = worst_error_u(worst.worst), worst.worst["case"] if worst.worst else "none"
-        yield (
-            f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond the tolerance;"
-            f" farthest off: {worst.name}, {figure(error)} u at {case}"
-        )
 
 
 def _timings(record: Record) -> Iterator[str]:
@@ -160,20 +116,13 @@ def _timings(record: Record) -> Iterator[str]:
         yield f"ns a row: {', '.join(totals)}"
 
 
-def _benchmark(record: Record) -> Iterator[str]:
-    """What a benchmark advises, what it says of the paper's claims and of the kernels."""
+def _advice(record: Record) -> Iterator[str]:
+    """What a benchmark advises."""
     for each in choice(record).advice:
         ratio = each.use.ratio(each.workload, each.need.mode) or 0.0
         where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
         asked = "" if each.need.asked == POSITION else f", {each.need.asked}"
         yield f"{each.need.what}{where}{asked}: {each.use.name}, {figure(ratio)} times the reference's time"
-    for line in record.of("cost"):
-        yield f"claim {line['verdict']}: {line['claim']}"
-    kernels = record.of("kernel")
-    if kernels:
-        missed = [str(line["name"]) for line in kernels if not line["met"]]
-        named = f"; not met: {listed(missed)}" if missed else ""
-        yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
 
 
 def _reports(written: Sequence[Written]) -> Iterator[str]:

@@ -33,6 +33,11 @@ def figure(value: float) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
+def with_interval(value: float, interval: Sequence[float] | None) -> str:
+    """A value with the ends of its interval, where it has one: "1.2 (1.1 to 1.3)"."""
+    return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
+
+
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
     """The seven numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
     try:

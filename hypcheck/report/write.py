@@ -58,6 +58,7 @@ REPORTS = {
     "errors": Report("errors.svg", "pictures.errors", shows="accuracy"),
     "pareto": Report("pareto.svg", "pictures.pareto", shows="speed"),
     "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
+    "overview": Report("overview.md", "overview", kept=False),
     "html": Report("report.html", "html.page", compares=True),
 }
 """Every format by its name, in the order in which they are written."""

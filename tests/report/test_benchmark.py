@@ -76,6 +76,25 @@ def test_other_ends(body, code, sentence):
     assert said.sentence.startswith(sentence)
 
 
+@pytest.mark.parametrize(
+    ("kind", "changes", "failing"),
+    [
+        ("kernel", {"met": False, "measured": 0.5, "ci95": [0.4, 0.6]}, "slower"),
+        ("kernel", {"met": False, "measured": 0.75, "ci95": [0.6, 0.85]}, "inconclusive"),  # 0.8 was wanted
+        ("kernel", {"met": False, "ci95": None, "measured": 0.5}, "slower"),
+        ("cost", {"verdict": "inconclusive"}, "inconclusive"),
+    ],
+)
+def test_targets_and_claims(kind, changes, failing):
+    (failure,) = failures(bench_record(lines(kind, **changes), 4))
+    assert failure.kind == failing
+    assert ("certified, batch misses its target" if kind == "kernel" else "Procedure 2.b") in failure.message
+
+
+def test_a_claim_that_does_not_hold_is_a_finding_and_no_failure():
+    assert failures(bench_record(lines("cost", verdict="does not hold"))) == []
+
+
 def test_a_comparison_that_decides_nothing_fails_nothing():
     assert failures(bench_record(lines("comparison", verdict="slower", gates=False))) == []
 
@@ -84,7 +103,7 @@ def test_what_failed_is_named_everywhere():
     record = bench_record([*lines("comparison", verdict="slower", change=1.4), REFUSED], 1)
     text = markdown.render(record).decode()
     assert "**measurement, flight, batch**: numpy-roots is not timed: its checksum was 3 and then 4." in text
-    assert "fast is slower than the baseline allows: 1.4 times its former ratio (0.96 to 1), allowed 1.1" in text
+    assert "fast is slower than the baseline allows: 1.4 (0.96 to 1) times its former ratio, allowed 1.1" in text
     assert text.index("## What failed") < text.index("## Against the baseline") < text.index("## Which method")
     assert "✗ numpy-roots is not timed" in terminal.render(record).decode()
     assert [each["kind"] for each in json.loads(summary.render(record))["failures"]] == ["refused", "slower"]
@@ -127,7 +146,7 @@ def test_every_kind_of_line_is_shown():
         "| sphere | uniform | 0.5 | 200 | 90 | 45 % | 0.2 |",
         "Procedure 2.b costs less than 2.a (§ 4) | the tower | **holds**",
         r"10 +, 12 \*",
-        "| rows, batch | queries a second against the plain formula | 0.8 | 0.5 (0.48 to 0.52) | **no** |",
+        "| rows, batch | queries a second against the plain formula | 0.8 | 0.8 (0.78 to 0.82) | yes |",
         "| `foreign-adapter` | uniform | batch | 1 | 1.02 | 1.02 (1 to 1.04) | 1.1 | inconclusive |",
         "Not there: coal: coal cannot be imported",
         "cc 12.2.0",

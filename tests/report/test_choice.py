@@ -77,17 +77,18 @@ def test_those_that_are_not_told_from_the_fastest(interval, floor, alike):
 
 def test_reliable_beyond_a_distance_everywhere_and_where_it_is_timed():
     record = chosen(
-        method("narrow", 1.0, {"uniform": 1e-13, "ring": math.inf}),
-        method("sound", 5.0, {"uniform": 1e-13, "ring": 1e-13}),
+        method("narrow", 1.0, {"uniform": 1e-11, "ring": math.inf}),
+        method("near", 9.0, {"uniform": 1e-13, "ring": 1e-13}),
+        method("sound", 5.0, {"uniform": 1e-10, "ring": 1e-11}),
         method("rough", 0.5, {"uniform": 1e-4, "ring": 1e-4}),
     )
-    found = advice(record)
-    everywhere, everyday = (found["reliable beyond 1e-12", where, "position"] for where in (EVERYWHERE, EVERYDAY))
-    assert (everywhere.use.name, everywhere.errs) == ("sound", ())
-    assert (everyday.use.name, everyday.errs) == ("narrow", ("ring",))
-    assert found["reliable beyond 0.001", EVERYWHERE, "position"].use.name == "rough"
-    # What leads to the same method is told once, for the strictest distance.
-    assert ("reliable beyond 1e-09", EVERYWHERE, "position") not in found
+    found = {key: (each.use.name, each.errs) for key, each in advice(record).items()}
+    assert found == {
+        ("plain float64; errors end at 1.0e-13", EVERYWHERE, "position"): ("near", ()),
+        ("reliable beyond 1e-09", EVERYWHERE, "position"): ("sound", ()),
+        ("reliable beyond 1e-09", EVERYDAY, "position"): ("narrow", ("ring",)),
+        ("reliable beyond 0.001", EVERYWHERE, "position"): ("rough", ()),
+    }
 
 
 def test_who_answers_less_is_advised_for_less():
@@ -95,9 +96,21 @@ def test_who_answers_less_is_advised_for_less():
         method("all", 5.0, {"uniform": 1e-13}),
         method("half", 1.0, {"uniform": 1e-13}, question="exterior"),
     )
-    found = advice(record)
-    assert found["reliable beyond 1e-12", EVERYDAY, "position"].use.name == "all"
-    assert found["reliable beyond 1e-12", EVERYDAY, "clear or not"].use.name == "half"
+    found = {key: each.use.name for key, each in advice(record).items()}
+    assert found == {
+        ("plain float64; errors end at 1.0e-13", EVERYWHERE, "position"): "all",
+        ("reliable beyond 1e-12", EVERYDAY, "clear or not"): "half",
+    }
+
+
+def test_a_time_that_is_lost_in_an_empty_call_is_none():
+    lost = [
+        {**line, "median_ns": 0.01} if line["type"] == "speed" else line
+        for line in method("a", 1e-9, {"uniform": 0.0}, exact=True)
+    ]
+    record = chosen(lost, method("b", 1.5, {"uniform": 0.0}, exact=True))
+    assert advice(record)[EXACT].use.name == "b"
+    assert "no more than an empty call" in markdown.render(record).decode()
 
 
 def test_a_bounding_volume_is_never_advised():

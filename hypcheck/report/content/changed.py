@@ -9,7 +9,6 @@ from hypcheck.report.changes import (
     FASTER,
     SLOWER,
     AccuracyChange,
-    Interval,
     RatioChange,
     StatusChange,
     accuracy_changes,
@@ -31,7 +30,7 @@ from hypcheck.report.content.blocks import (
     prose,
     table,
 )
-from hypcheck.report.text import figure, listed
+from hypcheck.report.text import figure, listed, with_interval
 from hypcheck.report.verdict import verdict
 
 _RATIOS = prose(
@@ -111,8 +110,3 @@ def _ratio_row(change: RatioChange) -> tuple[Cell, ...]:
         Cell(f"× {figure(factor)}" if factor else "–", factor),
         Cell(change.verdict, tone=tone),
     )
-
-
-def with_interval(value: float, interval: Interval | None) -> str:
-    """A value with the ends of its interval: "1.2 (1.1 to 1.3)"."""
-    return figure(value) if interval is None else f"{figure(value)} ({figure(interval[0])} to {figure(interval[1])})"

@@ -20,15 +20,14 @@ from hypcheck.report.content.blocks import (
     prose,
     table,
 )
-from hypcheck.report.content.changed import with_interval
 from hypcheck.report.measured import reference, workloads
-from hypcheck.report.text import listed
+from hypcheck.report.text import listed, with_interval
 
 _HOW = prose(
     "The fastest method that fills the need, by its ratio to the run's reference; behind it those that the intervals or"
     " the noise of the run do not tell from it. *Reliable above* a flip distance: at most 1 in 1000 answers beyond it"
-    " is wrong, on every workload that is spoken of. What was not measured is not spoken of either: gate a method on"
-    " your own scene before you rely on it."
+    " is wrong, on every workload that is spoken of. A need without a line of its own is filled by a stricter"
+    " one's. What was not measured is not spoken of either: gate a method on your own scene before you rely on it."
 )
 
 
@@ -66,7 +65,7 @@ def _table(advice: tuple[Advice, ...]) -> Block:
 def _row(each: Advice) -> tuple[Cell, ...]:
     line = each.use.speed[each.workload, each.need.mode]
     interval = line["ratio_ci95"]
-    ratio = with_interval(float(line["ratio"]), interval and (interval[0], interval[1]))
+    ratio = with_interval(float(line["ratio"]), interval)
     return (
         Cell(each.need.what),
         Cell(each.need.where),

@@ -39,18 +39,20 @@ _TABLE = prose(
     "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
     " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
 )
+PARETO = Figures("pareto", "error against run time", "pareto.svg")
+ERRORS = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
+
 _PLACES = tuple((role, words) for words, role in places.MISTAKES.values())
 
 
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of these."""
     if record.of("accuracy"):
-        blocks: tuple[Block, ...] = (Paragraph(_FRONT), Figures("pareto", "error against run time", "pareto.svg"))
+        blocks: tuple[Block, ...] = (Paragraph(_FRONT), PARETO)
         if record.of("speed"):
             yield Section("Error against run time", blocks)
-        figures = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
-        yield Section("Wrong answers by distance", (Paragraph(_DISTANCE), figures, others))
+        yield Section("Wrong answers by distance", (Paragraph(_DISTANCE), ERRORS, others))
         yield Section("Wrong answers by workload", (Paragraph(_TABLE), _table(record)))
     yield from _maps(record)
 

@@ -49,9 +49,11 @@ def _said(tested: UnderTest) -> Text:
         return (name, f", was not started: {line['trouble']}.")
     again = line["again"]
     troubles = "".join(f" {trouble}." for trouble in line["troubles"])
+    excused = sum(group["counts"].get("excused", 0) for group in tested.groups)
+    known = f" {counted(excused, 'case')} excused as known failures." if excused else ""
     said = (
         f": {counted(again['asked'], 'case')} asked again in another order, in other batches and in a fresh process;"
         f" {again['within']:,} answered otherwise within the tolerance, {again['beyond']:,} beyond it."
-        f" {counted(line['restarts'], 'restart')}.{troubles}"
+        f" {counted(line['restarts'], 'restart')}.{known}{troubles}"
     )
     return (name, said)

@@ -63,4 +63,9 @@ def content(record: Record, against: Record | None = None) -> Content:
     if against is not None:
         failing = sum(1 for _ in failed.sections(record))
         sections[failing:failing] = changed.sections(record, against)
-    return Content(f"hypcheck {record.header['options'].get('command', 'verify')}", verdict(record), tuple(sections))
+    return Content(title(record), verdict(record), tuple(sections))
+
+
+def title(record: Record) -> str:
+    """The command that made the record."""
+    return f"hypcheck {record.header['options'].get('command', 'verify')}"

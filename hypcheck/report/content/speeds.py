@@ -20,9 +20,8 @@ from hypcheck.report.content.blocks import (
     prose,
     table,
 )
-from hypcheck.report.content.changed import with_interval
-from hypcheck.report.measured import measured, noise_floor, workloads
-from hypcheck.report.text import figure
+from hypcheck.report.measured import lost, measured, noise_floor, workloads
+from hypcheck.report.text import figure, with_interval
 
 _TIMES = prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"
@@ -63,14 +62,23 @@ def _time(record: Record, line: Line) -> tuple[Cell, ...]:
     floor = noise_floor(record, line["workload"], line["mode"])
     median, ratio = float(line["median_ns"]), line["ratio"]
     interval = line["ratio_ci95"]
+    if lost(line):
+        return (Cell("–"), Cell("no more than an empty call"), Cell("–"), _noise(floor), *_how(line))
     return (
-        Cell("–") if ratio is None else Cell(with_interval(ratio, interval and (interval[0], interval[1])), ratio),
-        Cell(with_interval(median, (line["ci95_ns"][0], line["ci95_ns"][1])), median),
+        Cell("–") if ratio is None else Cell(with_interval(ratio, interval), ratio),
+        Cell(with_interval(median, line["ci95_ns"]), median),
         Cell(figure(1e9 / median), 1e9 / median) if median > 0 else Cell("–"),
-        Cell("–") if floor is None else Cell(f"± {figure(100 * floor)} %", floor),
-        count(line["rows"]),
-        Cell(line["timed_by"]),
+        _noise(floor),
+        *_how(line),
     )
+
+
+def _noise(floor: float | None) -> Cell:
+    return Cell("–") if floor is None else Cell(f"± {figure(100 * floor)} %", floor)
+
+
+def _how(line: Line) -> tuple[Cell, Cell]:
+    return count(line["rows"]), Cell(line["timed_by"])
 
 
 def _memory(record: Record) -> Table:

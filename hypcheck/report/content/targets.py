@@ -18,8 +18,7 @@ from hypcheck.report.content.blocks import (
     prose,
     table,
 )
-from hypcheck.report.content.changed import with_interval
-from hypcheck.report.text import figure
+from hypcheck.report.text import figure, with_interval
 
 _TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "good"}
 _BASELINE = prose(
@@ -44,7 +43,7 @@ def sections(record: Record) -> Iterator[Section]:
 
 
 def _interval(value: float, ends: list[float] | None) -> Cell:
-    return Cell(with_interval(value, None if ends is None else (ends[0], ends[1])), value)
+    return Cell(with_interval(value, ends), value)
 
 
 def _baseline(lines: list[Line]) -> Table:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from hypcheck.record import Record
-from hypcheck.report.measured import BATCH, TIERS, measured, workloads
+from hypcheck.report.measured import BATCH, TIERS, lost, measured, workloads
 from hypcheck.report.plots import labels
 from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
@@ -49,7 +49,7 @@ def points(record: Record, workload: str) -> list[Point]:
         Point(each.name, each.tier, float(speed["median_ns"]), float(accuracy["reliable_above"]), accuracy["asked"])
         for each in measured(record)
         if (accuracy := each.accuracy.get(workload)) and (speed := each.speed.get((workload, BATCH)))
-        if speed["median_ns"] > 0
+        if not lost(speed)
     ]
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.record import Line, Record
-from hypcheck.report.measured import TIERS, measured, noise_floor, reference, workloads
+from hypcheck.report.measured import TIERS, lost, measured, noise_floor, reference, workloads
 from hypcheck.report.plots.style import MARKERS, WIDTH, colour, log_axis, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.report.text import figure
@@ -42,7 +42,7 @@ def plots(record: Record) -> Iterator[Plot]:
 
 
 def _row(name: str, tier: str, line: Line) -> Row | None:
-    if line["ratio"] is None:
+    if line["ratio"] is None or lost(line):
         return None
     low, high = line["ratio_ci95"] or (line["ratio"], line["ratio"])
     return Row(name, tier, float(line["ratio"]), float(low), float(high), float(line["median_ns"]))

@@ -1,0 +1,60 @@
+"""Names of a program gone mad, or of an attacker, are text in every report, seen as what they are and never endless."""
+
+from __future__ import annotations
+
+import json
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.report.write import REPORTS
+from tests.report.hostile import SCRIPT, hostile_record
+from tests.test_report_markdown import PARSER
+
+UNSEEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u200e\u200f\ud800-\udfff]")
+WHOLE = ("json", "junit", "csv")
+"""Formats for programs, in which a name is whole, however long it is."""
+
+
+@pytest.fixture(scope="module")
+def record():
+    return hostile_record()
+
+
+@pytest.fixture(scope="module")
+def texts(record):
+    return {name: report.render(record).decode("utf-8") for name, report in REPORTS.items()}
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_nothing_unseen_gets_through(texts, name):
+    assert not UNSEEN.search(texts[name]) or name == "json"
+    if name == "json":  # whose strings have escapes of their own
+        assert not re.search(r"[\x00-\x09\x0b-\x1f]", texts[name])
+
+
+@pytest.mark.parametrize("name", [name for name in REPORTS if name not in WHOLE])
+def test_what_people_read_stays_readable(texts, name):
+    assert len(texts[name]) < 2_000_000
+    assert "e" * 3000 not in texts[name]
+
+
+@pytest.mark.parametrize("name", [name for name, each in REPORTS.items() if each.file.endswith((".svg", ".xml"))])
+def test_what_is_xml_stays_xml(texts, name):
+    root = ElementTree.fromstring(texts[name])  # noqa: S314 - just written
+    assert not [each for each in root.iter() if each.tag.endswith(("script", "img"))]
+
+
+def test_the_summary_has_the_names_as_they_are(texts, record):
+    found = json.loads(texts["json"])
+    assert any(SCRIPT in each["name"] for each in found["methods"])
+
+
+@pytest.mark.parametrize("name", ["markdown", "overview"])
+def test_markdown_holds_no_html_of_theirs(texts, name):
+    tokens = PARSER.parse(texts[name])
+    inside = [child for token in tokens for child in token.children or ()]
+    html = {token.content for token in (*tokens, *inside) if token.type in ("html_inline", "html_block")}
+    assert html <= {"<code>", "</code>"}
+    assert any(SCRIPT.partition("</script>")[2] in token.content for token in inside if token.type == "code_inline")
