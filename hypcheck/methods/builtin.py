@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache, partial
 
+import numpy as np
+
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
 from hypcheck.kernel import numpy_path
+from hypcheck.kernel.answering import Floats, Sizes, kernel
+from hypcheck.kernel.choice import choice
 from hypcheck.methods.domain import EVERYWHERE, Domain
 from hypcheck.methods.dual import dual_positions
 from hypcheck.methods.fcl_naive import ellipsoid_mesh, point_mesh, sphere_mesh
@@ -44,21 +48,29 @@ def _of_fcl(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
     return Method(name, title, "position", "float64", answer, Domain(), most=FCL_ROWS)
 
 
+def fast_positions(rows: Rows) -> Answers:
+    """Positions (n,) of rows (n, 7) by the kernel in use, on one thread."""
+    return kernel().answer_rows(np.ascontiguousarray(rows), "position", 1)[0]
+
+
+def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+    """The same of one spheroid's centres (n,)."""
+    return kernel().answer_scene(sizes, (x, y, z), "position", 1)[0]
+
+
+def _exact(name: str, where: str, answer: Callable[[Rows], Answers]) -> Method:
+    title = f"the fast path, {where}: certified floats, integers where they cannot tell"
+    return Method(name, title, "position", "float64", answer, EVERYWHERE, exact=True)
+
+
 @cache
 def methods_without_meshes() -> dict[str, Method]:
     """Every built-in method that needs no FCL, by its name."""
-    fast = Method(
-        name="fast",
-        title="the fast path: certified floats, integers where they cannot tell",
-        question="position",
-        precision="float64",
-        answer=numpy_path.positions,
-        domain=EVERYWHERE,
-        exact=True,
-    )
+    in_use = "the kernel in use" if choice().kernel == "compiled" else "the kernel in use, which is numpy"
+    fast = (_exact("fast", in_use, fast_positions), _exact("fast-numpy", "in numpy", numpy_path.positions))
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
     ours = (_of_formula(formula, precision) for precision in PRECISIONS for formula in formulas)
-    methods = [fast, *ours, *measured_methods()]
+    methods = [*fast, *ours, *measured_methods()]
     return {method.name: method for method in methods}
 
 

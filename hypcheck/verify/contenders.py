@@ -10,7 +10,7 @@ import numpy as np
 
 from hypcheck.bench.rounds import Entry, Samples, clocked
 from hypcheck.casebook.families import FAMILIES
-from hypcheck.kernel import numpy_path
+from hypcheck.methods.builtin import fast_scene
 from hypcheck.methods.fcl_naive import point_mesh
 from hypcheck.methods.method import Answers
 from hypcheck.methods.roots import by_numpy
@@ -73,7 +73,7 @@ def line(contender: Contender, timing: Samples) -> dict[str, Any]:
 
 def _fast(rows: Rows) -> Answers:
     sizes = tuple(rows[0, :4].tolist())
-    return numpy_path.positions_of_scene((sizes[0], sizes[1], sizes[2], sizes[3]), rows[:, 4], rows[:, 5], rows[:, 6])
+    return fast_scene((sizes[0], sizes[1], sizes[2], sizes[3]), rows[:, 4], rows[:, 5], rows[:, 6])
 
 
 def _plain(rows: Rows) -> Answers:

@@ -31,9 +31,15 @@ def test_a_method_answers_its_question_with_allowed_answers(name, rows):
     assert set(answers.tolist()) <= {*allowed(method.question), CANNOT_SAY}
 
 
-def test_the_exact_method_is_exact(rows):
-    (exact,) = [method for method in builtin_methods().values() if method.exact and not method.measured]
-    assert (exact.answer(rows) == batch.positions(rows)).all()
+@pytest.mark.parametrize("name", ["fast", "fast-numpy"])
+def test_the_kernels_are_exact(name, rows):
+    method = builtin(name)
+    assert method.exact
+    assert (method.answer(rows) == batch.positions(rows)).all()
+    assert {each.name for each in builtin_methods().values() if each.exact and not each.measured} == {
+        "fast",
+        "fast-numpy",
+    }
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])

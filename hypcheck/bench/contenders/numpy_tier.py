@@ -9,8 +9,9 @@ from functools import partial
 from hypcheck.bench.contenders.contender import Contender, of_method
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.kernel import numpy_path
+from hypcheck.kernel.choice import choice
 from hypcheck.methods import bounding, roots
-from hypcheck.methods.builtin import builtin_methods
+from hypcheck.methods.builtin import builtin_methods, fast_scene
 from hypcheck.methods.dual import dual_by_scene
 from hypcheck.methods.formula import ByScene, by_scene
 from hypcheck.methods.method import Method
@@ -57,15 +58,12 @@ def _scene_of_formula(name: str, format_name: str) -> ByScene:
 
 
 def _fast(methods: Methods) -> Iterable[Contender]:
-    yield of_method(
-        methods["fast"],
-        "numpy",
-        "certified",
-        name="fast-numpy",
-        scene=numpy_path.positions_of_scene,
-        timed=8192,
-        note="where its bound cannot tell, integers do",
-    )
+    note = "where its bound cannot tell, integers do"
+    scene = numpy_path.positions_of_scene
+    yield of_method(methods["fast-numpy"], "numpy", "certified", scene=scene, timed=8192, note=note)
+    if choice().kernel == "compiled":
+        note = f"{note}; called from Python, on one thread, {choice().level}"
+        yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=note)
 
 
 def _roots(methods: Methods) -> Iterable[Contender]:
