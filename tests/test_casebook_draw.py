@@ -18,9 +18,36 @@ from hypcheck.casebook.exactly import in_metres, roots, to_rows, triples, wholes
 N = 5000
 MODULES = sorted(Path(hypcheck.casebook.__file__).parent.glob("*.py"))
 ALLOWED = {
-    *("empty", "zeros", "full", "tile", "arange", "stack", "concatenate", "repeat", "where", "choose"),
-    *("asarray", "ascontiguousarray", "float64", "int64", "int32", "uint64", "bool_", "object_", "dtype", "ndarray"),
-    *("add", "abs", "minimum", "maximum", "sqrt", "rint", "floor", "ldexp", "frexp", "gcd", "isqrt", "frompyfunc"),
+    *("empty", "zeros", "full", "resize", "tile", "arange", "stack", "concatenate", "repeat", "where", "choose"),
+    *(
+        "array",
+        "asarray",
+        "ascontiguousarray",
+        "inf",
+        "float64",
+        "int64",
+        "int32",
+        "uint64",
+        "bool_",
+        "object_",
+        "dtype",
+        "ndarray",
+    ),
+    *(
+        "add",
+        "abs",
+        "minimum",
+        "maximum",
+        "clip",
+        "sqrt",
+        "rint",
+        "floor",
+        "ldexp",
+        "frexp",
+        "gcd",
+        "isqrt",
+        "frompyfunc",
+    ),
     *("random", "ones", "frombuffer"),  # random.Philox, of which draw.py takes raw words alone
 }
 """Shapes, choices, types, and arithmetic that is exact or rounded once."""

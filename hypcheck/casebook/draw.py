@@ -101,15 +101,22 @@ class Draw:
     def circle(self, n: int) -> tuple[Floats, Floats]:
         """Points (cosine, sine) of the unit circle in all quadrants, a quarter of them on the axes; takes 2n words."""
         words, half = self.words(n), self.unit(n)
-        cosine, sine = circle_at(np.where(words >> np.uint64(62) == 0, 0.0, half))
-        swapped = (words & np.uint64(1)).astype(np.bool_)
-        first, second = np.where(swapped, sine, cosine), np.where(swapped, cosine, sine)
+        cosine, sine = circle_at(_chosen(words >> np.uint64(62) != 0, half, np.zeros(n)))
+        swapped = words & np.uint64(1) != 0
+        first, second = _chosen(swapped, sine, cosine), _chosen(swapped, cosine, sine)
         return _signed(first, words << np.uint64(62)), _signed(second, words << np.uint64(61))
 
 
 def _stream(name: Sequence[object]) -> np.random.Philox:
     key = cast("np.random.SeedSequence", _Key("/".join(map(str, name))))  # numpy's types leave its interface out
     return np.random.Philox(key)
+
+
+def _chosen(which: NDArray[np.bool_], first: Floats, second: Floats) -> Floats:
+    """np.where, without its branches, which nobody can predict where `which` is random."""
+    one, other = first.view(np.uint64), second.view(np.uint64)
+    all_or_none = np.uint64(0) - which.astype(np.uint64)
+    return np.asarray(other ^ ((one ^ other) & all_or_none)).view(np.float64)
 
 
 def _signed(values: Floats, words: NDArray[np.uint64]) -> Floats:

@@ -8,7 +8,8 @@ Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (
 k ≤ 4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no
 side below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u leaves room to spare. Where a
 difference of such numbers is needed (B − λ, r − 1), it is formed from an operand first moved by the margin to the safe
-side, and one more rounding of the result is in k. SAFE keeps every square, quotient and sum away from overflow and
+side, and one more rounding of the result is in k. The roots r and a√(1+Q/B) are right to 4u and 10u of themselves, so
+that their difference lacks no more than 64u of both. SAFE keeps every square, quotient and sum away from overflow and
 underflow: with lengths in 2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference of
 such numbers is 0 or at least 2^-504, so that every quotient stays within 2^±960.
 """
@@ -42,7 +43,8 @@ SLANTED: Directions = tuple((STEP * m / 25, STEP * n / 25) for m, n in ((20, 15)
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Normal = tuple[Floats, Floats]
+Squares = tuple[Floats, ...]
+"""A, B, P and Q."""
 
 
 def positions(rows: Rows) -> Positions:
@@ -104,17 +106,13 @@ def _proved(columns: Floats) -> Positions:
     with np.errstate(all="ignore"):  # a NaN or an infinity compares false, which is undecided
         result = _by_lines(columns)
         rest = np.flatnonzero(result == UNDECIDED)
-        A, B, P, Q = _squares(columns if len(rest) == len(result) else columns[:, rest])
-        at = _local_maximum(A, B, P, Q)
-        result[rest] = _clear(A, B, P, Q, at)
-        r, z = np.sqrt(P), np.sqrt(Q)
-        for directions, normal in ((UPRIGHT, (r / A, z / B)), (SLANTED, None), ((), (r / (A + at), z / (B - at)))):
-            left = np.flatnonzero(result[rest] == UNDECIDED)
-            if not len(left):
+        left = _squares(columns if len(rest) == len(result) else columns[:, rest])
+        for witness in (_level, _maximum, _upright, _slanted, _along_the_normal):
+            if not len(rest):
                 break
-            towards = None if normal is None else (normal[0][left], normal[1][left])
-            touching = _in_contact(A[left], B[left], r[left], z[left], directions, towards)
-            result[rest[left[touching]]] = Position.CONTACT
+            result[rest] = found = witness(*left)
+            still = np.flatnonzero(found == UNDECIDED)
+            rest, left = rest[still], tuple(each[still] for each in left)
     return result
 
 
@@ -129,10 +127,22 @@ def _by_lines(columns: Floats) -> Positions:
     return lines(alpha, gamma, b, d, min(max(reach, -2), 20)).proved(x * x + y * y, heights, UNDECIDED)
 
 
-def _squares(columns: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def _squares(columns: Floats) -> Squares:
     """A, B, P and Q of each row, (n,) each."""
     alpha, gamma, b, d, x, y, z = columns
     return (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+
+
+def _level(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    """By the point of the surface at the centre's own height: contact within a radius; else its λ may prove clear."""
+    a, stretch, r = np.sqrt(A), np.sqrt(1 + Q / B), np.sqrt(P)
+    surface, size = a * stretch, a / stretch
+    within = np.abs(r - surface) + (MARGIN - 1) * (r + surface) < 2 - MARGIN
+    return _clear(A, B, P, Q, np.copysign(size, r - surface)) + _shift(within, Position.CONTACT)
+
+
+def _maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    return _clear(A, B, P, Q, _local_maximum(A, B, P, Q))
 
 
 def _local_maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Floats:
@@ -152,17 +162,38 @@ def _clear(A: Floats, B: Floats, P: Floats, Q: Floats, at: Floats) -> Positions:
     to_a = A / MARGIN - size
     exterior = (at > 0) & (to_b > 0) & (P / (A + size) > MARGIN * (Q / to_b + 1 + 1 / size))
     interior = (at < 0) & (to_a > 0) & (Q / (B + size) + 1 > MARGIN * (P / to_a + 1 / size))
-    result = np.full(len(at), UNDECIDED, dtype=np.int8)
-    np.copyto(result, np.int8(Position.EXTERIOR), where=usable & exterior)
-    np.copyto(result, np.int8(Position.INTERIOR), where=usable & interior)
-    return result
+    undecided = np.int8(UNDECIDED)
+    return undecided + _shift(usable & exterior, Position.EXTERIOR) + _shift(usable & interior, Position.INTERIOR)
 
 
-def _in_contact(A: Floats, B: Floats, r: Floats, z: Floats, directions: Directions, normal: Normal | None) -> Mask:
-    """Whether points of the closed ball on both sides of the hyperboloid were found, in the half plane r, |z| ≥ 0.
+def _shift(proved: Mask, position: Position) -> Positions:
+    """What to add to UNDECIDED: a row is proved to be one thing at most, and adding is faster than choosing."""
+    return proved.view(np.int8) * np.int8(position - UNDECIDED)
 
-    Points lie in the `directions` away from the axis and to the waist, or the other way, a little less than one radius
-    from the centre, and along the `normal`, of any length.
+
+def _upright(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    """Contact, by points above, below and beside the centre, and along the normal at it."""
+    r, z = np.sqrt(P), np.sqrt(Q)
+    return _contact(A, B, r, z, UPRIGHT, (r / A, z / B))
+
+
+def _slanted(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    return _contact(A, B, np.sqrt(P), np.sqrt(Q), SLANTED)
+
+
+def _along_the_normal(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    """Contact, by points towards the nearest one of the surface and away from it."""
+    r, z, at = np.sqrt(P), np.sqrt(Q), _local_maximum(A, B, P, Q)
+    return _contact(A, B, r, z, (), (r / (A + at), z / (B - at)))
+
+
+def _contact(
+    A: Floats, B: Floats, r: Floats, z: Floats, directions: Directions, normal: tuple[Floats, Floats] | None = None
+) -> Positions:
+    """0 where points of the closed ball on both sides of the hyperboloid were found, else UNDECIDED.
+
+    All is in the half plane r, |z| ≥ 0. Points lie in the `directions` away from the axis and to the waist, or the
+    other way, a little less than one radius from the centre, and along the `normal`, of any length.
     """
     # Each point's coordinate is within 8u (r + 1), 8u (z + 1) of the one meant; the bounds below swallow that.
     slack_r, slack_z = (MARGIN - 1) * (r + 1), (MARGIN - 1) * (z + 1)
@@ -184,4 +215,4 @@ def _in_contact(A: Floats, B: Floats, r: Floats, z: Floats, directions: Directio
     for wide, tall in directions:
         some_outside |= outside(r + wide, np.maximum(z - tall, 0))
         some_inside |= inside(np.maximum(r - wide, 0), z + tall)
-    return some_outside & some_inside
+    return np.int8(UNDECIDED) + _shift(some_outside & some_inside, Position.CONTACT)
