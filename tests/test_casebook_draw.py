@@ -48,7 +48,7 @@ ALLOWED = {
         "isqrt",
         "frompyfunc",
     ),
-    *("random", "ones", "frombuffer"),  # random.Philox, of which draw.py takes raw words alone
+    *("random", "ones", "frombuffer", "isfinite"),  # random.Philox, of which draw.py takes raw words alone
 }
 """Shapes, choices, types, and arithmetic that is exact or rounded once."""
 FORBIDDEN_METHODS = {"sum", "cumsum", "prod", "mean", "std", "dot", "random_sample", "normal", "uniform", "choice"}
