@@ -6,13 +6,16 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify deep attack test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep attack test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
 	$(BIN)/hypcheck verify --out $(OUT)
+
+bench: $(VENV)/ready ## error against run time of every method (under 5 minutes); reports in reports/bench/
+	$(BIN)/hypcheck bench --out reports/bench
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
 	$(BIN)/hypcheck verify --out reports/reference --count 33000 --roots 20000 --meshes 20000

@@ -1,8 +1,6 @@
 """`python -m hypcheck`, the same as `hypcheck`."""
 
-import sys
-
-from hypcheck.cli.main import main
+from hypcheck.cli.main import process
 
 if __name__ == "__main__":
-    sys.exit(main())
+    process()

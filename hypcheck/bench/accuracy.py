@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hypcheck import judge
 from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.contenders.ways import Way
 from hypcheck.bench.plan import BenchPlan, chosen
 from hypcheck.bench.workloads import WORKLOADS, Workload
 from hypcheck.judge import Mistake
@@ -46,7 +47,10 @@ class Known:
 
 @dataclass(frozen=True)
 class Answered:
-    """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed."""
+    """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed.
+
+    `trouble` says why some went without an answer, where a program was at fault.
+    """
 
     method: str
     workload: str
@@ -54,6 +58,7 @@ class Answered:
     answers: Answers
     batch_print: str
     single_print: str
+    trouble: str = ""
 
 
 def chosen_workloads(plan: BenchPlan) -> list[Workload]:
@@ -87,12 +92,12 @@ def _ask(task: tuple[BenchPlan, str]) -> list[Answered]:
     contender = contenders(plan)[name]
     way = contender.load()
     try:
-        return [_answered(plan, contender, way.answer, workload) for workload in chosen_workloads(plan)]
+        return [_answered(plan, contender, way, workload) for workload in chosen_workloads(plan)]
     finally:
         way.close()
 
 
-def _answered(plan: BenchPlan, contender: Contender, answer: Any, workload: Workload) -> Answered:  # noqa: ANN401
+def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> Answered:
     rows = workload.rows(plan.seed, plan.amounts.judged)
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
@@ -100,9 +105,10 @@ def _answered(plan: BenchPlan, contender: Contender, answer: Any, workload: Work
         contender.name,
         workload.name,
         places,
-        answer(rows[places]),
-        print_of(answer(part)),
-        print_of(answer(part[: contender.singles])),
+        way.answer(rows[places]),
+        print_of(way.answer(part)),
+        print_of(way.answer(part[: contender.singles])),
+        way.trouble,
     )
 
 
@@ -111,6 +117,8 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
     if contender.accuracy_only or not workload.timed:
         return np.empty((0, 7))
     rows = workload.rows(plan.seed, plan.amounts.timed)
+    if contender.tier == "foreign":
+        rows = rows[contender.domain.holds(rows)]
     if contender.scenes is not None:
         rows = rows[(rows[:, :4] == rows[0, :4]).all(axis=1)]
     return rows[: contender.timed]

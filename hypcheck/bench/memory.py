@@ -33,16 +33,16 @@ def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
     first.answer(rows[:1])  # what is loaded when it is called for the first time is no part of answering
     first.close()
     way = contender.load()
-    before = _forget_peak()
+    before = forget_peak()
     ready = way.batch(rows)
     if ready is not None:
         ready.answers()
-    grown = _peak() - before
+    grown = peak() - before
     way.close()
     return {"method": name, "rows": len(rows), "peak_bytes": max(0, grown)}
 
 
-def _forget_peak() -> int:
+def forget_peak() -> int:
     """The peak from now on, which is what is resident now where the system lets go of it (Linux).
 
     What was freed goes back to the system first: answers that are put where something else was do not show.
@@ -52,10 +52,10 @@ def _forget_peak() -> int:
         ctypes.CDLL(None).malloc_trim(0)
     with suppress(OSError):
         Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
-    return _peak()
+    return peak()
 
 
-def _peak() -> int:
+def peak() -> int:
     """The largest resident size so far, in bytes."""
     with suppress(OSError, StopIteration):
         status = Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines()

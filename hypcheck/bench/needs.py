@@ -6,12 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from types import MappingProxyType
 
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import contenders, foreign
 from hypcheck.bench.contenders.c_library import compiled
 from hypcheck.bench.contenders.c_tier import COMPILER
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import UnavailableError
 from hypcheck.methods.engines import COAL, FCL, Engine
+from hypcheck.methods.faults import StartError
 from hypcheck.record import Recorder
 
 
@@ -23,6 +24,21 @@ def prepared(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     for need in sorted({each.needs for each in contenders(plan).values()} - {""}):
         plan = _looked_for(need, plan, recorder)
     return plan
+
+
+def met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPlan:
+    """The plan with what its SPECs are; those that cannot be started are left out, recorded and added to the list.
+
+    Raises InputError where one is no SPEC.
+    """
+    found: list[foreign.Foreign] = []
+    for spec in plan.specs:
+        try:
+            found.append(foreign.met(spec, plan.limits, [*contenders(plan), *(each.name for each in found)]))
+        except StartError as error:  # noqa: PERF203 - a process is started in each turn
+            recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
+            not_started.append(str(error))
+    return replace(plan, foreign=tuple(found))
 
 
 def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:

@@ -55,16 +55,19 @@ class BenchPlan:
     """Options of a run.
 
     `specs` name implementations to be measured beside the built-in methods; `methods` and `workloads` are names and
-    globs that choose (none: all). Times come from `rounds` rounds in each of `processes` fresh processes. `baseline` is
-    a record to be held to: a method may be `max_slowdown` times slower against the reference than it was there. What is
-    made on the way goes into `folder`, `compiled` among it: the library of methods in C, where there is one;
-    `missing` is what methods may need and is not here.
+    globs that choose (none: all). `amounts` say how much is done; a `quick` run leaves out what takes long. Times come
+    from `rounds` rounds in each of `processes` fresh processes. `baseline` is a record to be held to: a method may be
+    `max_slowdown` times slower against the reference than it was there.
+
+    What is made on the way goes into `folder`, `compiled` among it: the library of methods in C, where there is one.
+    `missing` is what methods may need and is not here, and `foreign` what the SPECs are (contenders/foreign.py).
     """
 
     specs: tuple[str, ...] = ()
     methods: tuple[str, ...] = ()
     workloads: tuple[str, ...] = ()
     quick: bool = False
+    amounts: Amounts = FULL
     seed: int = 1
     processes: int = 5
     rounds: int = 5
@@ -74,17 +77,15 @@ class BenchPlan:
     kernel: bool = False
     folder: Path = Path()
     compiled: Path | None = None
+    foreign: tuple[Any, ...] = ()
     missing: tuple[str, ...] = ()
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
         if self.max_slowdown < 1:
             raise InputError(f"--max-slowdown is {self.max_slowdown:g}; it must be 1 or more, as in 1.10 for 10 %")
-
-    @property
-    def amounts(self) -> Amounts:
-        """How much this run does."""
-        return QUICK if self.quick else FULL
+        if self.kernel and (self.specs or self.methods or self.workloads or self.baseline):
+            raise InputError("--kernel measures the fast path and nothing else; it goes with no other choice")
 
     @property
     def options(self) -> dict[str, Any]:
@@ -94,7 +95,7 @@ class BenchPlan:
         return {"command": "bench", **shown, "baseline": baseline, "reference": REFERENCE}
 
 
-_FOUND_OUT = ("limits", "folder", "compiled", "missing")
+_FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
 """What is no option of a user's."""
 
 

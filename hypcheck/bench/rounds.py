@@ -27,6 +27,10 @@ SHORTEST_S = 0.01
 MOST_LOOPS = 1_000_000
 
 
+class RefusedError(Exception):
+    """What is being timed does not do what it must; the text is a sentence about it. It is timed no further."""
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """Something to be timed: `run` handles `rows` rows each time, and the sum of its answers must be `checksum`.
@@ -88,8 +92,18 @@ def measure(
 
 def _calibrated(entry: Entry, shortest_s: float) -> Samples:
     """The entry warmed up, with loops enough for a sample of that length."""
+    found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0)
+    try:
+        _calibrate(entry, found, shortest_s)
+    except RefusedError as refused:
+        found.refused = str(refused)
+    return found
+
+
+def _calibrate(entry: Entry, found: Samples, shortest_s: float) -> None:
     took, checksum = entry.run(1)
-    found = Samples(entry.name, entry.rows, entry.loops or 1, checksum if entry.checksum is None else entry.checksum)
+    if entry.checksum is None:
+        found.checksum = checksum
     if entry.loops is None:
         loops, shortest = 1, shortest_s * 1e9
         while took < shortest / 8 and loops < MOST_LOOPS:  # too short a time tells too little of how many are needed
@@ -97,13 +111,16 @@ def _calibrated(entry: Entry, shortest_s: float) -> Samples:
             took, checksum = entry.run(loops)
         found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
     _check(found, checksum)
-    return found
 
 
 def _sample(entry: Entry, found: Samples) -> None:
     if found.refused is not None:
         return
-    took, checksum = entry.run(found.loops)
+    try:
+        took, checksum = entry.run(found.loops)
+    except RefusedError as refused:
+        found.refused = str(refused)
+        return
     _check(found, checksum)
     if found.refused is None:
         found.samples_ns.append(took / (found.loops * found.rows))

@@ -6,16 +6,17 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from hypcheck.bench import accuracy, convergence, memory, places, shapes, speed, stability
+from hypcheck.bench import accuracy, convergence, costs, kernel, memory, places, shapes, speed, stability
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
+from hypcheck.bench.baseline import Baseline, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
 from hypcheck.bench.contenders import Contender, contenders
-from hypcheck.bench.needs import prepared
+from hypcheck.bench.needs import met, prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
-from hypcheck.record import Recorder
+from hypcheck.record import Line, Recorder
 
 Advance = Callable[[int], object]
 
@@ -54,6 +55,8 @@ class _Run:
     outcome: BenchOutcome
     found: dict[str, Contender]
     answers: list[Answered] = field(default_factory=list)
+    baseline: Baseline | None = None
+    speeds: list[Line] = field(default_factory=list)
 
     @property
     def timed(self) -> list[str]:
@@ -73,9 +76,14 @@ class _Run:
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
+    if plan.kernel:
+        return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     workloads = len(chosen_workloads(plan))
-    plan = prepared(plan, recorder)
-    run = _Run(plan, recorder, outcome, contenders(plan))
+    before = read_baseline(plan)
+    plan = met(prepared(plan, recorder), recorder, outcome.not_started)
+    run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
+    if before is not None:
+        require_common(before, gated(plan, run.found))
     maps = len(stability.mapped(run.found)) + len(places.mapped(run.found))
     return (
         Stage("methods", 1, lambda advance: _introduce(run, advance)),
@@ -83,9 +91,19 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
         Stage("maps", maps, lambda advance: _map(run, advance)),
         Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
         Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
+        Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
         Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
         Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
     )
+
+
+def _kernel(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
+    kernel.run(recorder, advance, plan.quick)
+    for line in recorder.lines:
+        if line["type"] == "kernel" and not line["met"]:
+            low, high = line["ci95"]
+            reasons = outcome.inconclusive if low <= line["wanted"] <= high else outcome.slower
+            reasons.append(f"{line['name']}: {line['says']}")
 
 
 def _introduce(run: _Run, advance: Advance) -> None:
@@ -124,6 +142,9 @@ def _judge(run: _Run, advance: Advance) -> None:
     methods, workloads = list(run.found), list(truths)
     run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
     for each in run.answers:
+        if each.trouble:
+            run.recorder.add("refused", method=each.method, workload=each.workload, mode="batch", reason=each.trouble)
+            run.outcome.wrong.append(f"{each.method}: {each.trouble}")
         if not len(each.places):
             continue
         line = accuracy.line(run.found[each.method], each, truths[each.workload])
@@ -159,8 +180,26 @@ def _measure(run: _Run, advance: Advance) -> None:
     )
     for kind, line in speed.lines(found):
         run.recorder.add(kind, **line)
+        run.speeds.append({"type": kind, **line})
         if kind == "refused":
             run.outcome.wrong.append(f"{line['method']}: {line['reason']}")
+    for line in costs.lines(run.plan, found):
+        run.recorder.add("cost", **line)
+        if line["verdict"] == costs.INCONCLUSIVE:
+            run.outcome.inconclusive.append(f"{line['claim']}, {line['scene']}")
+
+
+def _compare(run: _Run, advance: Advance) -> None:
+    if run.baseline is not None:
+        names = gated(run.plan, run.found)
+        for line in comparisons(run.plan, run.baseline, speeds_of(run.speeds), names):
+            run.recorder.add("comparison", **line)
+            where = f"{line['method']} on {line['workload']}, {line['mode']}"
+            if line["gates"] and line["verdict"] == "slower":
+                run.outcome.slower.append(f"{where}: {line['change']:.2f} times as slow as the baseline")
+            if line["gates"] and line["verdict"] == "inconclusive":
+                run.outcome.inconclusive.append(f"{where}: {line['change']:.2f} times as slow, give or take the noise")
+        advance(1)
 
 
 def _refine(run: _Run, advance: Advance) -> None:

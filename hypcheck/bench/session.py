@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.bench.accuracy import chosen_workloads, print_of, timed_rows
+from hypcheck.bench.claims import Claim, claims
 from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.contenders.ways import Empty, Prepared, Way
 from hypcheck.bench.plan import REFERENCE, BenchPlan
@@ -28,6 +29,17 @@ AGAIN = f"{REFERENCE} again"
 BUILT_FOR = "uniform"
 BUILDS = 2
 """Rounds in which meshes are built: the large ones take most of a second."""
+
+NOT_ANSWERED = "not answered"
+"""Stands in place of a print: it failed when it was judged, which is recorded already."""
+
+COST = "cost of "
+"""What the name of a claim stands behind in place of a workload."""
+
+FIRST_AGAIN = "the first again"
+"""The first way of a comparison a second time, likewise."""
+
+EMPTY_CALL = "an empty call"
 
 LEAST_NS = 0.01
 """What is left at least of a time from which an empty call was taken off."""
@@ -81,10 +93,19 @@ def run(session: Session) -> list[Measured]:
             for mode in _modes(workload):
                 field = _field(session, found, ways, workload, mode)
                 measured += [*field.refused, *_measured(session, field)]
+        for claim in claims(session.plan):
+            measured += _measured(session, _compared(session, claim))
     finally:
         for way in ways.values():
             way.close()
     return measured
+
+
+def _compared(session: Session, claim: Claim) -> _Field:
+    """The ways that a claim about cost compares, and the first of them again."""
+    ready = claim.compared(session.plan)
+    again = {FIRST_AGAIN: next(iter(ready.values()))}
+    return _Field((f"{COST}{claim.name}-{claim.tier}", "batch"), {**ready, **again}, {}, {}, [])
 
 
 def _modes(workload: Workload) -> Sequence[str]:
@@ -102,11 +123,11 @@ def _field(
         rows = timed_rows(session.plan, found[name], workload)
         if mode == "single":
             rows = rows[: found[name].singles]
-        ready = MODES[mode](way, rows)
-        if ready is None:
-            continue
         key = (name, *field.where)
         told = session.expected.get(key)
+        ready = MODES[mode](way, rows) if len(rows) and told != NOT_ANSWERED else None
+        if ready is None:
+            continue
         if told is not None and print_of(ready.answers()) != told:
             reason = "its answers, when it was about to be timed, were not those that were judged"
             field.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
@@ -118,7 +139,7 @@ def _field(
 
 def _with_empty(field: _Field, name: str, empty: Empty | None) -> None:
     if empty is not None:
-        field.empty_of[name] = f"an empty call of {empty.name}"
+        field.empty_of[name] = f"{EMPTY_CALL} of {empty.name}"
         field.empties.setdefault(field.empty_of[name], empty.ready)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from hypcheck.bench import session
 from hypcheck.bench.accuracy import Answered
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.session import AGAIN, Key, Measured, Session
+from hypcheck.bench.session import AGAIN, COST, EMPTY_CALL, NOT_ANSWERED, Key, Measured, Session
 from hypcheck.bench.statistics import Estimate, estimate, ratios
 from hypcheck.processes import fresh, perform
 
@@ -21,8 +21,8 @@ def expected(answers: list[Answered]) -> dict[Key, str]:
     """The prints of the answers that were judged, by method, workload and mode."""
     found: dict[Key, str] = {}
     for each in answers:
-        found[each.method, each.workload, "batch"] = each.batch_print
-        found[each.method, each.workload, "single"] = each.single_print
+        found[each.method, each.workload, "batch"] = NOT_ANSWERED if each.trouble else each.batch_print
+        found[each.method, each.workload, "single"] = NOT_ANSWERED if each.trouble else each.single_print
     return found
 
 
@@ -42,11 +42,12 @@ def measured(plan: BenchPlan, prints: Mapping[Key, str], advance: Advance) -> Fo
 
 def lines(found: Found) -> Iterator[tuple[str, dict[str, Any]]]:
     """The record's lines, each with its type: noise before the speeds it belongs to; those refused last."""
+    found = {key: parts for key, parts in found.items() if not key[1].startswith(COST)}
     for (name, workload, mode), parts in found.items():
         if name == AGAIN and not _refusal(parts):
             yield "noise", {"workload": workload, "mode": mode, **_noise(found, workload, mode)}
     for key, parts in found.items():
-        if key[0] != AGAIN and not key[0].startswith("an empty call") and not _refusal(parts):
+        if key[0] != AGAIN and not key[0].startswith(EMPTY_CALL) and not _refusal(parts):
             yield "speed", _line(found, key)
     for (name, workload, mode), parts in found.items():
         reason = _refusal(parts)

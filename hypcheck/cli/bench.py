@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from hypcheck.cli.exits import Exit
 from hypcheck.cli.recording import Part, record_and_report
 
 
@@ -22,7 +23,7 @@ from hypcheck.cli.recording import Part, record_and_report
 @click.option("--workers", type=click.IntRange(1), help="Processes that judge.  [default: one a processor]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A record of an earlier run to be held to.")
 @click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
-@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets instead.")
+@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
@@ -39,7 +40,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from tempfile import TemporaryDirectory
 
     from hypcheck.bench import run
-    from hypcheck.bench.plan import BenchPlan
+    from hypcheck.bench.plan import FULL, QUICK, BenchPlan
     from hypcheck.cli.verify import names_in
     from hypcheck.processes import usable_processors
 
@@ -49,6 +50,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         methods=names_in(options["methods"]),
         workloads=names_in(options["workloads"]),
         quick=quick,
+        amounts=QUICK if quick else FULL,
         seed=options["seed"],
         processes=options["processes"] or (3 if quick else 5),
         rounds=options["rounds"] or (3 if quick else 5),
@@ -66,4 +68,13 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
             lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)],
             lambda: outcome.exit_code,
         )
+    if outcome.exit_code == Exit.INCONCLUSIVE:
+        click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)
     context.exit(outcome.exit_code)
+
+
+def _what_to_do(processes: int) -> str:
+    return (
+        "the machine was too noisy to tell: end what else runs on it, switch frequency scaling off, or take more "
+        f"samples with --processes {2 * processes}"
+    )

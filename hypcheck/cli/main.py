@@ -10,6 +10,22 @@ from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from typing import NoReturn
 
+INTERRUPTED = (130, 143)
+
+
+def process() -> NoReturn:
+    """The whole of a process: main, and its end.
+
+    An interrupt can come while a pool of workers holds a lock, which nobody will then let go, and Python waits for the
+    pool's threads as it ends. Everything is written by now, and the workers are gone, so there is no waiting.
+    """
+    code = main()
+    if code not in INTERRUPTED:
+        sys.exit(code)
+    with suppress(OSError, ValueError, AttributeError):
+        sys.stderr.flush()
+    os._exit(code)
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (the process's own, unless `arguments` are given) and return the exit code."""

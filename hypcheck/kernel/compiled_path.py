@@ -35,8 +35,15 @@ def answer_scene(
     sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
 ) -> tuple[Positions, int]:
     """As answering.Kernel has it."""
-    ask, number = compiled().ask_scene, NUMBER_OF[question]
     answers = np.empty(len(columns[0]), dtype=np.int8)
+    return answers, fill_scene(sizes, columns, answers, question, threads)
+
+
+def fill_scene(
+    sizes: Sizes, columns: Columns, answers: Positions, question: Question, threads: int | None = None
+) -> int:
+    """The same into a contiguous array that is there already; returns how many rows are invalid."""
+    ask, number = compiled().ask_scene, NUMBER_OF[question]
     as_they_are = all(column.flags.c_contiguous and column.flags.aligned for column in columns)
 
     def part(start: int, stop: int) -> int:
@@ -49,7 +56,7 @@ def answer_scene(
             refused += int(ask(number, sizes, *copies, answers[low:high]))
         return refused
 
-    return answers, _in_parts(part, len(answers), threads)
+    return _in_parts(part, len(answers), threads)
 
 
 def _in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:

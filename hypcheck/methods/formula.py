@@ -16,7 +16,7 @@ from hypcheck.derivation.counting import hoisted
 from hypcheck.derivation.evaluation import Arithmetic
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import Formula
-from hypcheck.derivation.program import NUMBER, OPERATIONS, Program, Step, cut, needed
+from hypcheck.derivation.program import KNOWN, NUMBER, Program, Step, cut, needed
 from hypcheck.methods.method import Answers
 from hypcheck.pairs import COLUMNS, SIZES
 from hypcheck.rows import Rows
@@ -104,13 +104,18 @@ def by_scene(formula: Formula, format_name: str) -> ByScene:
 
 def parts(formula: Formula) -> tuple[Program, Program]:
     """The formula's program in two: what sizes alone decide, and what is left for each centre."""
-    steps = hoisted(formula.program, SIZES).outside
-    # A program's inputs are numbers, so a comparison of sizes stays with the centres: it costs one of two scalars.
-    numbers = [step.name for step in steps if OPERATIONS[step.operation].gives == NUMBER]
-    left = cut(formula.program, numbers, (formula.answer,))
+    return split(formula.program, (formula.answer,), SIZES)
+
+
+def split(program: Program, wanted: tuple[str, ...], fixed: tuple[str, ...]) -> tuple[Program, Program]:
+    """A program in two: what the fixed inputs alone decide, and what is left, up to the wanted names."""
+    steps = hoisted(program, fixed).outside
+    # A program's inputs are numbers, so a comparison of fixed ones stays with the rest: it costs one of two scalars.
+    numbers = [step.name for step in steps if KNOWN[step.operation].gives == NUMBER]
+    left = cut(program, numbers, wanted)
     read = {name for step in left.steps for name in step.reads}
     known = [name for name in numbers if name in read]
-    return cut(formula.program, SIZES, known), cut(formula.program, known, (formula.answer,))
+    return cut(program, fixed, known), cut(program, known, wanted)
 
 
 def _numbers(outside: Program) -> tuple[str, ...]:

@@ -34,7 +34,7 @@ UNWRITTEN = -86
 
 def row_bytes(rows: Rows) -> memoryview:
     """Rows (n, 7) as little-endian bytes, not copied where they already are."""
-    return np.ascontiguousarray(rows, dtype="<f8").data.cast("B")
+    return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
 
 
 def integers(data: bytes | bytearray | memoryview, width: int) -> NDArray[np.signedinteger]:

@@ -69,8 +69,8 @@ class Library:
     def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         positions, n = _Positions(rows), len(rows)
-        parts = _scene(rows)  # held, since the pointers do not hold it
         if by_scene:
+            parts = _scene(rows)  # held, since the pointers do not hold it
             sizes, *centers = (part.ctypes.data for part in parts)
             function, words = self._classify_scene, (sizes, n, *centers, positions.address)
         else:

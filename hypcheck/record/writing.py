@@ -37,6 +37,11 @@ class Recorder:
         self._header = plain(header(options, self._started))
         self._write(self._header)
 
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """What was added so far."""
+        return tuple(self._lines)
+
     def add(self, kind: str, /, **fields: Any) -> None:  # noqa: ANN401  a line holds whatever JSON can
         """Add one line of a kind."""
         line = plain({"type": kind, **fields})

@@ -19,7 +19,8 @@ from hypcheck.casebook.families import FAMILIES, select
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder
 
-NAMES = [f"{body.name}-c" for body in c_library.bodies()]
+NAMES = [f"{body.name}-c" for body in c_library.bodies() if body.name != "table-2-reciprocal-float64"]
+NUMPY = {"fast-c": "fast-numpy"}
 
 
 @pytest.fixture(scope="session")
@@ -39,7 +40,9 @@ def rows():
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("trigonometric")])
 def test_a_method_in_c_is_the_method_in_numpy(name, methods, rows):
-    assert (methods[name].load().answer(rows) == methods[name.removesuffix("-c")].load().answer(rows)).all()
+    assert (
+        methods[name].load().answer(rows) == methods[NUMPY.get(name, name.removesuffix("-c"))].load().answer(rows)
+    ).all()
 
 
 @pytest.mark.parametrize("name", ["trigonometric-float32-c", "trigonometric-float64-c"])
@@ -93,7 +96,7 @@ def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
 
 def test_a_run_without_a_compiler_goes_on_with_the_rest_and_says_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr(
-        c_library, "_program", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
+        c_library, "compiler_here", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
     )
     stream = io.StringIO()
     plan = BenchPlan(methods=("table-2-float64*",), folder=tmp_path)

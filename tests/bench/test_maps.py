@@ -17,13 +17,7 @@ from hypcheck.methods.builtin import builtin
 from hypcheck.methods.engines import FCL
 from hypcheck.truth import batch
 
-PLAN = BenchPlan(quick=True)
-
-
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    amounts = replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300)
-    monkeypatch.setattr(BenchPlan, "amounts", property(lambda plan: amounts))
+PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300))
 
 
 def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never_wrong():

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from importlib import resources
 
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.bench import run
+from hypcheck.bench import plan, run
 from hypcheck.bench.plan import REFERENCE
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
@@ -16,6 +17,7 @@ from hypcheck.record import SCHEMA, read
 from tests.json_schema import violations
 
 SMALL = ["--quick", "--processes", "2", "--rounds", "2", "--workers", "1"]
+FEW = replace(plan.QUICK, judged=300, cell=2, map_lines=9, timed=8192)
 METHODS = ["--methods", "fast-numpy,table-2-float16,bounding-cylinder"]
 RECORD = json.loads(
     resources.files("hypcheck.report").joinpath("schemas", f"record-{SCHEMA}.json").read_text(encoding="utf-8")
@@ -23,8 +25,10 @@ RECORD = json.loads(
 
 
 def ended(folder, *options):
-    """The exit code and the record of a run."""
-    result = CliRunner().invoke(bench, ["--out", str(folder), *SMALL, *options], standalone_mode=False)
+    """The exit code and the record of a run on few rows."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(plan, "QUICK", FEW)
+        result = CliRunner().invoke(bench, ["--out", str(folder), *SMALL, *options], standalone_mode=False)
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     record = read(folder / "record.jsonl")
@@ -100,6 +104,7 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
         (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; near to it: table-2-float32"),
         (["--workloads", "everywhere"], "there is no workload 'everywhere'"),
         (["--max-slowdown", "0.9"], "--max-slowdown is 0.9; it must be 1 or more"),
+        (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )
 def test_what_does_not_exist_is_refused_and_nothing_is_written(tmp_path, options, message):

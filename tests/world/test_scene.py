@@ -73,8 +73,10 @@ def centres_about(scene, count, seed):
 def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
     scene = forest(60, seed)
     centres = centres_about(scene, 120, seed)
-    found = Scene(scene).classify(*centres.T)
+    asked = Scene(scene)
+    found = asked.classify(*centres.T)
     assert found.dtype == np.int8
+    assert [asked.position(*centre) for centre in centres.tolist()] == found.tolist()
     for centre, answer in zip(centres.tolist(), found.tolist(), strict=True):
         assert answer == whole(scene, centre), centre
 
@@ -85,6 +87,7 @@ def test_a_difference_that_rounds_to_contact_is_not_taken_for_it():
     scene = model.Scene("s", "position", (tree,), Mover(1.0, 1.0))
     for x in (2.0**60 + 512, 2.0**60 - 256):
         assert Scene(scene).classify(x, 0.0, 0.0)[0] == truth_about(tree, scene.mover, (x, 0.0, 0.0))
+        assert Scene(scene).position(x, 0.0, 0.0) == truth_about(tree, scene.mover, (x, 0.0, 0.0))
     near = replace(tree, center=(1.0, 0.0, 0.0))
     for x in (3 + 2.0**-51, 3.0, -1.0, -1 - 2.0**-52, 1e-30):
         scene = model.Scene("s", "position", (near,), Mover(1.0, 1.0))
@@ -98,7 +101,7 @@ def test_what_is_left_out_is_out_of_reach():
     grid = grid_of(centres[:, 0], centres[:, 1], far)
     asked = 0
     for centre in centres_about(scene, 200, 5).tolist():
-        near = set(grid.near(*centre[:2]).tolist())
+        near = set(grid.near(*centre[:2]))
         asked += len(near)
         for index, body in enumerate(scene.hyperboloids):
             if index not in near:
@@ -137,6 +140,7 @@ def test_beyond_the_modelled_height_nothing_is_said():
     tree = Hyperboloid("stump", 1.0, 2.0, (0.0, 0.0, 1.0), Span(-1.0, 1.0))
     scene = Scene(model.Scene("s", "position", (tree,), Mover(0.5, 0.5)))
     assert scene.classify([0.0, 1.2, 0.0], 0.0, [2.0, 1.0, 2.5]).tolist() == [-1, 0, 2]
+    assert [scene.position(x, 0.0, z) for x, z in ((0.0, 2.0), (1.2, 1.0), (0.0, 2.5))] == [-1, 0, 2]
     other = Hyperboloid("post", 1.0, 2.0)
     both = Scene(model.Scene("s", "contact", (tree, other), Mover(0.5, 0.5)))
     assert both.classify(1.2, 0.0, -0.1)[0] == 1
@@ -147,7 +151,9 @@ def test_beyond_the_modelled_height_nothing_is_said():
 )
 def test_a_question_is_answered_yes_or_no(question, answers):
     scene = model.Scene("s", question, (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5))
-    assert Scene(scene).classify([9.0, 2.0, 0.0], 0.0, 0.0).tolist() == answers
+    asked = Scene(scene)
+    assert asked.classify([9.0, 2.0, 0.0], 0.0, 0.0).tolist() == answers
+    assert [asked.position(x, 0.0, 0.0) for x in (9.0, 2.0, 0.0)] == answers
 
 
 def test_the_public_name_reads_a_file(tmp_path):
@@ -168,3 +174,6 @@ def test_the_public_name_reads_a_file(tmp_path):
 def test_bad_centres_are_refused(centre, sentence):
     with pytest.raises(InputError, match=sentence):
         Scene(forest(3, 3)).classify(*centre)
+    if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):
+        with pytest.raises(InputError, match=sentence):
+            Scene(forest(3, 3)).position(*centre)

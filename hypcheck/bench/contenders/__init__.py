@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hypcheck.bench.contenders import c_tier, mesh_tier, numpy_tier
+from hypcheck.bench.contenders import c_tier, foreign, mesh_tier, numpy_tier
 from hypcheck.bench.contenders.contender import Contender
 from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen
 
@@ -14,10 +14,12 @@ __all__ = ["Contender", "contenders"]
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
     """All that this run compares and can, by name, the reference first. Raises InputError where the plan names none."""
     found = {each.name: each for each in _everything(plan)}
+    others = {each.name: each for each in foreign.contenders(plan.foreign, plan.limits)}
     names = chosen(list(found), plan.methods, "method")
+    found |= others
     return {
         name: found[name]
-        for name in dict.fromkeys((REFERENCE, *names))
+        for name in dict.fromkeys((REFERENCE, *names, *others))
         if found[name].needs not in plan.missing and (found[name].quick or not plan.quick or plan.methods)
     }
 

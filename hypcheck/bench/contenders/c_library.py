@@ -15,18 +15,22 @@ from time import perf_counter_ns
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contenders.c_source import Body, dual, of_formula, source, trigonometric
+from hypcheck.bench.contenders.c_source import FAST, Body, Ready, dual, of_formula, source, trigonometric
 from hypcheck.bench.contenders.ways import Empty, Prepared
 from hypcheck.bench.rounds import Clocked
 from hypcheck.bench.workloads import scene_of
+from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.errors import UnavailableError
+from hypcheck.kernel import core
 from hypcheck.methods.method import Answers
+from hypcheck.methods.procedures import CRAFT, MOVING, Flight
+from hypcheck.methods.reciprocals import RECIPROCAL
 from hypcheck.rows import Rows
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 """Nothing that changes a result: no fast-math, no contraction. The last two let gcc make vectors of comparisons."""
 
-FORMULAS = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
+LISTED = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
 FORMATS = ("float32", "float64")
 
 _SECONDS = 120
@@ -41,33 +45,58 @@ class Compiler:
     flags: tuple[str, ...]
 
 
-def bodies() -> list[Body]:
+KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
+"""As the package is built (setup.py): the kernel chooses its instruction set when it runs, and its bounds allow FMA."""
+
+
+def bodies() -> list[Body | Ready]:
     """Every method in C; its place in the table is its place here plus one."""
-    listed = [of_formula(name, format_name) for name in FORMULAS for format_name in FORMATS]
+    listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
-    return [*listed, of_formula("table-2", "longdouble"), *roots, *(dual(format_name) for format_name in FORMATS)]
+    others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
+    duals = [dual(format_name) for format_name in FORMATS]
+    return [FAST, *listed, *others, *roots, *duals]
+
+
+def place_of(name: str) -> int:
+    """A method's place in the table. Raises ValueError where it has none."""
+    return [each.name for each in bodies()].index(name) + 1
 
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
     """The library, made in a folder. Raises UnavailableError where there is no compiler that makes it."""
     code, library = folder / "methods.c", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
-    return library, compile_c(code, library)
+    kernel = _kernel(folder)
+    return library, compile_c(code, library, kernel)
 
 
-def compile_c(code: Path, library: Path) -> Compiler:
-    """Make a library of a file in C. Raises UnavailableError where there is no compiler that makes it."""
-    program = _program()
+def compile_c(code: Path, library: Path, *others: str) -> Compiler:
+    """Make a library of a file in C, and of other files. Raises UnavailableError where no compiler is there for it."""
+    program = compiler_here()
     trouble = ""
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
-        done = _run([program, *flags, "-shared", str(code), "-o", str(library), "-lm"])
+        words = [program, *flags, f"-I{core.__path__[0]}", "-shared", str(code), *others, "-o", str(library), "-lm"]
+        done = run_compiler(words)
         if done.returncode == 0:
             return Compiler(program, _version(program), flags)
         trouble = trouble or (done.stderr.strip().splitlines() or ["it says nothing"])[0]
     raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
 
 
-def _program() -> str:
+def _kernel(folder: Path) -> str:
+    """The object file of the fast path."""
+    program, code, target = compiler_here(), folder / "fast.c", folder / "fast.o"
+    code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
+    done = run_compiler([program, *KERNEL_FLAGS, f"-I{core.__path__[0]}", "-c", str(code), "-o", str(target)])
+    if done.returncode != 0:
+        said = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+        raise UnavailableError(f"{program} does not compile the fast path: {said}")
+    return str(target)
+
+
+def compiler_here() -> str:
+    """The C compiler that is found here. Raises UnavailableError where there is none."""
     named = os.environ.get("CC", "")
     for name in (named, "cc", "gcc", "clang"):
         found = shutil.which(name) if name else None
@@ -76,7 +105,8 @@ def _program() -> str:
     raise UnavailableError("no C compiler is found (cc, gcc, clang, or what CC names)")
 
 
-def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
+def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
+    """What became of a call of the compiler. Raises UnavailableError where it cannot be run, or does not end."""
     try:
         return subprocess.run(words, capture_output=True, text=True, timeout=_SECONDS, check=False)  # noqa: S603
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -84,7 +114,7 @@ def _run(words: list[str]) -> subprocess.CompletedProcess[str]:
 
 
 def _version(program: str) -> str:
-    return (_run([program, "--version"]).stdout.splitlines() or [""])[0]
+    return (run_compiler([program, "--version"]).stdout.splitlines() or [""])[0]
 
 
 @cache
@@ -93,7 +123,8 @@ def _loaded(library: Path) -> ctypes.CDLL:
     pointer, size = ctypes.c_void_p, ctypes.c_size_t
     loaded.bench_rows.argtypes = loaded.bench_single.argtypes = (size, size, size, pointer, pointer)
     loaded.bench_scene.argtypes = (size, size, pointer, size, pointer, pointer, pointer, pointer)
-    for function in (loaded.bench_rows, loaded.bench_single, loaded.bench_scene):
+    loaded.bench_bodies.argtypes = (size, size, pointer, size, *[pointer] * 6)
+    for function in (loaded.bench_rows, loaded.bench_single, loaded.bench_scene, loaded.bench_bodies):
         function.restype = None
     return loaded
 
@@ -104,6 +135,7 @@ class InC:
 
     library: Path
     place: int
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """Its answers, by the entry for rows."""
@@ -153,6 +185,19 @@ class InC:
             return function(self.place, repeat, len(rows), rows.ctypes.data, found.ctypes.data)
 
         return _prepared(len(rows), call, found)
+
+
+def bodies_asked(library: Path, place: int, flight: Flight) -> Prepared:
+    """One of the quadcopter's procedures, by its place in c_procedures.NAMES, about each position of a flight."""
+    craft = np.array([flight.craft[name] for name in CRAFT])
+    columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
+    found = np.zeros(len(flight), dtype=np.int8)
+
+    def call(repeat: int) -> object:
+        moving = [column.ctypes.data for column in columns]
+        return _loaded(library).bench_bodies(place, repeat, craft.ctypes.data, len(found), *moving, found.ctypes.data)
+
+    return _prepared(len(found), call, found)
 
 
 def _prepared(count: int, call: Callable[[int], object], found: Answers) -> Prepared:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from hypcheck.bench.contenders.c_procedures import procedures_source
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import cut
 from hypcheck.kernel.printing.c import SUFFIXES, c_statements
@@ -35,13 +36,21 @@ class Body:
     answer: str
 
 
-def source(bodies: Iterable[Body]) -> str:
+def source(bodies: Iterable[Body | Ready]) -> str:
     """The whole file; the table begins with a method that does nothing."""
     listed = list(bodies)
     rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
     scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
-    functions = "\n".join(_functions(each) for each in listed)
-    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}"
+    functions = "\n".join(each.code if isinstance(each, Ready) else _functions(each) for each in listed)
+    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A method whose two functions, NAME_rows and NAME_scene, are there already."""
+
+    name: str
+    code: str
 
 
 def identifier(name: str) -> str:
@@ -49,13 +58,13 @@ def identifier(name: str) -> str:
     return name.replace("-", "_").replace(".", "_")
 
 
-def of_formula(name: str, format_name: str) -> Body:
+def of_formula(formula: Formula, format_name: str) -> Body:
     """A formula as it is listed; what sizes alone decide stands before the loop."""
-    formula, number = FORMULAS[name], NUMBERS[format_name]
+    number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
     return Body(
-        f"{name}-{format_name}",
+        f"{formula.name}-{format_name}",
         number,
         c_statements(outside, known, number=number),
         c_statements(inside, (formula.answer,), number=number),
@@ -92,6 +101,26 @@ def dual(format_name: str) -> Body:
         "phi > 0 ? (lambda_ > 0) - (lambda_ < 0) : 0",
     )
 
+
+FAST = Ready(
+    "fast",
+    """
+static void fast_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{
+    if (n == 1)
+        *out = (int8_t)hypcheck_position(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]);
+    else
+        hypcheck_classify(n, rows, out);
+}
+
+static void fast_scene(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
+                       const double *restrict zs, int8_t *restrict out)
+{
+    hypcheck_classify_scene(sizes, n, xs, ys, zs, out);
+}
+""",
+)
+"""The fast path as hypcheck.classify runs it where it was compiled."""
 
 _TABLE_2 = FORMULAS["table-2"]
 _CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
@@ -139,6 +168,8 @@ _HEAD = """\
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "hypcheck.h"
 
 static void nothing_rows(size_t n, const double *restrict rows, int8_t *restrict out)
 {

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from hypcheck.bench.contenders.c_library import InC, bodies
 from hypcheck.bench.contenders.contender import Contender, of_method
-from hypcheck.bench.contenders.numpy_tier import PAPER, THIRTEEN
+from hypcheck.bench.contenders.numpy_tier import CERTIFIED, PAPER, THIRTEEN
 from hypcheck.methods.builtin import builtin_methods
 
-_KINDS = {"table-2": ("paper", PAPER), "trigonometric": ("roots", THIRTEEN)}
+_KINDS = {"table-2": ("paper", PAPER), "trigonometric": ("roots", THIRTEEN), "fast": ("certified", CERTIFIED)}
 
 
 COMPILER = "C compiler"
@@ -27,6 +27,10 @@ def contenders(library: Path | None) -> Iterable[Contender]:
     methods = builtin_methods()
     for place, body in enumerate(bodies(), start=1):
         if body.name in methods:  # a long double that is no more than float64 is left out
-            kind, note = _KINDS.get(body.name.rpartition("-")[0], ("algebraic", ""))
+            kind, note = _KINDS.get(_without_format(body.name), ("algebraic", ""))
             found = of_method(methods[body.name], "C", kind, name=f"{body.name}-c", note=note)
             yield replace(found, load=partial(InC, library or Path(), place), singles=SINGLES, needs=COMPILER)
+
+
+def _without_format(name: str) -> str:
+    return name.rpartition("-")[0] or name

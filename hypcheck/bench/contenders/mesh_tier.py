@@ -44,6 +44,7 @@ class InEngine:
     pairing: str
     triangles: int
     meshes: dict[tuple[Sizes, float], SceneMesh] = field(default_factory=dict)
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """Its answers, scene by scene; building is not avoided, but kept."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from hypcheck.bench.contenders.contender import Contender, of_method
+from hypcheck.bench.contenders.ways import InPython, InScalars
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.kernel import numpy_path
 from hypcheck.kernel.choice import choice
@@ -21,6 +22,7 @@ PRECISIONS = ("float32", "float64")
 
 PAPER = "the paper's own formula: it answers whether the pair is exterior, no more"
 THIRTEEN = "the way that the paper attributes to its [13]"
+CERTIFIED = "where its bound cannot tell, integers do"
 _UNSAID = "what does not converge is not said"
 _QUICK_DIGITS = "-15"
 
@@ -58,12 +60,20 @@ def _scene_of_formula(name: str, format_name: str) -> ByScene:
 
 
 def _fast(methods: Methods) -> Iterable[Contender]:
-    note = "where its bound cannot tell, integers do"
-    scene = numpy_path.positions_of_scene
-    yield of_method(methods["fast-numpy"], "numpy", "certified", scene=scene, timed=8192, note=note)
+    """The numpy path, the compiled one where it runs, and one call of hypcheck.position for each row."""
+    found = of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
+    yield replace(found, load=partial(InPython, numpy_path.positions, numpy_path.positions_of_scene))
     if choice().kernel == "compiled":
-        note = f"{note}; called from Python, on one thread, {choice().level}"
+        note = f"{CERTIFIED}; called from Python, on one thread, {choice().level}"
         yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=note)
+    by_one = of_method(methods["fast"], "python", "certified", name="position-python", timed=1024, note=CERTIFIED)
+    yield replace(by_one, title="hypcheck.position, one call a row", load=_position, singles=1024)
+
+
+def _position() -> InScalars:
+    from hypcheck.kernel.scalar import position  # noqa: PLC0415 - chooses the kernel where it is loaded
+
+    return InScalars(position)
 
 
 def _roots(methods: Methods) -> Iterable[Contender]:

@@ -41,6 +41,11 @@ class Empty:
 class Way(Protocol):
     """One method, loaded. What cannot be done in a way is None."""
 
+    @property
+    def trouble(self) -> str:
+        """Why rows went without an answer, where a program was at fault; else empty."""
+        ...
+
     def answer(self, rows: Rows) -> Answers:
         """Its answers, to be judged."""
         ...
@@ -72,6 +77,7 @@ class InPython:
 
     function: Answering
     scene: ByScene | None = None
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """The function's answers."""
@@ -105,6 +111,45 @@ class InPython:
         scene = self.scene
         x, y, z = np.ascontiguousarray(rows[:, 4:].T)
         return lambda: scene(sizes, x, y, z)
+
+
+@dataclass(frozen=True)
+class InScalars:
+    """A function of seven numbers in this process, called for each row."""
+
+    function: Callable[..., int]
+    trouble: str = ""
+
+    def answer(self, rows: Rows) -> Answers:
+        """The function's answers."""
+        return np.array([self.function(*row) for row in rows.tolist()], dtype=np.int8)
+
+    def batch(self, rows: Rows) -> Prepared:
+        """A call for each row all the same."""
+        return self.single(rows)
+
+    def single(self, rows: Rows) -> Prepared:
+        """A call for each row, whose numbers are Python's own already."""
+        queries = list(map(tuple, rows.tolist()))
+        return _prepared(len(queries), lambda: _of_each(self.function, queries))
+
+    def build(self, rows: Rows) -> None:
+        """Nothing is built."""
+
+    def empty(self, rows: Rows, mode: str) -> Empty | None:
+        """A function of seven numbers that does nothing."""
+        return Empty("Python, with numbers", InScalars(_none_of).single(rows)) if mode == "single" else None
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+def _of_each(function: Callable[..., int], queries: list[tuple[float, ...]]) -> Answers:
+    return np.array([function(*query) for query in queries], dtype=np.int8)
+
+
+def _none_of(*_numbers: float) -> int:
+    return 0
 
 
 def each(function: Answering, parts: list[Rows]) -> Prepared:

@@ -30,16 +30,16 @@ class Grid:
 
     side: float
     cells: dict[int, tuple[int, int]]
-    members: Indices
-    everywhere: Indices
+    members: list[int]
+    everywhere: list[int]
 
-    def near(self, x: float, y: float) -> Indices:
+    def near(self, x: float, y: float) -> list[int]:
         """The hyperboloids that a mover with its centre at (x, y) can touch."""
         part = self.cells.get(_key(floor(x / self.side), floor(y / self.side)))
         if part is None:
             return self.everywhere
         inside = self.members[part[0] : part[1]]
-        return inside if not len(self.everywhere) else np.concatenate([self.everywhere, inside])
+        return self.everywhere + inside if self.everywhere else inside
 
 
 def grid_of(x: Floats, y: Floats, reaches: Floats) -> Grid:
@@ -58,7 +58,7 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> Grid:
     names, starts = np.unique(keys, return_index=True)
     ends = np.append(starts[1:], len(keys))[: len(starts)]  # where nobody is in a cell, there is no end either
     cells = dict(zip(names.tolist(), zip(starts.tolist(), ends.tolist(), strict=True), strict=True))
-    return Grid(side, cells, members, np.flatnonzero(~few))
+    return Grid(side, cells, members.tolist(), np.flatnonzero(~few).tolist())
 
 
 def _entries(low_x: Floats, high_x: Floats, low_y: Floats, high_y: Floats, chosen: Indices) -> tuple[Indices, Indices]:

@@ -20,16 +20,20 @@ Floats = NDArray[np.float64]
 
 def reaches(scene: Scene) -> Floats:
     """The reach of each hyperboloid over the heights that the scene allows, (m,); inf where they have no end."""
-    height, mover = scene.region.z, scene.mover
-    found = np.empty(len(scene.hyperboloids))
-    for index, body in enumerate(scene.hyperboloids):
-        most = min(_most(height, body.center[2]), _most(body.height, 0.0))
-        with np.errstate(over="ignore"):
-            share = np.float64(most + mover.d) / body.gamma
-            found[index] = (body.alpha * np.sqrt(1 + share * share) + mover.b) * OUTWARD
-    return found
+    bodies, mover = scene.hyperboloids, scene.mover
+    alpha, gamma = (np.array([getattr(body, name) for body in bodies]) for name in ("alpha", "gamma"))
+    level = np.array([body.center[2] for body in bodies], np.float64)
+    most = _most(scene.region.z, level)
+    own = np.array(
+        [np.inf if body.height is None else max(map(abs, (body.height.low, body.height.high))) for body in bodies]
+    )
+    with np.errstate(over="ignore"):
+        share = (np.minimum(most, own * OUTWARD) + mover.d) / gamma
+        return np.asarray((alpha * np.sqrt(1 + share * share) + mover.b) * OUTWARD)
 
 
-def _most(span: Span | None, origin: float) -> float:
-    """The greatest distance of a height in the span from the origin; inf where there is no span."""
-    return np.inf if span is None else max(abs(span.low - origin), abs(span.high - origin)) * OUTWARD
+def _most(span: Span | None, level: Floats) -> Floats:
+    """The greatest distances of a height in the span from these levels; inf where there is no span."""
+    if span is None:
+        return np.full(len(level), np.inf)
+    return np.asarray(np.maximum(np.abs(span.low - level), np.abs(span.high - level)) * OUTWARD)

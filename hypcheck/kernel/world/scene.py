@@ -8,8 +8,11 @@ Parts of the mover are asked where the mover itself is in contact: what all part
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
+from math import cos, isfinite, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +21,7 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.world import offsets
 from hypcheck.kernel.world.grid import Grid, grid_of
 from hypcheck.kernel.world.reach import reaches
+from hypcheck.kernel.world.step import Body, position_beside
 from hypcheck.pairs import CENTER
 from hypcheck.rows import CANNOT_SAY, Positions
 from hypcheck.scene import model
@@ -28,6 +32,10 @@ Indices = NDArray[np.int64]
 
 NOTHING_SAID = 2
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
+
+_RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
+_OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT, EXTERIOR)
+"""What counts more when hyperboloids say different things: 0 is nothing said, and −1, the last, nobody near."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +74,37 @@ class Scene:
         said = self._said(query, body, centres, columns[3])
         return self._answers(_combined(said, query, len(centres)))
 
+    def position(self, x: float, y: float, z: float, heading: float = 0.0) -> int:
+        """The exact answer to the scene's question for one centre: as classify, at the price of a step.
+
+        Raises InputError for numbers that are not finite.
+        """
+        x, y, z = float(x), float(y), float(z)
+        if not (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading)):
+            return int(self.classify(x, y, z, heading)[0])  # which says what is wrong
+        bodies, mover, found = self._steps, self.model.mover, -1
+        for index in self._near(x, y, z):
+            body = bodies[index]
+            if not body[5] <= z - body[4] <= body[6]:
+                rank = 0
+            else:
+                said = position_beside(body, mover.b, mover.d, x, y, z)
+                if said == CONTACT and mover.parts:
+                    said = self._of_parts(index, (x, y, z), heading)
+                if said == CONTACT:
+                    found = _RANK[CONTACT]
+                    break
+                rank = _RANK[said]
+            found = max(found, rank)
+        answer = _OF_RANK[found]
+        return answer if self.model.question == "position" else int(self._answers(np.array([answer], np.int8))[0])
+
+    def _near(self, x: float, y: float, z: float) -> Iterable[int]:
+        height = self.model.region.z
+        if height is not None and not height.low <= z <= height.high:
+            return range(len(self._steps))
+        return self._grid.near(x, y)
+
     def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
         """Which hyperboloids have to be asked about which centres."""
         height = self.model.region.z
@@ -74,31 +113,31 @@ class Scene:
             return np.repeat(np.arange(len(centres)), count), np.tile(np.arange(count), len(centres))
         near = [self._grid.near(x, y) for x, y in centres[:, :2].tolist()]
         counts = [len(each) for each in near]
-        return np.repeat(np.arange(len(centres)), counts), np.concatenate([*near, np.empty(0, np.int64)])
+        return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
     def _said(self, query: Indices, body: Indices, centres: Floats, heading: Floats) -> Positions:
         """What each hyperboloid says about its centre."""
         shapes, origins, heights = self._bodies
         mover = self.model.mover
         result = _positions(shapes[body], (mover.b, mover.d), centres[query], origins[body])
-        for pair in np.flatnonzero(result == CONTACT) if mover.parts else ():
-            result[pair] = self._of_parts(
-                shapes[body[pair]], origins[body[pair]], centres[query[pair]], heading[query[pair]]
-            )
+        for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
+            x, y, z = centres[query[pair]].tolist()
+            result[pair] = self._of_parts(int(body[pair]), (x, y, z), float(heading[query[pair]]))
         level = centres[query, 2] - origins[body, 2]
         result[(level < heights[body, 0]) | (level > heights[body, 1])] = NOTHING_SAID
         return result
 
-    def _of_parts(self, shape: Floats, origin: Floats, centre: Floats, heading: float) -> int:
-        """The position that all parts have in common, else contact."""
-        found = set()
-        for part in self.model.mover.parts:
-            turn = np.deg2rad(heading + part.angle)
-            place = centre + part.arm * np.array([np.cos(turn), np.sin(turn), 0.0])
-            found.add(int(_positions(shape[None], (part.b, part.d), place[None], origin[None])[0]))
-            if len(found) > 1 or CONTACT in found:
+    def _of_parts(self, index: int, centre: tuple[float, float, float], heading: float) -> int:
+        """The position that all parts have in common beside a hyperboloid, else contact."""
+        found = CONTACT
+        for number, part in enumerate(self.model.mover.parts):
+            turn = radians(heading + part.angle)
+            x, y = centre[0] + part.arm * cos(turn), centre[1] + part.arm * sin(turn)
+            said = position_beside(self._steps[index], part.b, part.d, x, y, centre[2])
+            if said == CONTACT or (number and said != found):
                 return CONTACT
-        return found.pop()
+            found = said
+        return found
 
     def _answers(self, positions: Positions) -> Positions:
         question = self.model.question
@@ -111,6 +150,13 @@ class Scene:
     def _grid(self) -> Grid:
         _, origins, _ = self._bodies
         return grid_of(origins[:, 0], origins[:, 1], reaches(self.model))
+
+    @cached_property
+    def _steps(self) -> list[Body]:
+        """The same as _bodies, as numbers without arrays."""
+        shapes, origins, heights = self._bodies
+        table = np.concatenate([shapes, origins, heights], axis=1).tolist()
+        return [(alpha, gamma, x, y, z, low, high) for alpha, gamma, x, y, z, low, high in table]
 
     @cached_property
     def _bodies(self) -> tuple[Floats, Floats, Floats]:
@@ -128,7 +174,7 @@ def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, o
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:
     """One answer a centre: contact before interior before exterior; where nobody was near, exterior."""
-    rank = np.select([said == CONTACT, said == INTERIOR, said == EXTERIOR], [3, 2, 1], 0).astype(np.int8)
+    rank = np.select([said == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
     highest = np.full(count, -1, np.int8)
     np.maximum.at(highest, query, rank)
-    return np.array([NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT, EXTERIOR], np.int8)[highest]
+    return np.array(_OF_RANK, np.int8)[highest]

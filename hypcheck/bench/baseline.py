@@ -1,0 +1,133 @@
+"""Holding speeds to an earlier run: ratios to the reference in both, never times of one machine to those of another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hypcheck.bench.contenders import Contender
+from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.bench.statistics import CONFIDENCE, ratios, resampled_medians
+from hypcheck.errors import InputError
+from hypcheck.record import Line, read
+
+Key = tuple[str, str, str]
+"""A method, a workload and a mode."""
+
+_SEEDS = (1, 2)
+"""Of the draws before and after: the runs have nothing to do with each other."""
+
+
+@dataclass(frozen=True)
+class Baseline:
+    """A run's speeds and noise."""
+
+    speeds: dict[Key, Line]
+    floors: dict[tuple[str, str], float]
+
+
+@dataclass(frozen=True)
+class Change:
+    """How a ratio changed from one run to the other: the quotient, its interval, and both runs' noise as one factor."""
+
+    change: float
+    low: float
+    high: float
+    noise: float
+
+    def verdict(self, allowed: float) -> str:
+        """For certain "slower" than allowed, or "faster", or neither ("same"); else "inconclusive"."""
+        low, high = self.low / self.noise, self.high * self.noise
+        if low > allowed:
+            return "slower"
+        if high > allowed:
+            return "inconclusive"
+        return "faster" if high < 1 else "same"
+
+
+def read_baseline(plan: BenchPlan) -> Baseline | None:
+    """The plan's baseline, where it has one. Raises InputError where it is none for this run."""
+    if plan.baseline is None:
+        return None
+    record, path = read(plan.baseline), plan.baseline
+    options = record.header["options"]
+    if options.get("command") != "bench":
+        raise InputError(f"--baseline {path}: is a record of another command; it must be one of hypcheck bench")
+    if options.get("reference") != REFERENCE:
+        told = options.get("reference")
+        raise InputError(f"--baseline {path}: its ratios are to {told!r}; this version's are to {REFERENCE!r}")
+    if options.get("quick") != plan.quick:
+        kind = "quick" if options.get("quick") else "full"
+        raise InputError(f"--baseline {path}: is of a {kind} run; compare it with another {kind} one")
+    baseline = speeds_of(record.lines)
+    if not baseline.speeds:
+        raise InputError(f"--baseline {path}: holds no speed relative to {REFERENCE}; it proves nothing about speed")
+    return baseline
+
+
+def speeds_of(lines: Iterable[Line]) -> Baseline:
+    """The speeds among lines of a record that have a ratio, and the noise."""
+    found = list(lines)
+    speeds = {
+        (line["method"], line["workload"], line["mode"]): line
+        for line in found
+        if line["type"] == "speed" and line["ratio"] is not None
+    }
+    floors = {(line["workload"], line["mode"]): float(line["floor"]) for line in found if line["type"] == "noise"}
+    return Baseline(speeds, floors)
+
+
+def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:
+    """The methods whose verdicts decide the exit code: what was named, else our own certified ones."""
+    foreign = {each.name for each in plan.foreign}
+    if foreign:
+        return foreign
+    if plan.methods:
+        return set(found) - {REFERENCE}
+    return {name for name, each in found.items() if each.kind == "certified"}
+
+
+def require_common(before: Baseline, names: set[str]) -> None:
+    """Raise InputError where the baseline has none of the methods that are to be held to it."""
+    known = {method for method, _, _ in before.speeds}
+    if not known & names:
+        told = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
+        raise InputError(f"--baseline: holds no speed of what is to be held to it: {told}")
+
+
+def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[dict[str, Any]]:
+    """A line for each method, workload and mode that both runs timed."""
+    for key, line in after.speeds.items():
+        method, workload, mode = key
+        if key in before.speeds and method != REFERENCE:
+            change = change_of(before, after, key)
+            yield {
+                "method": method,
+                "workload": workload,
+                "mode": mode,
+                "before": before.speeds[key]["ratio"],
+                "after": line["ratio"],
+                "change": change.change,
+                "ci95": [change.low, change.high],
+                "verdict": change.verdict(plan.max_slowdown),
+                "allowed": plan.max_slowdown,
+                "gates": method in gates,
+            }
+
+
+def change_of(before: Baseline, after: Baseline, key: Key) -> Change:
+    """How one ratio changed."""
+    draws = [_medians(run, key, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
+    tail = (1 - CONFIDENCE) / 2
+    low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()
+    change = after.speeds[key]["ratio"] / before.speeds[key]["ratio"]
+    noise = (1 + before.floors.get(key[1:], 0.0)) * (1 + after.floors.get(key[1:], 0.0))
+    return Change(change, min(low, change), max(high, change), noise)
+
+
+def _medians(run: Baseline, key: Key, seed: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    reference = run.speeds[(REFERENCE, *key[1:])]["samples_ns"]
+    return resampled_medians(ratios(run.speeds[key]["samples_ns"], reference), seed)

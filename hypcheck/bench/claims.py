@@ -1,0 +1,169 @@
+"""The paper's claims about cost, and what is put to the clock for each: the printed way first, then the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from hypcheck.bench.contenders.c_library import InC, bodies_asked, place_of
+from hypcheck.bench.contenders.c_procedures import NAMES
+from hypcheck.bench.contenders.ways import InPython, Prepared
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.rounds import clocked
+from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.casebook.draw import Draw
+from hypcheck.casebook.scenes import ARM, BODY, ROTOR, TOWER
+from hypcheck.derivation.costs import cost_of
+from hypcheck.derivation.counting import Operations, count
+from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.root_formulas import ROOTS_TRIGONOMETRIC
+from hypcheck.methods import roots
+from hypcheck.methods.formula import by_rows, by_scene
+from hypcheck.methods.procedures import CRAFT, PROCEDURES, Flight, hull_programs, procedure_2b
+from hypcheck.methods.reciprocals import RECIPROCAL
+
+TABLE_2 = FORMULAS["table-2"]
+PRINTED_A, PRINTED_B, OURS = "Procedure 2.a", "Procedure 2.b", "ours: certified, the body first"
+PRINTED, RECIPROCALS = "Table 2 as printed", "Table 2 with 1/b² and 1/d kept outside the loop"
+TRIGONOMETRIC, EIGENVALUES = "the roots by cosines, where Δ > 0", "the roots by numpy.roots"
+
+_ROOTS_TIMED = 96
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim about cost and where it stands; what is compared on which scene, in which tier.
+
+    `compared` makes the ways ready for the clock, by name, the printed one first; `operations` are those of each
+    position, where they can be counted.
+    """
+
+    name: str
+    text: str
+    scene: str
+    tier: str
+    compared: Callable[[BenchPlan], dict[str, Prepared]]
+    operations: dict[str, Operations]
+
+
+def claims(plan: BenchPlan) -> list[Claim]:
+    """What is measured in this run: everything in numpy, and in C where it was compiled."""
+    if plan.methods or plan.workloads:
+        return []  # a run of a few methods is about these
+    tiers = ("numpy", "C") if plan.compiled is not None else ("numpy",)
+    return [make(tier) for make in (_procedures, _divisions, _roots) for tier in tiers]
+
+
+def flight_of(seed: int, number: int) -> Flight:
+    """Positions along random flights in the paper's cooling tower, with headings."""
+    x, y, z = np.ascontiguousarray(WORKLOADS["flight"].rows(seed, number)[:, 4:].T)
+    cosine, sine = Draw("bench-headings", 1, seed).circle(number)
+    return Flight(dict(zip(CRAFT, (*TOWER, *BODY, *ROTOR, ARM), strict=True)), x, y, z, cosine, sine)
+
+
+def share_touching(flight: Flight) -> float:
+    """How often Δ ≤ 0 for the bounding spheroid, so that Procedure 2.b asks the rotors."""
+    asked = 0
+
+    def counting(part: Flight) -> None:
+        nonlocal asked
+        asked += len(part)
+
+    procedure_2b(flight, counting)
+    return asked / len(flight)
+
+
+def _procedures(tier: str) -> Claim:
+    where = "in numpy, 8,192 positions at a time" if tier == "numpy" else "in C, one position a call"
+    return Claim(
+        "procedures",
+        "Section 4: Δ(g_i) costs much, so asking the bounding spheroid first and the rotors only where Δ ≤ 0 "
+        "(Procedure 2.b) costs less than asking the four rotors (2.a)",
+        f"random flights in the cooling tower, {where}",
+        tier,
+        _procedures_in_numpy if tier == "numpy" else _procedures_in_c,
+        {PRINTED_A: cost_of(FORMULAS["procedure-2a"]).query},
+    )
+
+
+def hull_operations() -> Operations:
+    """What Procedure 2.b takes for every position, the rotors aside."""
+    return count(hull_programs()[1].steps)
+
+
+def _procedures_in_numpy(plan: BenchPlan) -> dict[str, Prepared]:
+    flight = flight_of(plan.seed, plan.amounts.bodies)
+    ways = zip((PRINTED_A, PRINTED_B, OURS), PROCEDURES.values(), strict=True)
+    return {
+        name: Prepared(len(flight), clocked(work), work)
+        for name, procedure in ways
+        for work in [partial(procedure, flight)]
+    }
+
+
+def _procedures_in_c(plan: BenchPlan) -> dict[str, Prepared]:
+    flight = flight_of(plan.seed, plan.amounts.bodies)
+    places = enumerate(NAMES[1:], start=1)
+    names = (PRINTED_A, PRINTED_B, OURS)
+    return {name: bodies_asked(_library(plan), place, flight) for name, (place, _) in zip(names, places, strict=True)}
+
+
+def _divisions(tier: str) -> Claim:
+    return Claim(
+        "divisions",
+        "Section 3.1: in Table 2 only additions or products are performed, so the computational cost is very low",
+        f"uniform around the cooling tower, in {tier}, in a batch",
+        tier,
+        partial(_formulas, tier=tier, listed={PRINTED: TABLE_2, RECIPROCALS: RECIPROCAL}),
+        {PRINTED: cost_of(TABLE_2).query, RECIPROCALS: cost_of(RECIPROCAL).query},
+    )
+
+
+def _roots(tier: str) -> Claim:
+    of_roots = cost_of(ROOTS_TRIGONOMETRIC).query
+    return Claim(
+        "roots",
+        "Section 3.1: coefficients alone cost less than the roots of [13], which take trigonometric functions where "
+        "Δ > 0",
+        f"uniform around the cooling tower, in {tier}, in a batch",
+        tier,
+        _roots_in_numpy if tier == "numpy" else _roots_in_c,
+        # In C two of the roots are enough, and they are taken where Δ > 0 alone: no straight-line program says that.
+        {PRINTED: cost_of(TABLE_2).query, **({TRIGONOMETRIC: of_roots} if tier == "numpy" else {})},
+    )
+
+
+def _roots_in_numpy(plan: BenchPlan) -> dict[str, Prepared]:
+    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
+    found = _formulas(plan, tier="numpy", listed={PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC})
+    return {**found, EIGENVALUES: InPython(roots.by_numpy).batch(rows[:_ROOTS_TIMED])}
+
+
+def _roots_in_c(plan: BenchPlan) -> dict[str, Prepared]:
+    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
+    names = {PRINTED: "table-2-float64", TRIGONOMETRIC: "trigonometric-float64"}
+    return {name: InC(_library(plan), place_of(body)).batch(rows) for name, body in names.items()}
+
+
+def _formulas(plan: BenchPlan, *, tier: str, listed: dict[str, Formula]) -> dict[str, Prepared]:
+    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
+    if tier == "C":
+        places = {name: place_of(f"{formula.name}-float64") for name, formula in listed.items()}
+        return {name: InC(_library(plan), place).batch(rows) for name, place in places.items()}
+    ways = {name: (by_rows(each, "float64"), by_scene(each, "float64")) for name, each in listed.items()}
+    return {name: InPython(*way).batch(rows) for name, way in ways.items()}
+
+
+def _library(plan: BenchPlan) -> Path:
+    if plan.compiled is None:
+        raise ValueError("nothing was compiled")
+    return plan.compiled
+
+
+def shown(operations: Operations) -> dict[str, int]:
+    """The operations that there are, by kind."""
+    return {name: number for name, number in asdict(operations).items() if number}

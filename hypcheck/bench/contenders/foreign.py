@@ -1,0 +1,181 @@
+"""What a SPEC names, compared beside the others: in a process of its own, by its own clock where it offers one."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from hypcheck.bench.contenders.contender import Contender, of_method
+from hypcheck.bench.contenders.ways import Empty, Prepared
+from hypcheck.bench.rounds import Clocked, RefusedError
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
+from hypcheck.methods.builtin import builtin
+from hypcheck.methods.description import Description
+from hypcheck.methods.faults import TimingError
+from hypcheck.methods.frames import LARGEST
+from hypcheck.methods.implementation import Implementation
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.method import Answers
+from hypcheck.methods.opening import open_implementation
+from hypcheck.methods.spec import parse_spec
+from hypcheck.rows import Rows
+
+SINGLES = 16
+"""Rows that are asked one by one, each as often as a sample needs: foreign code is asked about one row at a time so."""
+
+_TRIED = 64
+_JUDGED_S, _TIMED_S = 4.0, 0.01
+"""What judging one workload may take, and a timed batch."""
+
+
+@dataclass(frozen=True)
+class Foreign:
+    """A SPEC that was started, what it says of itself, and how many rows it is fast enough for."""
+
+    spec: str
+    name: str
+    description: Description
+    judged: int
+    timed: int
+
+
+def met(spec: str, limits: Limits, taken: Sequence[str]) -> Foreign:
+    """What a SPEC is. Raises StartError where it cannot be started, and InputError where it is no SPEC."""
+    with open_implementation(spec, limits) as implementation:
+        description = implementation.description
+        took = _seconds_a_row(implementation)
+    name = description.name if description.name not in taken else f"{description.name} ({spec})"
+    return Foreign(spec, name, description, max(200, int(_JUDGED_S / took)), min(LARGEST, max(1, int(_TIMED_S / took))))
+
+
+def _seconds_a_row(implementation: Implementation) -> float:
+    """What a row takes in a batch, asked in larger and larger ones until that takes long enough to tell."""
+    some = WORKLOADS["uniform"].rows(1, _TRIED)
+    inside = some[implementation.description.domain.holds(some)]
+    some = inside if len(inside) else np.array([[*NEAR_SCENES[0], 1.0, 0.5, 2.0]])
+    implementation.classify(some)  # warms it up
+    while True:
+        started = time.perf_counter()
+        implementation.classify(some)
+        took = time.perf_counter() - started
+        if took > _TIMED_S or len(some) * 8 > LARGEST:
+            return max(took / len(some), 1e-9)
+        some = np.repeat(some, 8, axis=0)
+
+
+def contenders(found: Iterable[Foreign], limits: Limits) -> Iterable[Contender]:
+    """A contender for each SPEC; a built-in method is one of ours and runs as such."""
+    for each in found:
+        description = each.description
+        kind, words = parse_spec(each.spec).kind, parse_spec(each.spec).words
+        if kind == "builtin":
+            method = builtin(words[0])
+            yield of_method(method, "numpy", "algebraic", judged=method.most, timed=min(8192, each.timed))
+            continue
+        yield Contender(
+            name=each.name,
+            title=" ".join(filter(None, (description.name, description.version, description.language))),
+            tier="foreign",
+            kind="foreign",
+            precision=description.precision,
+            question=description.question,
+            domain=description.domain,
+            load=partial(_opened, each.spec, limits),
+            exact=description.precision == "exact",
+            judged=each.judged,
+            timed=each.timed,
+            singles=SINGLES,
+            note=f"as {each.spec}",
+        )
+
+
+def _opened(spec: str, limits: Limits) -> Outside:
+    return Outside(open_implementation(spec, limits), parse_spec(spec).kind)
+
+
+@dataclass
+class Outside:
+    """An implementation, running; `kind` is that of its SPEC. `trouble` says why rows went without an answer."""
+
+    implementation: Implementation
+    kind: str
+    trouble: str = field(default="", init=False)
+
+    def answer(self, rows: Rows) -> Answers:
+        """Its answers; CANNOT_SAY where it gave none."""
+        return self._asked(rows, by_scene=False)
+
+    def batch(self, rows: Rows) -> Prepared:
+        """The rows by one question, by scene where it offers that and they share their sizes."""
+        rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
+        answers = partial(self._asked, rows, by_scene=by_scene)
+        if self._clock is None:
+            return Prepared(len(rows), self._round_trips(rows), answers, "process")
+        return Prepared(len(rows), self._times([rows], answers, by_scene=by_scene), answers, self._clock)
+
+    def single(self, rows: Rows) -> Prepared | None:
+        """A row a question; a command without a clock of its own is not asked, since the pipe would be timed."""
+        if self._clock is None:
+            return None
+        answers = partial(self._asked, rows, by_scene=False)
+        parts = [rows[place : place + 1] for place in range(len(rows))]
+        return Prepared(len(rows), self._times(parts, answers, by_scene=False), answers, self._clock)
+
+    def build(self, rows: Rows) -> None:
+        """Nothing that we know of is built."""
+
+    def empty(self, rows: Rows, mode: str) -> Empty | None:
+        """Of a library a call about no rows; of a command without a clock a question about one; else nothing."""
+        name = f"of {self.implementation.spec}"
+        if self._clock is None and mode == "batch":
+            return Empty(name, Prepared(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
+        if self.kind == "library" and mode == "single":
+            calls = self._times([rows[:0]], _none, by_scene=False)
+            return Empty(name, Prepared(1, calls, _none))
+        return None
+
+    def close(self) -> None:
+        """Let it leave."""
+        self.implementation.close()
+
+    @property
+    def _clock(self) -> str | None:
+        if self.kind == "command":
+            return "time protocol" if self.implementation.declared.time else None
+        return "worker"
+
+    def _asked(self, rows: Rows, *, by_scene: bool) -> Answers:
+        answered = self.implementation.classify(rows, by_scene=by_scene and len(rows) > 0)
+        if answered.reasons:
+            self.trouble = next(iter(answered.reasons.values()))
+        return answered.answers
+
+    def _times(self, parts: Sequence[Rows], answers: Callable[[], Answers], *, by_scene: bool) -> Clocked:
+        """By the clock of whoever runs it, which checks its own sum against the answers (methods/implementation.py)."""
+        right = int(answers().sum(dtype=np.int64))
+
+        def run(repeat: int) -> tuple[int, int]:
+            try:
+                took = [self.implementation.time(part, repeat, by_scene=by_scene) for part in parts]
+            except TimingError as error:
+                raise RefusedError(str(error)) from None
+            return sum(each or 0 for each in took), right
+
+        return run
+
+    def _round_trips(self, rows: Rows) -> Clocked:
+        def run(repeat: int) -> tuple[int, int]:
+            started = time.perf_counter_ns()
+            for _ in range(repeat):
+                answers = self.implementation.classify(rows, batch=len(rows)).answers
+            return time.perf_counter_ns() - started, int(answers.sum(dtype=np.int64))
+
+        return run
+
+
+def _none() -> Answers:
+    return np.empty(0, dtype=np.int8)

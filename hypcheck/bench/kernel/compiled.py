@@ -1,0 +1,109 @@
+"""The compiled kernel: against reading memory, the plain formula in C, itself on two threads, and the worst rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from statistics import median
+from time import perf_counter_ns
+from typing import Any
+
+import numpy as np
+
+from hypcheck.bench.kernel.baselines import Baseline, baselines
+from hypcheck.bench.kernel.rows import SIZES, touching, uniform
+from hypcheck.bench.kernel.target import Target, measured, rate, times_as_fast
+from hypcheck.bench.memory import forget_peak, peak
+from hypcheck.bench.rounds import Entry, Samples, clocked
+from hypcheck.kernel.answering import Columns
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.compiled_path import fill_scene
+from hypcheck.rows import Positions
+
+MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
+PART, LEAST_PARTS = 1_000_000, 15
+
+CEILING = Target("memory speed", "certified, one thread, of the speed of reading the rows; 1e7 rows", 0.75)
+PLAIN = Target("plain C, from memory", "certified, one thread, of the speed of the plain formula in C; 1e7 rows", 0.95)
+IN_CACHE = Target("plain C, in cache", "certified, one thread, of the speed of the plain formula in C; 1e5 rows", 0.6)
+THREADS = Target("two threads", "two threads of the speed of one; 1e7 rows", 1.8)
+TOUCHING = Target("near contact", "nanoseconds a row where all rows are within 1e-15 of contact", 2000.0, at_most=True)
+STREAMED = Target("streamed", "a row in streams of 1e6 to 1e9 rows, the dearest to the cheapest", 1.15, at_most=True)
+
+
+def from_memory(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
+    """Ten million rows: reading them, the plain formula, the kernel on one thread and on two."""
+    columns, out = uniform(MANY), np.zeros(MANY, dtype=np.int8)
+    libraries = baselines(folder, str(choice().level))
+    entries = [
+        Entry("read", MANY, libraries[0].read_only(*columns)),
+        *_plain(libraries, columns, out),
+        Entry("one", MANY, clocked(lambda: _answered(columns, out))),
+        Entry("two", MANY, clocked(lambda: _answered(columns, out, threads=2))),
+    ]
+    found = measured(entries, rounds)
+    one, plain = found["one"], _fastest(found)
+    level = choice().level
+    beside = f"{rate(one)} on {level}"
+    yield CEILING.line(times_as_fast(one, found["read"]), f"{beside}; reading x, y and z alone: {rate(found['read'])}")
+    yield PLAIN.line(times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate(plain)}")
+    yield THREADS.line(times_as_fast(found["two"], one), f"one thread: {rate(one)}; two: {rate(found['two'])}")
+
+
+def in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
+    """A hundred thousand rows, which stay in the cache."""
+    columns, out = uniform(CACHED), np.zeros(CACHED, dtype=np.int8)
+    libraries = baselines(folder, str(choice().level))
+    one = Entry("one", CACHED, clocked(lambda: _answered(columns, out)))
+    found = measured([*_plain(libraries, columns, out), one], 3 * rounds)
+    plain = _fastest(found)
+    says = f"{rate(found['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate(plain)}"
+    yield IN_CACHE.line(times_as_fast(found["one"], plain), says)
+
+
+def near_contact(rounds: int) -> Iterator[dict[str, Any]]:
+    """Rows that floats cannot decide."""
+    columns, out = touching(WORST), np.zeros(WORST, dtype=np.int8)
+    found = measured([Entry("worst", WORST, clocked(lambda: _answered(columns, out)))], rounds)["worst"]
+    yield TOUCHING.line(found.samples_ns, f"{rate(found)}; the exact integers decide nearly all of them")
+
+
+def streamed(most: int, rounds: int) -> Iterator[dict[str, Any]]:
+    """From a million rows to `most`, a million at a time, each million new in memory before its time is taken."""
+    source, columns, out = uniform(PART), uniform(PART), np.zeros(PART, dtype=np.int8)
+    _answered(columns, out)
+    before = forget_peak()
+    totals = [PART * 10**k for k in range(4) if PART * 10**k <= most]
+    costs = [[_cost_of_stream(total, source, columns, out) for total in totals] for _ in range(rounds)]
+    grown = max(0, peak() - before)
+    each = ", ".join(
+        f"{total:,} rows {np.median(cost):.3g} ns" for total, cost in zip(totals, np.transpose(costs), strict=True)
+    )
+    says = f"a row of {each}; memory grew by {grown / 2**20:.1f} MB meanwhile"
+    yield STREAMED.line([max(cost) / min(cost) for cost in costs], says)
+
+
+def _cost_of_stream(total: int, source: Columns, columns: Columns, out: Positions) -> float:
+    """Nanoseconds a row; of few parts the middle one, of many their mean."""
+    spent = []
+    for _ in range(max(total // PART, LEAST_PARTS)):
+        for column, fresh in zip(columns, source, strict=True):
+            np.copyto(column, fresh)
+        started = perf_counter_ns()
+        _answered(columns, out)
+        spent.append(perf_counter_ns() - started)
+    return (median(spent) if len(spent) == LEAST_PARTS else sum(spent) / len(spent)) / PART
+
+
+def _plain(libraries: list[Baseline], columns: Columns, out: Positions) -> list[Entry]:
+    sizes = np.array(SIZES)
+    return [Entry(" ".join(each.flags) or "no flags", len(out), each.plain(sizes, *columns, out)) for each in libraries]
+
+
+def _fastest(found: dict[str, Samples]) -> Samples:
+    return min((each for name, each in found.items() if name not in ("read", "one", "two")), key=lambda s: s.median_ns)
+
+
+def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
+    fill_scene(SIZES, columns, out, "position", threads)
+    return out

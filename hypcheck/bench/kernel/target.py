@@ -1,0 +1,53 @@
+"""A target of the fast path's speed, and the line that says whether it was met."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hypcheck.bench.rounds import Entry, Samples, measure
+from hypcheck.bench.statistics import estimate
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """`wanted` is a least number, or a greatest one where `at_most` is set; `text` says of what."""
+
+    name: str
+    text: str
+    wanted: float
+    at_most: bool = False
+
+    def line(self, measured: list[float], says: str) -> dict[str, Any]:
+        """The record's line: the median of what was measured, round by round, with its 95 % interval."""
+        found = estimate([measured])
+        met = found.median <= self.wanted if self.at_most else found.median >= self.wanted
+        return {
+            "name": self.name,
+            "target": self.text,
+            "wanted": self.wanted,
+            "measured": found.median,
+            "ci95": [found.low, found.high],
+            "met": met,
+            "says": says,
+        }
+
+
+def measured(entries: Sequence[Entry], rounds: int) -> dict[str, Samples]:
+    """The samples of all entries by their names, in rounds that take them in turn."""
+    *_, (_, samples) = measure(entries, rounds)
+    for each in samples:
+        if each.refused is not None:
+            raise AssertionError(f"{each.name}: {each.refused}")
+    return {each.name: each for each in samples}
+
+
+def times_as_fast(mine: Samples, other: Samples) -> list[float]:
+    """Round by round, how many rows one answers in the time in which the other answers one."""
+    return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
+
+
+def rate(samples: Samples) -> str:
+    """The median in nanoseconds a row and in millions of rows a second."""
+    return f"{samples.median_ns:.3g} ns a row ({1e3 / samples.median_ns:.3g} million a second)"

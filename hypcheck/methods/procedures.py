@@ -1,0 +1,130 @@
+"""The paper's procedures for a quadcopter, and ours: whether its body may be there, or at least its four rotors.
+
+Each is asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a asks
+all four rotors; 2.b the bounding spheroid first, and the rotors only where Δ ≤ 0; ours the bounding spheroid by the
+certified path, and the rotors where it is in contact. Their answers differ: 2.a never asks whether the body fits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.program import Program
+from hypcheck.kernel import numpy_path
+from hypcheck.methods.formula import Floats, Ready, in_chunks, split
+from hypcheck.methods.method import Answers
+
+CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")
+"""What does not change along a flight: the tower, the body, its rotors, and the length of its arms."""
+
+MOVING = ("x", "y", "z", "cosine", "sine")
+
+
+@dataclass(frozen=True)
+class Flight:
+    """Positions of a craft and its headings: (n,) each, x, y, z in metres."""
+
+    craft: Mapping[str, float]
+    x: Floats
+    y: Floats
+    z: Floats
+    cosine: Floats
+    sine: Floats
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def part(self, places: slice | NDArray[np.intp]) -> Flight:
+        """Some of the positions."""
+        return Flight(self.craft, *(getattr(self, name)[places] for name in MOVING))
+
+    @property
+    def columns(self) -> dict[str, Floats]:
+        """What moves, by name."""
+        return {name: getattr(self, name) for name in MOVING}
+
+
+@cache
+def hull_programs() -> tuple[Program, Program]:
+    """Of Procedure 2.b what is asked of every position: `touching` and `inside`, before the flight and in it."""
+    return split(FORMULAS["procedure-2b"].program, ("touching", "inside"), CRAFT)
+
+
+@cache
+def rotor_programs() -> tuple[Program, Program]:
+    """Procedure 2.a, before the flight and in it."""
+    fixed = tuple(name for name in CRAFT if name in FORMULAS["procedure-2a"].program.inputs)
+    return split(FORMULAS["procedure-2a"].program, ("valid",), fixed)
+
+
+def procedure_2a(flight: Flight) -> Answers:
+    """1 where the procedure calls the movement valid, else 0; int8 (n,)."""
+    known, rotors = _rotors(flight)
+    return in_chunks(len(flight), lambda part: rotors({**known, **flight.part(part).columns})[0])
+
+
+def procedure_2b(flight: Flight, told: Callable[[Flight], object] = lambda _: None) -> Answers:
+    """The same by Procedure 2.b; the rotors are asked about those positions alone that need it, and `told` is told."""
+    first, then = hull_programs()
+    names = tuple(step.name for step in first.steps)
+    hull = Ready(then, ("touching", "inside"), "float64")
+    known_hull = {**flight.craft, **_known(first, names, flight)}
+    known, rotors = _rotors(flight)
+
+    def chunk(part: slice) -> Answers:
+        here = flight.part(part)
+        touching, inside = hull({**known_hull, **here.columns})
+        found = np.asarray(inside).astype(np.int8)
+        places = np.flatnonzero(touching)
+        if len(places):
+            told(left := here.part(places))
+            found[places] = rotors({**known, **left.columns})[0]
+        return found
+
+    return in_chunks(len(flight), chunk)
+
+
+def certified(flight: Flight) -> Answers:
+    """1 where the body is interior, or its four rotors are: exact but for the rotors' centres, which are rounded."""
+    alpha, gamma, b, d, b_s, d_s, l = (flight.craft[name] for name in CRAFT)  # noqa: E741 - the paper's letter
+    found = np.zeros(len(flight), dtype=np.int8)
+    hull = numpy_path.positions_of_scene((alpha, gamma, b, d), flight.x, flight.y, flight.z)
+    found[hull == -1] = 1
+    places = np.flatnonzero(hull == 0)
+    left = flight.part(places)
+    fits = np.ones(len(places), dtype=bool)
+    for across, aside in rotors_at(left.cosine, left.sine, l):
+        rotor = numpy_path.positions_of_scene((alpha, gamma, b_s, d_s), left.x + across, left.y + aside, left.z)
+        fits &= rotor == -1
+    found[places[fits]] = 1
+    return found
+
+
+def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Floats]]:
+    """From the body's centre to those of its rotors, equation (15): x and y for each of the four."""
+    half = arm * np.sqrt(2.0) / 2.0
+    along, across = half * (cosine - sine), half * (cosine + sine)
+    return [(along, across), (-across, along), (-along, -across), (across, -along)]
+
+
+def _rotors(flight: Flight) -> tuple[dict[str, float], Ready]:
+    first, then = rotor_programs()
+    names = tuple(step.name for step in first.steps)
+    return {**flight.craft, **_known(first, names, flight)}, Ready(then, ("valid",), "float64")
+
+
+def _known(first: Program, names: tuple[str, ...], flight: Flight) -> dict[str, float]:
+    return dict(zip(names, Ready(first, names, "float64")(flight.craft), strict=True))
+
+
+PROCEDURES: Mapping[str, Callable[[Flight], Answers]] = MappingProxyType(
+    {"procedure-2a": procedure_2a, "procedure-2b": procedure_2b, "certified": certified}
+)
+"""By name, in numpy."""

@@ -1,0 +1,144 @@
+"""Verdicts against a baseline: slower, faster, the same, or too noisy to tell; of ratios, never of times."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import pytest
+
+from hypcheck.bench.baseline import Change, change_of, comparisons, gated, read_baseline, require_common, speeds_of
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.errors import InputError
+from hypcheck.record import Recorder
+
+KEY = ("mine", "uniform", "batch")
+
+
+def run(slowness=1.0, machine=1.0, spread=0.01, floor=0.01, seed=0):
+    """A run on a machine that takes `machine` times as long for everything, with samples that spread."""
+    generator = np.random.default_rng(seed)
+
+    def samples(time):
+        return (time * machine * np.exp(generator.normal(0, spread, (5, 5)))).tolist()
+
+    def speed(method, time):
+        return {
+            "type": "speed",
+            "method": method,
+            "workload": "uniform",
+            "mode": "batch",
+            "ratio": time / 10.0,
+            "samples_ns": samples(time),
+        }
+
+    noise = {"type": "noise", "workload": "uniform", "mode": "batch", "floor": floor}
+    return speeds_of([noise, speed(REFERENCE, 10.0), speed("mine", 4.0 * slowness), {"type": "method"}])
+
+
+def verdict(before, after, allowed=1.1):
+    return change_of(before, after, KEY).verdict(allowed)
+
+
+@pytest.mark.parametrize(
+    ("slowness", "expected"), [(1.0, "same"), (1.05, "same"), (1.5, "slower"), (6.0, "slower"), (0.5, "faster")]
+)
+def test_quiet_runs_are_told_apart(slowness, expected):
+    assert verdict(run(seed=1), run(slowness, seed=2)) == expected
+
+
+def test_a_run_against_itself_is_not_slower():
+    """Twice the same method, at every noise that there is: equal, or too noisy to tell, but never slower."""
+    for spread in (0.001, 0.01, 0.05, 0.2, 0.8):
+        for seed in range(20):
+            before, after = (
+                run(spread=spread, floor=spread, seed=seed),
+                run(spread=spread, floor=spread, seed=seed + 99),
+            )
+            assert verdict(before, after) in ("same", "inconclusive")
+
+
+def test_a_slower_machine_is_no_slower_method():
+    assert verdict(run(seed=1), run(machine=7.0, seed=2)) == "same"
+
+
+def test_a_difference_near_what_is_allowed_is_not_decided():
+    assert verdict(run(seed=1), run(1.1, seed=2)) == "inconclusive"
+
+
+def test_noise_of_either_run_makes_a_verdict_inconclusive():
+    for before, after in ((run(floor=0.6, seed=1), run(1.5, seed=2)), (run(seed=1), run(1.5, floor=0.6, seed=2))):
+        assert verdict(before, after) == "inconclusive"
+
+
+def test_what_is_allowed_is_allowed():
+    assert verdict(run(seed=1), run(1.5, seed=2), allowed=2.0) == "same"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "noise", "expected"),
+    [
+        (1.2, 1.3, 1.0, "slower"),
+        (1.2, 1.3, 1.15, "inconclusive"),
+        (1.0, 1.05, 1.0, "same"),
+        (1.0, 1.05, 1.1, "inconclusive"),
+        (0.5, 0.9, 1.0, "faster"),
+        (0.5, 0.95, 1.1, "same"),
+    ],
+)
+def test_the_interval_is_widened_by_the_noise_before_it_is_read(low, high, noise, expected):
+    assert Change(1.0, low, high, noise).verdict(1.1) == expected
+
+
+def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():
+    before, after = run(seed=1), run(2.0, seed=2)
+    after.speeds["new", "uniform", "batch"] = {**after.speeds[KEY], "method": "new"}
+    (line,) = comparisons(BenchPlan(), before, after, {"mine"})
+    assert (line["method"], line["verdict"], line["gates"], line["allowed"]) == ("mine", "slower", True, 1.1)
+    assert line["change"] == pytest.approx(2.0)
+    assert line["ci95"][0] <= line["change"] <= line["ci95"][1]
+
+
+def test_what_gates_is_what_was_named_else_our_certified_methods():
+    everything = contenders(BenchPlan())
+    assert gated(BenchPlan(), everything) == {name for name, each in everything.items() if each.kind == "certified"}
+    some = BenchPlan(methods=("hessian-float64",))
+    assert gated(some, contenders(some)) == {"hessian-float64"}
+
+
+def test_a_baseline_without_what_is_to_be_held_to_it_is_refused():
+    with pytest.raises(InputError, match="holds no speed of what is to be held to it: other; it has mine"):
+        require_common(run(), {"other"})
+    require_common(run(), {"other", "mine"})
+
+
+def recorded(path, lines=(), **options):
+    stream = io.StringIO()
+    recorder = Recorder(stream, {"command": "bench", "reference": REFERENCE, "quick": True, **options})
+    for line in lines:
+        recorder.add("speed", **line)
+    recorder.close(0)
+    path.write_text(stream.getvalue(), encoding="utf-8")
+    return BenchPlan(quick=True, baseline=path)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"command": "verify"}, "is a record of another command"),
+        ({"reference": "another"}, "its ratios are to 'another'"),
+        ({"quick": False}, "is of a full run; compare it with another full one"),
+        ({}, "holds no speed relative to"),
+    ],
+)
+def test_what_is_no_baseline_for_this_run_is_refused(tmp_path, options, message):
+    plan = recorded(tmp_path / "record.jsonl", **options)
+    with pytest.raises(InputError, match=message):
+        read_baseline(plan)
+
+
+def test_a_record_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"none\.jsonl"):
+        read_baseline(BenchPlan(baseline=tmp_path / "none.jsonl"))
+    assert read_baseline(BenchPlan()) is None

@@ -1,0 +1,123 @@
+"""The paper's claims about cost: what is compared is what is claimed, and verdicts follow from ratios and noise."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.bench import claims, costs
+from hypcheck.bench.claims import OURS, PRINTED, PRINTED_A, PRINTED_B, RECIPROCALS, TRIGONOMETRIC
+from hypcheck.bench.contenders.c_library import compiled
+from hypcheck.bench.plan import QUICK, BenchPlan
+from hypcheck.bench.rounds import Samples
+from hypcheck.bench.session import COST, FIRST_AGAIN, Measured
+from hypcheck.bench.statistics import Estimate
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.derivation.counting import count
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.judge import flip_octaves
+from hypcheck.methods.formula import by_rows
+from hypcheck.methods.procedures import PROCEDURES
+from hypcheck.methods.reciprocals import RECIPROCAL
+
+FEW = replace(QUICK, bodies=600, timed=600)
+
+
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory):
+    return BenchPlan(amounts=FEW, compiled=compiled(tmp_path_factory.mktemp("c"))[0])
+
+
+@pytest.fixture(scope="module")
+def answers(plan):
+    return {
+        (claim.name, claim.tier): {name: ready.answers().copy() for name, ready in claim.compared(plan).items()}
+        for claim in claims.claims(plan)
+    }
+
+
+def test_the_procedures_in_c_answer_what_they_do_in_numpy(answers):
+    for name in (PRINTED_A, PRINTED_B, OURS):
+        assert (answers["procedures", "C"][name] == answers["procedures", "numpy"][name]).all()
+
+
+def test_what_is_compared_in_c_and_in_numpy_is_the_same(answers):
+    for name in (PRINTED, RECIPROCALS):
+        assert (answers["divisions", "C"][name] == answers["divisions", "numpy"][name]).all()
+    assert (answers["roots", "C"][PRINTED] == answers["roots", "numpy"][PRINTED]).all()
+    by_cosines = answers["roots", "numpy"][TRIGONOMETRIC]
+    assert ((answers["roots", "C"][TRIGONOMETRIC] == 1) == (by_cosines == 1)).all()
+
+
+def test_the_share_of_positions_that_need_the_rotors_is_that_of_touching_spheroids(plan):
+    flight = claims.flight_of(1, 4000)
+    share = claims.share_touching(flight)
+    asked = np.count_nonzero(PROCEDURES["procedure-2b"](flight) != PROCEDURES["procedure-2a"](flight))
+    assert 0.01 < share < 0.5
+    assert asked / len(flight) <= 1
+
+
+def test_reciprocals_leave_additions_and_products_alone_in_the_loop_and_the_answers_but_next_to_touching():
+    assert count(RECIPROCAL.program.steps).divisions == count(FORMULAS["table-2"].program.steps).divisions
+    claim = next(each for each in claims.claims(BenchPlan()) if each.name == "divisions")
+    printed, changed = claim.operations[PRINTED], claim.operations[RECIPROCALS]
+    assert (printed.divisions, changed.divisions) == (2, 0)
+    assert changed.multiplications == printed.multiplications + 2
+    rows = np.concatenate([FAMILIES[name].rows(1, 400) for name in ("uniform", "tower-body", "tangent-ladder")])
+    one, other = (by_rows(formula, "float64")(rows) for formula in (FORMULAS["table-2"], RECIPROCAL))
+    assert (flip_octaves(rows[one != other]) < -40).all()
+
+
+def test_without_a_compiler_the_claims_are_measured_in_numpy_and_a_chosen_few_methods_measure_none():
+    assert {claim.tier for claim in claims.claims(BenchPlan())} == {"numpy"}
+    assert claims.claims(BenchPlan(methods=("fast-numpy",))) == []
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "noise", "is_cheaper", "is_dearer"),
+    [
+        (0.2, 0.3, 1.1, "holds", "does not hold"),
+        (3.0, 4.0, 1.1, "does not hold", "holds"),
+        (0.9, 0.95, 1.1, "inconclusive", "inconclusive"),
+        (0.9, 1.2, 1.0, "inconclusive", "inconclusive"),
+        (1.05, 1.08, 1.1, "inconclusive", "inconclusive"),
+    ],
+)
+def test_a_verdict_needs_more_than_noise(low, high, noise, is_cheaper, is_dearer):
+    ratio = Estimate((low + high) / 2, low, high)
+    assert costs.cheaper(ratio, noise) == is_cheaper
+    assert costs.dearer(ratio, noise) == is_dearer
+
+
+def measured(times):
+    """As processes would have measured these times, by claim and way."""
+
+    def parts(key, time):
+        jitter = [[time * (1 + (r + p) / 1000) for r in range(3)] for p in range(2)]
+        return [Measured(key, Samples(key[0], 10, 1, 0, part), 0.0, "process") for part in jitter]
+
+    return {
+        (name, f"{COST}{claim}", "batch"): parts((name, f"{COST}{claim}", "batch"), time)
+        for claim, ways in times.items()
+        for name, time in ways.items()
+    }
+
+
+def test_lines_say_what_was_found():
+    times = {
+        "procedures-numpy": {PRINTED_A: 90.0, PRINTED_B: 30.0, OURS: 45.0, FIRST_AGAIN: 90.0},
+        "divisions-numpy": {PRINTED: 10.0, RECIPROCALS: 8.0, FIRST_AGAIN: 10.0},
+        "roots-numpy": {PRINTED: 10.0, TRIGONOMETRIC: 25.0, claims.EIGENVALUES: 2e4, FIRST_AGAIN: 10.0},
+    }
+    lines = list(costs.lines(BenchPlan(amounts=FEW), measured(times)))
+    assert [line["verdict"] for line in lines] == ["holds", "does not hold", "holds"]
+    assert [each["ratio"] for each in lines[0]["compared"]] == pytest.approx([1.0, 1 / 3, 1 / 2], rel=0.01)
+    assert FIRST_AGAIN not in {each["name"] for line in lines for each in line["compared"]}
+    assert lines[0]["compared"][0]["operations"]["multiplications"] > 50
+    assert "2 divisions a position" in lines[1]["says"]
+    assert "a position for the roots, none for the coefficients" in lines[2]["says"]
+    noisy = {**times["procedures-numpy"], FIRST_AGAIN: 360.0}
+    found = measured({**times, "procedures-numpy": noisy})
+    assert next(costs.lines(BenchPlan(amounts=FEW), found))["verdict"] == "inconclusive"

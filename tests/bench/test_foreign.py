@@ -1,0 +1,181 @@
+"""Implementations that a SPEC names: measured beside the others, by their clock, and held to a baseline."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.bench.contenders import contenders, foreign
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.rounds import Entry, RefusedError, measure
+from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.methods.limits import Limits
+from tests.bench.test_run import ended
+from tests.miniatures import command, compiled
+
+ROWS = WORKLOADS["uniform"].rows(1, 50)
+SUBJECT = """
+import numpy as np
+from hypcheck.kernel.classify import classify as exact
+
+hypcheck = {{"name": "subject"}}
+
+
+def classify(rows):
+    for _ in range({times}):
+        answers = exact(rows)
+    return {answers}
+"""
+
+
+def subject(folder, times=1, answers="answers"):
+    path = folder / f"subject_{times}.py"
+    path.write_text(SUBJECT.format(times=times, answers=answers), encoding="utf-8")
+    return f"python:{path}:classify"
+
+
+def opened(spec):
+    return foreign._opened(spec, Limits())
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    return f"library:{compiled('right', tmp_path_factory.mktemp('library') / 'right.so', '-shared', '-fPIC')}"
+
+
+def test_a_function_is_timed_in_its_worker(tmp_path):
+    way = opened(subject(tmp_path))
+    for ready in (way.batch(ROWS), way.single(ROWS[:4])):
+        took, checksum = ready.run(3)
+        assert took > 0
+        assert checksum == ready.answers().sum(dtype=int)
+        assert ready.timed_by == "worker"
+    assert way.empty(ROWS, "single") is None
+    way.close()
+
+
+def test_a_library_is_timed_in_its_worker_and_a_call_about_no_rows_is_taken_off(library):
+    way = opened(library)
+    assert way.batch(ROWS).timed_by == "worker"
+    assert way.single(ROWS[:4]).run(50)[0] > 0
+    empty = way.empty(ROWS, "single")
+    took, checksum = empty.ready.run(1000)
+    assert took > 0
+    assert checksum == 0
+    assert way.empty(ROWS, "batch") is None
+    way.close()
+
+
+def test_a_command_with_a_clock_is_timed_by_it():
+    way = opened(command("right", "binary"))
+    assert way.batch(ROWS).timed_by == "time protocol"
+    assert way.batch(ROWS).run(2)[0] > 0
+    way.close()
+
+
+def test_a_clock_with_a_wrong_checksum_is_refused():
+    way = opened(command("miscounts_time", "binary"))
+    ready = way.batch(ROWS)
+    with pytest.raises(RefusedError, match="timed with the checksum"):
+        ready.run(1)
+    *_, (_, (found,)) = measure([Entry("it", ready.rows, ready.run)], 2)
+    assert "timed with the checksum" in found.refused
+    assert found.samples_ns == []
+    way.close()
+
+
+def test_of_a_command_without_a_clock_a_question_about_one_row_is_taken_off():
+    way = opened(command("right"))
+    assert way._clock is None
+    ready, empty = way.batch(ROWS), way.empty(ROWS, "batch")
+    assert ready.timed_by == "process"
+    assert ready.run(2)[0] > 0
+    assert empty.ready.rows == 1
+    assert way.single(ROWS) is None
+    way.close()
+
+
+def test_two_that_call_themselves_alike_keep_apart(tmp_path):
+    first, second = subject(tmp_path), subject(tmp_path, times=2)
+    one = foreign.met(first, Limits(), [])
+    other = foreign.met(second, Limits(), [one.name])
+    assert (one.name, other.name) == ("subject", f"subject ({second})")
+    found = contenders(BenchPlan(methods=("fast-numpy",), foreign=(one, other)))
+    assert list(found)[-2:] == [one.name, other.name]
+    assert found[one.name].tier == "foreign"
+
+
+def test_a_slow_one_is_asked_about_fewer_rows(tmp_path):
+    quick = foreign.met(subject(tmp_path), Limits(), [])
+    slow = foreign.met(subject(tmp_path, times=300), Limits(), [])
+    assert slow.timed < quick.timed
+    assert slow.judged < quick.judged
+
+
+SMALL = ["--workloads", "uniform", "--methods", "fast-numpy"]
+
+
+@pytest.fixture(scope="module")
+def before(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("before")
+    code, record = ended(folder / "out", *SMALL, subject(folder))
+    return code, record, folder / "out" / "record.jsonl"
+
+
+def test_it_is_judged_and_timed_as_the_others_are(before):
+    code, record, _ = before
+    assert code == 0
+    (judged,) = [line for line in record.of("accuracy") if line["method"] == "subject"]
+    assert judged["wrong"] == 0
+    timed = [line for line in record.of("speed") if line["method"] == "subject"]
+    assert {line["mode"] for line in timed} == {"batch", "single"}
+    assert {line["timed_by"] for line in timed} == {"worker"}
+    assert [line["kind"] for line in record.of("method")][-1] == "foreign"
+
+
+def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp_path):
+    *_, baseline = before
+    slower = subject(tmp_path, times=100)
+    code, record = ended(tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", slower)
+    compared = {(line["method"], line["mode"]): line for line in record.of("comparison") if line["gates"]}
+    assert compared["subject", "batch"]["verdict"] == "slower"
+    assert compared["subject", "batch"]["change"] > 5
+    assert code == 3
+    assert {line["method"] for line in record.of("comparison")} == {"subject", "fast-numpy"}
+
+
+def test_the_same_again_is_not_found_slower(before, tmp_path):
+    *_, baseline = before
+    code, record = ended(
+        tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", subject(tmp_path)
+    )
+    assert "slower" not in {line["verdict"] for line in record.of("comparison") if line["change"] < 1.5}
+    assert code in (0, 4) or max(line["change"] for line in record.of("comparison") if line["gates"]) > 1.5
+
+
+def test_what_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
+    code, record = ended(tmp_path / "out", *SMALL, f"python:{tmp_path / 'nowhere.py'}:classify")
+    assert code == 5
+    assert record.of("implementation")[0]["started"] is False
+    assert record.of("speed")
+
+
+def test_one_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
+    code, record = ended(tmp_path / "out", *SMALL, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0"))
+    assert code == 1
+    refused = record.of("refused")
+    assert refused
+    assert all("ZeroDivisionError" in line["reason"] for line in refused)
+    assert "subject" not in {line["method"] for line in record.of("speed")}
+
+
+def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
+    folder = tmp_path / "marks"
+    folder.mkdir()
+    spec = subject(tmp_path, answers=f"np.roll(answers, len(os.listdir({str(folder)!r})))")
+    path = tmp_path / "subject_1.py"
+    begun = f"import os\nopen(os.path.join({str(folder)!r}, str(os.getpid())), 'w').close()\n"
+    path.write_text(begun + path.read_text(encoding="utf-8"), encoding="utf-8")
+    code, record = ended(tmp_path / "out", *SMALL, spec)
+    assert code == 1
+    reasons = {line["reason"] for line in record.of("refused") if line["method"] == "subject"}
+    assert reasons == {"its answers, when it was about to be timed, were not those that were judged"}
