@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -98,7 +99,7 @@ def _ask(task: tuple[BenchPlan, str]) -> list[Answered]:
 
 
 def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> Answered:
-    rows = workload.rows(plan.seed, plan.amounts.judged)
+    rows = _rows(workload.name, plan.seed, plan.amounts.judged)
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
     return Answered(
@@ -112,11 +113,19 @@ def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workloa
     )
 
 
+@cache
+def _rows(workload: str, seed: int, count: int) -> Rows:
+    """A workload's rows, made once a process, and not to be written to."""
+    rows = WORKLOADS[workload].rows(seed, count)
+    rows.flags.writeable = False
+    return rows
+
+
 def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Rows:
     """The rows of a timed batch: none where the workload or the method is not timed."""
     if contender.accuracy_only or not workload.timed:
         return np.empty((0, 7))
-    rows = workload.rows(plan.seed, plan.amounts.timed)
+    rows = _rows(workload.name, plan.seed, plan.amounts.timed)
     if contender.tier == "foreign":
         rows = rows[contender.domain.holds(rows)]
     if contender.scenes is not None:

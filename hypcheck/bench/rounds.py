@@ -81,13 +81,13 @@ def measure(
 
     `first` is the entry that begins the first round.
     """
-    measured = [_calibrated(entry, shortest_s) for entry in entries]
-    for turn in range(rounds):
-        with _undisturbed():
+    with _undisturbed():
+        measured = [_calibrated(entry, shortest_s) for entry in entries]
+        for turn in range(rounds):
             for step in range(len(entries)):
                 place = (first + turn + step) % len(entries)
                 _sample(entries[place], measured[place])
-        yield turn + 1, tuple(measured) if turn + 1 == rounds else ()
+            yield turn + 1, tuple(measured) if turn + 1 == rounds else ()
 
 
 def _calibrated(entry: Entry, shortest_s: float) -> Samples:

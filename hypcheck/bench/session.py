@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,7 +26,9 @@ MODES: Mapping[str, Callable[[Way, Rows], Prepared | None]] = {
 AGAIN = f"{REFERENCE} again"
 """The reference a second time: what separates it from itself is noise."""
 
-BUILT_FOR = "uniform"
+ON: Mapping[str, tuple[str, ...]] = {"single": ("uniform", "near-contact"), "build": ("uniform",)}
+"""The workloads on which a mode is timed, if not all: a row on its own has no neighbours, and a mesh is the scene's."""
+
 BUILDS = 2
 """Rounds in which meshes are built: the large ones take most of a second."""
 
@@ -81,6 +83,7 @@ class _Field:
     empties: dict[str, Prepared]
     empty_of: dict[str, str]
     refused: list[Measured]
+    sums: dict[str, int] = field(default_factory=dict)
 
 
 def run(session: Session) -> list[Measured]:
@@ -91,8 +94,8 @@ def run(session: Session) -> list[Measured]:
     try:
         for workload in chosen_workloads(session.plan):
             for mode in _modes(workload):
-                field = _field(session, found, ways, workload, mode)
-                measured += [*field.refused, *_measured(session, field)]
+                here = _field(session, found, ways, workload, mode)
+                measured += [*here.refused, *_measured(session, here)]
         for claim in claims(session.plan):
             measured += _measured(session, _compared(session, claim))
     finally:
@@ -109,61 +112,61 @@ def _compared(session: Session, claim: Claim) -> _Field:
 
 
 def _modes(workload: Workload) -> Sequence[str]:
-    """A mesh is built for the first workload alone: it would be the same one for the others."""
-    if not workload.timed:
-        return ()
-    return tuple(MODES) if workload.name == BUILT_FOR else ("batch", "single")
+    """What is timed on a workload: what would only say the same again is left out."""
+    return tuple(mode for mode in MODES if workload.timed and workload.name in ON.get(mode, (workload.name,)))
 
 
 def _field(
     session: Session, found: Mapping[str, Contender], ways: Mapping[str, Way], workload: Workload, mode: str
 ) -> _Field:
-    field = _Field((workload.name, mode), {}, {}, {}, [])
+    here = _Field((workload.name, mode), {}, {}, {}, [])
     for name, way in ways.items():
         rows = timed_rows(session.plan, found[name], workload)
         if mode == "single":
             rows = rows[: found[name].singles]
-        key = (name, *field.where)
+        key = (name, *here.where)
         told = session.expected.get(key)
         ready = MODES[mode](way, rows) if len(rows) and told != NOT_ANSWERED else None
         if ready is None:
             continue
-        if told is not None and print_of(ready.answers()) != told:
+        answers = ready.answers()
+        if told is not None and print_of(answers) != told:
             reason = "its answers, when it was about to be timed, were not those that were judged"
-            field.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
+            here.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
             continue
-        field.ready[name] = ready
-        _with_empty(field, name, way.empty(rows, mode))
-    return field
+        here.ready[name], here.sums[name] = ready, int(answers.sum(dtype=np.int64))
+        _with_empty(here, name, way.empty(rows, mode))
+    return here
 
 
-def _with_empty(field: _Field, name: str, empty: Empty | None) -> None:
+def _with_empty(here: _Field, name: str, empty: Empty | None) -> None:
     if empty is not None:
-        field.empty_of[name] = f"{EMPTY_CALL} of {empty.name}"
-        field.empties.setdefault(field.empty_of[name], empty.ready)
+        here.empty_of[name] = f"{EMPTY_CALL} of {empty.name}"
+        here.empties.setdefault(here.empty_of[name], empty.ready)
 
 
-def _measured(session: Session, field: _Field) -> Iterator[Measured]:
-    if not field.ready:
+def _measured(session: Session, here: _Field) -> Iterator[Measured]:
+    if not here.ready:
         return
-    todo = {**field.ready, **({AGAIN: field.ready[REFERENCE]} if REFERENCE in field.ready else {})}
-    samples = _rounds(session, {**todo, **field.empties}, field.where)
+    todo = {**here.ready, **({AGAIN: here.ready[REFERENCE]} if REFERENCE in here.ready else {})}
+    samples = _rounds(session, here, {**todo, **here.empties})
     for name, ready in todo.items():
         found = samples[name]
-        empty = samples.get(field.empty_of.get(REFERENCE if name == AGAIN else name, ""))
-        empty_ns = empty.median_ns if empty is not None else 0.0
-        off = empty_ns if field.where[1] == "single" else empty_ns / ready.rows
+        empty = samples.get(here.empty_of.get(REFERENCE if name == AGAIN else name, ""))
+        empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
+        off = empty_ns if here.where[1] == "single" else empty_ns / ready.rows
         found.samples_ns = [max(LEAST_NS, sample - off) for sample in found.samples_ns]
-        yield Measured((name, *field.where), found, empty_ns, ready.timed_by)
-    for name in field.empties:
-        yield Measured((name, *field.where), samples[name], 0.0, "process")
+        yield Measured((name, *here.where), found, empty_ns, ready.timed_by)
+    for name in here.empties:
+        yield Measured((name, *here.where), samples[name], 0.0, "process")
 
 
-def _rounds(session: Session, todo: Mapping[str, Prepared], where: tuple[str, str]) -> dict[str, Samples]:
-    entries = [
-        Entry(name, each.rows, each.run, int(each.answers().sum(dtype=np.int64)), session.loops.get((name, *where)))
-        for name, each in todo.items()
-    ]
+def _rounds(session: Session, here: _Field, todo: Mapping[str, Prepared]) -> dict[str, Samples]:
+    where, entries = here.where, []
+    for name, each in todo.items():
+        total = here.sums.get(REFERENCE if name == AGAIN else name)
+        total = int(each.answers().sum(dtype=np.int64)) if total is None else total
+        entries.append(Entry(name, each.rows, each.run, total, session.loops.get((name, *where))))
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
     rounds = BUILDS if where[1] == "build" else session.plan.rounds

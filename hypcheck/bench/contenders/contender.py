@@ -40,7 +40,7 @@ class Contender:
     exact: bool = False
     judged: int | None = None
     timed: int | None = None
-    singles: int = 64
+    singles: int = 32
     amortised: str | None = None
     accuracy_only: bool = False
     note: str = ""
@@ -64,6 +64,7 @@ def of_method(
     scene: ByScene | None = None,
     judged: int | None = None,
     timed: int | None = None,
+    singles: int = 32,
     accuracy_only: bool = False,
     note: str = "",
 ) -> Contender:
@@ -80,6 +81,7 @@ def of_method(
         exact=method.exact,
         judged=judged,
         timed=timed,
+        singles=singles,
         accuracy_only=accuracy_only,
         note=note,
     )

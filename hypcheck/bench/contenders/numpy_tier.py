@@ -52,6 +52,7 @@ def _formulas(methods: Methods) -> Iterable[Contender]:
             accuracy_only=format_name == "float16",
             note=PAPER if paper else "",
             timed=4096 if formula == "dual" else None,
+            singles=8 if formula == "dual" else 32,
         )
 
 
@@ -89,7 +90,9 @@ def _roots(methods: Methods) -> Iterable[Contender]:
 def _exact(methods: Methods) -> Iterable[Contender]:
     yield of_method(methods["exact-integers"], "python", "exact", judged=3000, timed=192)
     yield of_method(methods["exact-oracle"], "python", "exact", judged=3000, timed=192)
-    yield of_method(methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, note="tells the distance too")
+    yield of_method(
+        methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, singles=16, note="tells the distance too"
+    )
 
 
 def _shapes(methods: Methods) -> Iterable[Contender]:
