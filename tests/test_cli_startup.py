@@ -26,7 +26,9 @@ def after(arguments: list[str]) -> set[str]:
     return loaded(f"from hypcheck.cli.main import main; assert main({arguments!r}) == 0")
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["classify", "--help"], ["verify", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--version"], ["classify", "--help"], ["verify", "--help"], ["bench", "--help"]]
+)
 def test_help_and_version_load_nothing_heavy(arguments):
     assert after(arguments) == set()
 

@@ -25,17 +25,20 @@ GAPS = (-10, 1)
 """Distances from touching, m 2^e radii with e in this range: from a thousandth of a radius to two."""
 
 KINDS = ("paper", "algebraic", "certified", "roots")
-ENOUGH = 2000
-"""Who can be asked so many rows of a workload can be asked for a map."""
+ENOUGH, ENOUGH_OUTSIDE = 2000, 10_000
+"""Who can be asked so many rows of a workload can be asked for a map; a SPEC is asked each row through a pipe."""
 
 
 def mapped(found: dict[str, Contender]) -> list[str]:
     """The methods of which a map is drawn. Those in C answer what the same ones in numpy do."""
-    return [
-        name
-        for name, each in found.items()
-        if each.kind in KINDS and each.tier in ("numpy", "python") and (each.judged or ENOUGH) >= ENOUGH
-    ]
+    return [name for name, each in found.items() if _wanted(each)]
+
+
+def _wanted(contender: Contender) -> bool:
+    if contender.tier == "foreign":
+        return (contender.judged or 0) >= ENOUGH_OUTSIDE
+    ours = contender.kind in KINDS and contender.tier in ("numpy", "python")
+    return ours and (contender.judged or ENOUGH) >= ENOUGH
 
 
 def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[dict[str, Any]]:
@@ -49,7 +52,11 @@ def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
     contender = contenders(plan)[name]
     rows, cells = _rows(plan)
     places = contender.asked(rows)
-    answers = contender.load().answer(rows[places])
+    way = contender.load()
+    try:
+        answers = way.answer(rows[places])
+    finally:
+        way.close()
     right = judge.expected(batch.positions(rows[places]), contender.question)
     wrong = (answers != right) & (answers != CANNOT_SAY)
     asked = np.bincount(cells[places], minlength=cells.max() + 1).tolist()

@@ -8,11 +8,17 @@ from functools import partial
 from pathlib import Path
 
 from hypcheck.bench.contenders.c_library import InC, bodies
+from hypcheck.bench.contenders.c_source import FAST
 from hypcheck.bench.contenders.contender import Contender, of_method
-from hypcheck.bench.contenders.numpy_tier import CERTIFIED, PAPER, THIRTEEN
+from hypcheck.bench.contenders.numpy_tier import BISECTED, CERTIFIED, PAPER, THIRTEEN
 from hypcheck.methods.builtin import builtin_methods
 
-_KINDS = {"table-2": ("paper", PAPER), "trigonometric": ("roots", THIRTEEN), "fast": ("certified", CERTIFIED)}
+_KINDS = {
+    "table-2": ("paper", PAPER),
+    "trigonometric": ("roots", THIRTEEN),
+    "fast": ("certified", CERTIFIED),
+    "dual": ("algebraic", BISECTED),
+}
 
 
 COMPILER = "C compiler"
@@ -29,6 +35,8 @@ def contenders(library: Path | None) -> Iterable[Contender]:
         if body.name in methods:  # a long double that is no more than float64 is left out
             kind, note = _KINDS.get(_without_format(body.name), ("algebraic", ""))
             found = of_method(methods[body.name], "C", kind, name=f"{body.name}-c", note=note)
+            if body.name == FAST.name:
+                found = replace(found, title="the fast path, compiled with the others and called from C")
             yield replace(found, load=partial(InC, library or Path(), place), singles=SINGLES, needs=COMPILER)
 
 
