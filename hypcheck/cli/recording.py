@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -14,15 +15,25 @@ import click
 from hypcheck.errors import HypcheckError, InputError
 
 if TYPE_CHECKING:
+    from click._termui_impl import ProgressBar
+
     from hypcheck.record import Record, Recorder
 
 
+_SOONEST, _FIRST = 0.1, 0.002
+"""Seconds between two looks of a bar, and the part of it that must be done before it foretells anything."""
+
+
 class Part(NamedTuple):
-    """A part of a run: its title for the progress bar, how many steps it has, and what does them."""
+    """A part of a run: its title for the progress bar, how many steps it has, and what does them.
+
+    `unit` is what its steps are, where many of them pass in a second.
+    """
 
     title: str
     steps: int
     run: Callable[[Callable[[int], object]], None]
+    unit: str = ""
 
 
 def record_and_report(
@@ -30,7 +41,8 @@ def record_and_report(
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated. Raises InputError where `out` cannot be written.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. Raises InputError where `out`
+    cannot be written.
     """
     from hypcheck.record import Recorder, read
     from hypcheck.report.terminal import summary_lines
@@ -52,8 +64,10 @@ def record_and_report(
             raise
         except BaseException:
             growing.replace(path)
-            with suppress(HypcheckError):
-                write_reports(read(path), out)
+            with suppress(HypcheckError, OSError):
+                record = read(path)
+                write_reports(record, out)
+                _tell(record, [])
             raise
     growing.replace(path)
     _tell(record, summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()))
@@ -82,7 +96,35 @@ def _run(parts: Sequence[Part]) -> None:
         for part in parts:
             part.run(lambda _: None)
         return
-    with click.progressbar(length=sum(part.steps for part in parts), file=sys.stderr, show_pos=False) as bar:
+    steps = sum(part.steps for part in parts)
+    with click.progressbar(length=steps, file=sys.stderr, show_pos=False, item_show_func=lambda shown: shown) as bar:
         for part in parts:
             bar.label = f"{part.title:28}"
-            part.run(bar.update)
+            part.run(_Pace(bar, part.unit).advance if part.unit else bar.update)
+
+
+class _Pace:
+    """Moves a bar now and then, and shows beside it how many of a unit pass in a second."""
+
+    def __init__(self, bar: ProgressBar[Any], unit: str) -> None:
+        self._bar = bar
+        self._unit = unit
+        self._begun = self._shown = time.monotonic()
+        self._steps = self._waiting = 0
+
+    def advance(self, steps: int) -> None:
+        """Take note of steps that are done."""
+        self._waiting += steps
+        now, length = time.monotonic(), self._bar.length or 0
+        early = now < self._shown + _SOONEST or self._bar.pos + self._waiting < _FIRST * length
+        if early and self._bar.pos + self._waiting < length:
+            return
+        self._shown = now
+        self._steps += self._waiting
+        rate = self._steps / max(now - self._begun, 1e-9)
+        self._bar.update(self._waiting, f"{_per_second(rate)} {self._unit} a second")
+        self._waiting = 0
+
+
+def _per_second(rate: float) -> str:
+    return f"{rate / 1e6:.1f} million" if rate >= 1e6 else f"{rate:,.0f}"

@@ -155,7 +155,7 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
     record = record_and_report(
         options["out"],
         shown,
-        lambda recorder: [Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance))],
+        lambda recorder: [Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance), "cases")],
         lambda: outcome.exit_code,
     )
     if options["update"] and listed is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -114,3 +115,13 @@ def raises_when_asked_alone(rows):
     if len(rows) == 1:
         raise ValueError("one is not enough")
     return exact(rows)
+
+
+def wrong_now_and_then(rows):
+    """Every 20,000th answer of a question is another one; after ten questions there is a file to tell of it."""
+    _CALLS[0] += 1
+    if _CALLS[0] == 10 and "GATE_TEST_SIGN" in os.environ:
+        Path(os.environ["GATE_TEST_SIGN"]).touch()
+    answers = exact(rows)
+    answers[::20_000] = (answers[::20_000] + 2) % 3 - 1
+    return answers
