@@ -8,14 +8,26 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
-from hypcheck.casebook import borders, everyday, extremes, fixed_sizes, ladder, ring, scenes, stiff, tangency
+from hypcheck.casebook import (
+    borders,
+    changes,
+    everyday,
+    extremes,
+    fixed_sizes,
+    ladder,
+    ring,
+    scenes,
+    stiff,
+    tangency,
+    whole_domain,
+)
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair
 
 FAMILIES: dict[str, Family] = {
     family.name: family
-    for module in (scenes, everyday, tangency, ladder, ring, borders, stiff, extremes)
+    for module in (scenes, everyday, changes, tangency, ladder, ring, borders, stiff, whole_domain, extremes)
     for family in module.FAMILIES
 }
 EXTREME = "extreme"

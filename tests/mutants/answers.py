@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from zlib import crc32
+
 import numpy as np
 
 from tests.mutants.exactly import lengths, position, terms
@@ -104,3 +106,9 @@ def overlap_of_the_boxes(rows):
     """Claims to answer whether there is contact, and answers whether the centre is within b of the waist."""
     t = terms(lengths(rows))
     return np.asarray(t.P < t.A + t.U, dtype=bool)
+
+
+@wrong()
+def by_lot(rows):
+    """One of the three answers, chosen by a checksum of the row."""
+    return np.array([crc32(bytes(row)) % 3 - 1 for row in rows], dtype=np.int8)

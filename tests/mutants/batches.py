@@ -215,3 +215,76 @@ def rounds_at_random(rows):
     changed = np.array(rows)
     changed[:, 2:4] *= 1 + _random.choice([-2, 2], (len(rows), 1)) * 2.0**-53
     return position(changed)
+
+
+@wrong()
+def lanes_of_64(rows):
+    """The rows that are left over when vectors of 64 are full are not computed."""
+    answers = position(rows)
+    answers[len(rows) - len(rows) % 64 :] = 0
+    return answers
+
+
+@wrong()
+def odd_questions(rows):
+    """Questions of an odd number of rows are not computed."""
+    return position(rows) if len(rows) % 2 == 0 else np.zeros(len(rows), dtype=np.int8)
+
+
+@wrong()
+def after_the_first_question(rows):
+    """Everything is contact from the second question on."""
+    _calls[0] += 1
+    return position(rows) if _calls[0] == 1 else np.zeros(len(rows), dtype=np.int8)
+
+
+@wrong()
+def begins_with_a_lone_row(rows):
+    """A process that was asked about a lone row first takes another path ever after, which is wrong."""
+    if not _calls[0]:
+        _last[0] = np.full(1, len(rows), dtype=np.int64)
+    _calls[0] += 1
+    return position(rows) if _last[0][0] > 1 else np.zeros(len(rows), dtype=np.int8)
+
+
+def _kept_while_alike(rows, alike):
+    """The sizes of a row are those of the row before where these columns are alike, from question to question."""
+    changed = np.array(rows)
+    for row in changed:
+        if (row[alike] == _kept_sizes[alike]).all():
+            row[:4] = _kept_sizes
+        _kept_sizes[:] = row[:4]
+    return position(changed)
+
+
+@wrong()
+def sizes_kept_while_alpha_stays(rows):
+    """What depends on the sizes is computed anew when α changes."""
+    return _kept_while_alike(rows, [0])
+
+
+@wrong()
+def sizes_kept_while_the_hyperboloid_stays(rows):
+    """What depends on the sizes is computed anew when α or γ changes."""
+    return _kept_while_alike(rows, [0, 1])
+
+
+@wrong()
+def sizes_kept_while_the_spheroid_stays(rows):
+    """What depends on the sizes is computed anew when b or d changes."""
+    return _kept_while_alike(rows, [2, 3])
+
+
+@wrong()
+def answer_kept_while_x_and_y_stay(rows):
+    """A row of the same sizes, x and y as the row before gets its answer: z is forgotten."""
+    answers = position(rows)
+    for index in np.flatnonzero((rows[1:, :6] == rows[:-1, :6]).all(axis=1)):
+        answers[index + 1] = answers[index]
+    return answers
+
+
+@wrong()
+def sizes_kept_while_three_stay(rows):
+    """What depends on the sizes is computed anew when α, γ or b changes; d is forgotten."""
+    return _kept_while_alike(rows, [0, 1, 2])

@@ -16,6 +16,8 @@ BOTH_REGIMES = ("--domain", '{"regimes": ["a>=1", "c2>=a"]}')
 BENT = ("--domain", '{"regimes": ["c2>=a"]}')
 WIDE = ("--domain", '{"regimes": ["a>=1"]}')
 
+_buffer = np.empty(1 << 20, dtype=np.int8)
+
 
 @right(asked=(*NO_TOLERANCE, *EXTREME))
 def whole_numbers_in_all_ranges(rows):
@@ -49,13 +51,13 @@ def last_stage(rows):
 
 @right()
 def dual_form_in_float64(rows):
-    """The dual form in float64, which stays within one unit."""
+    """The dual form in float64, which stays within a unit; at the extremes it overflows, and is rejected there."""
     return dual_positions(rows, "float64")
 
 
 @right(claim=("--precision", "float32"))
 def dual_form_in_float32(rows):
-    """The dual form in float32, which stays within one unit of it."""
+    """The dual form in float32, which stays within two units of it."""
     return dual_positions(rows, "float32")
 
 
@@ -159,3 +161,26 @@ def moderate_ratios(rows):
     """Right for α/b and γ/d from 1/1000 to 1000, as it claims, and contact elsewhere."""
     ratios = rows[:, :2] / rows[:, 2:4]
     return np.where(((ratios >= 0.001) & (ratios <= 1000)).all(axis=1), position(rows), 0).astype(np.int8)
+
+
+@right(claim=("--domain", '{"ratio": [1e-8, 1e8], "magnitude": [1e-6, 1e6]}'), asked=("--families", "extreme,*"))
+def dual_form_within_its_ranges(rows):
+    """The dual form in float64, which declares the ordinary ranges and so is asked no more of the extreme families."""
+    return dual_positions(rows, "float64")
+
+
+@right(asked=NO_TOLERANCE)
+def early_exits(rows):
+    """Clear where the ball about the spheroid is clear of the narrowest, or of the widest, cylinder that it reaches."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    r, margin = np.hypot(x, y), 1 + 1e-12
+    reach = alpha * np.hypot(1, (np.abs(z) + d) / gamma)
+    outside, inside = r - b > reach * margin + r * 1e-12, (r + b) * margin < alpha
+    return np.where(outside, 1, np.where(inside, -1, position(rows))).astype(np.int8)
+
+
+@right(asked=NO_TOLERANCE)
+def answers_in_a_kept_buffer(rows):
+    """Answers are written into one buffer for all questions."""
+    _buffer[: len(rows)] = position(rows)
+    return _buffer[: len(rows)]

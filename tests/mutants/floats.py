@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import float_arithmetic
@@ -26,6 +28,20 @@ def _scaled(rows):
     """A, B, P, Q in float64."""
     alpha, gamma, b, d, x, y, z = rows.T
     return (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+
+
+def _by_bisection(rows, steps):
+    """The dual form in float64 with λ from so many bisections of (0, B) and (−A, 0)."""
+    A, B, P, Q = _scaled(rows)
+    inside = P * B < B * A + Q * A
+    low, high = np.where(inside, -A, 0), np.where(inside, 0, B)
+    with np.errstate(all="ignore"):
+        for _ in range(steps):
+            middle = (low + high) / 2
+            rising = P * A / (A + middle) ** 2 > Q * B / (B - middle) ** 2 + 1
+            low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+        clear = P * low / (A + low) - Q * low / (B - low) - 1 - low > 0
+    return np.where(clear, np.sign(low), 0).astype(np.int8)
 
 
 @wrong()
@@ -135,36 +151,26 @@ def roots_by_eigenvalues(rows):
 @wrong()
 def search_of_20_steps(rows):
     """The dual form with λ from 20 bisections of (0, B) and (−A, 0)."""
-    A, B, P, Q = _scaled(rows)
-    inside = P * B < B * A + Q * A
-    low, high = np.where(inside, -A, 0), np.where(inside, 0, B)
-    with np.errstate(all="ignore"):
-        for _ in range(20):
-            middle = (low + high) / 2
-            rising = P * A / (A + middle) ** 2 > Q * B / (B - middle) ** 2 + 1
-            low, high = np.where(rising, middle, low), np.where(rising, high, middle)
-        clear = P * low / (A + low) - Q * low / (B - low) - 1 - low > 0
-    return np.where(clear, np.sign(low), 0).astype(np.int8)
+    return _by_bisection(rows, 20)
+
+
+def _with_bounds(rows, part):
+    """The fast path in numpy with this part of its error bounds."""
+    units = {name: part * value for name, value in numpy_path.CONSTANTS.items() if name.startswith("u_")}
+    with patch.object(numpy_path, "CONSTANTS", numpy_path.CONSTANTS | units):
+        return numpy_path.positions(np.ascontiguousarray(rows))
 
 
 @wrong()
 def bound_of_zero(rows):
     """The fast path with error bounds of 0: floats decide everything but an exact 0."""
-    unit, numpy_path.U = numpy_path.U, 0.0
-    try:
-        return numpy_path.positions(np.ascontiguousarray(rows))
-    finally:
-        numpy_path.U = unit
+    return _with_bounds(rows, 0.0)
 
 
 @wrong()
 def bound_a_thousandth(rows):
     """The fast path with a thousandth of its error bounds."""
-    unit, numpy_path.U = numpy_path.U, numpy_path.U / 1024
-    try:
-        return numpy_path.positions(np.ascontiguousarray(rows))
-    finally:
-        numpy_path.U = unit
+    return _with_bounds(rows, 1 / 1024)
 
 
 @wrong(asked=NO_TOLERANCE)
@@ -175,3 +181,25 @@ def reassociated(rows):
     with np.errstate(all="ignore"):
         phi = (P * (multiplier / to_A) - multiplier) - (1 + Q * (multiplier / to_B))
     return np.where(phi > 0, np.sign(multiplier), 0).astype(np.int8)
+
+
+@wrong()
+def search_of_60_steps(rows):
+    """The dual form with λ from 60 bisections of (0, B) and (−A, 0): λ is exact to the last bit, A + λ is not."""
+    return _by_bisection(rows, 60)
+
+
+@wrong()
+def newton_of_8_steps(rows):
+    """The dual form with λ from 8 steps of Newton's method, held between the poles."""
+    A, B, P, Q = _scaled(rows)
+    inside = P * B < B * A + Q * A
+    low, high = np.where(inside, -A, 0), np.where(inside, 0, B)
+    at = (low + high) / 2
+    with np.errstate(all="ignore"):
+        for _ in range(8):
+            slope = P * A / (A + at) ** 2 - Q * B / (B - at) ** 2 - 1
+            bend = -2 * P * A / (A + at) ** 3 - 2 * Q * B / (B - at) ** 3
+            at = np.clip(at - slope / bend, low + (at - low) / 8, high - (high - at) / 8)
+        clear = P * at / (A + at) - Q * at / (B - at) - 1 - at > 0
+    return np.where(clear, np.sign(at), 0).astype(np.int8)

@@ -161,3 +161,17 @@ def gamma_for_alpha(rows):
 def height_from_the_bottom(rows):
     """z is measured from γ below the waist, where the model was drawn."""
     return position(_with(rows, z=rows[:, Z] - rows[:, GAMMA]))
+
+
+@wrong()
+def rotation_with_a_wrong_sign(rows):
+    """The centre is turned about the axis first, by a matrix with both sines of one sign."""
+    x, y = 0.8 * rows[:, X] + 0.6 * rows[:, Y], 0.6 * rows[:, X] + 0.8 * rows[:, Y]
+    return position(_with(rows, x=x, y=y))
+
+
+@wrong()
+def rule_of_thumb_radius(rows):
+    """r is taken from a rule of thumb, 0.96 of the larger and 0.4 of the smaller coordinate."""
+    x, y = np.abs(rows[:, X]), np.abs(rows[:, Y])
+    return position(_with(rows, x=0.96 * np.maximum(x, y) + 0.4 * np.minimum(x, y), y=0))

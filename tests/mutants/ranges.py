@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.mutants.exactly import position
+from tests.mutants.exactly import lengths, position, terms
 from tests.mutants.expectation import wrong
 
 ALPHA, GAMMA, B, D, X, Y, Z = range(7)
@@ -133,3 +133,90 @@ def paper_scenes_only(rows):
 def unequal_axes(rows):
     """Right unless the spheroid is a ball, b = d."""
     return _only(rows, rows[:, B] != rows[:, D])
+
+
+@wrong()
+def prolate_spheroid(rows):
+    """Right for d ≥ b."""
+    return _only(rows, rows[:, D] >= rows[:, B])
+
+
+@wrong()
+def flat_hyperboloid(rows):
+    """Right for γ ≤ α."""
+    return _only(rows, rows[:, GAMMA] <= rows[:, ALPHA])
+
+
+@wrong()
+def seven_octants(rows):
+    """Right unless x, y and z are negative."""
+    return _only(rows, ~(rows[:, X:] < 0).all(axis=1))
+
+
+@wrong()
+def three_regimes(rows):
+    """Right unless a < 1 and c² < a."""
+    a, c = rows[:, ALPHA] / rows[:, B], rows[:, GAMMA] / rows[:, D]
+    return _only(rows, (a >= 1) | (c * c >= a))
+
+
+@wrong()
+def off_the_diagonals(rows):
+    """Right unless |x| = |y| > 0."""
+    return _only(rows, (np.abs(rows[:, X]) != np.abs(rows[:, Y])) | (rows[:, X] == 0))
+
+
+@wrong()
+def off_the_cylinder(rows):
+    """Right unless r = α, where a division by r − α gives NaN."""
+    t = terms(lengths(rows))
+    return _only(rows, np.asarray(t.P != t.A, dtype=bool))
+
+
+@wrong()
+def waist_and_flare_differ(rows):
+    """Right unless α = γ, where a division by α − γ gives NaN."""
+    return _only(rows, rows[:, ALPHA] != rows[:, GAMMA])
+
+
+@wrong()
+def ratios_differ(rows):
+    """Right unless a = c, where a division by A − B gives NaN."""
+    t = terms(lengths(rows))
+    return _only(rows, np.asarray(t.A != t.B, dtype=bool))
+
+
+@wrong()
+def no_powers_of_two(rows):
+    """Right unless α, γ, b and d are powers of two, for which there is a shortcut."""
+    return _only(rows, (np.frexp(rows[:, :X])[0] != 0.5).any(axis=1))
+
+
+@wrong()
+def waists_to_a_hundred_kilometres(rows):
+    """Right for α and γ up to 1e5; the domain it leaves undeclared goes on to 1e6."""
+    return _only(rows, (rows[:, :B] <= 1e5).all(axis=1))
+
+
+@wrong()
+def coordinates_to_five_hundred_kilometres(rows):
+    """Right for coordinates up to 5e5; the domain it leaves undeclared goes on to 1e6."""
+    return _only(rows, (np.abs(rows[:, X:]) <= 5e5).all(axis=1))
+
+
+@wrong()
+def short_of_the_ends(rows):
+    """Right unless a semi-axis is exactly 1e-6 or 1e6, the ends of the domain it leaves undeclared."""
+    return _only(rows, ((rows[:, :X] > 1e-6) & (rows[:, :X] < 1e6)).all(axis=1))
+
+
+@wrong()
+def heights_to_a_thousand(rows):
+    """Right for |z| ≤ 1000 γ."""
+    return _only(rows, np.abs(rows[:, Z]) <= 1000 * rows[:, GAMMA])
+
+
+@wrong(claim=("--domain", '{"ratio": [1e-12, 1e12]}'))
+def ratios_to_a_billion(rows):
+    """Claims ratios to 1e12, and is right up to 1e9."""
+    return _only(rows, (rows[:, :B] <= 1e9 * rows[:, B:X]).all(axis=1))

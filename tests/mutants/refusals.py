@@ -54,3 +54,11 @@ def forgets_negative_sizes(rows):
 def refuses_the_origin(rows):
     """Refuses a centre at the origin too, which is valid."""
     return _where(_valid(rows) & (rows[:, 4:] != 0).any(axis=1), rows)
+
+
+@wrong()
+def refuses_what_is_hard(rows):
+    """Refuses contact too, which is valid."""
+    answers = _where(_valid(rows), rows)
+    answers[answers == 0] = 127
+    return answers

@@ -116,3 +116,10 @@ def throat_by_the_slope_alone(rows):
 def throat_by_the_sum_alone(rows):
     """c2 < 3A is asked for, g'(−A) > 0 is not."""
     return position(rows, above=lambda t, k1, k2: k2 < 3 * t.A)
+
+
+@wrong()
+def never_interior_in_a_narrow_throat(rows):
+    """Where α < b nothing is called interior, for the spheroid does not fit through the waist."""
+    answers = position(rows)
+    return np.where(rows[:, 0] < rows[:, 2], np.maximum(answers, 0), answers).astype(np.int8)

@@ -221,3 +221,26 @@ def turned_by_45_degrees(rows):
 def grown_by_2_u(rows):
     """The spheroid is grown by two units of rounding, which the tolerance of 8 covers."""
     return position(_grown(rows, 2 * U))
+
+
+@wrong()
+def r_in_float32(rows):
+    """r = hypot(x, y) is stored in float32."""
+    changed = np.array(rows)
+    changed[:, 4], changed[:, 5] = _significant(np.hypot(rows[:, 4], rows[:, 5]), 24), 0
+    return position(changed)
+
+
+@wrong()
+def exponents_ignored(rows):
+    """The row goes through a text, which is read up to the letter e: 1.5e-05 is 1.5."""
+    return position(np.array([float(repr(value).split("e")[0]) for value in rows.ravel().tolist()]).reshape(rows.shape))
+
+
+@right()
+def reciprocals(rows):
+    """1/b and 1/d are rounded once, and multiplied with; all that follows is exact."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    one = np.ones(len(rows))
+    across, along = 1 / b, 1 / d
+    return position(np.column_stack([alpha * across, gamma * along, one, one, x * across, y * across, z * along]))

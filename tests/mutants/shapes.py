@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.mutants.exactly import signs
+from tests.mutants.exactly import position, signs
 from tests.mutants.expectation import wrong
 
 
@@ -130,3 +130,18 @@ def one_fixed_line(rows):
     with np.errstate(invalid="ignore", divide="ignore"):
         outside, inside = (r * r * m / (A + m) - z * z * m / (B - m) - 1 - m for m in (a, -a))
     return signs((outside > 0) & (a < B), (inside > 0) & (a > 1))
+
+
+@wrong()
+def early_exit_beyond_the_waist(rows):
+    """Clear where r > a + 1, whatever the height; exact elsewhere."""
+    a, _, r, _ = _scaled(rows)
+    return np.where(r > a + 1, 1, position(rows)).astype(np.int8)
+
+
+@wrong()
+def early_exit_on_a_bounding_ball(rows):
+    """Clear where the wall at the centre's height is farther than the spheroid's longer semi-axis; exact elsewhere."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    beyond = np.hypot(x, y) - alpha * np.hypot(1, z / gamma)
+    return np.where(np.abs(beyond) > np.maximum(b, d), np.sign(beyond), position(rows)).astype(np.int8)

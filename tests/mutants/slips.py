@@ -111,3 +111,21 @@ def delta_26_for_27(rows):
 def delta_square_for_cube(rows):
     """Δ has −4 c1² for −4 c1³."""
     return position(rows, delta=lambda t, k0, k1, k2: sum(delta_terms(k0, k1, k2)) + 4 * k1**3 - 4 * k1**2 * t.U**2)
+
+
+@wrong()
+def integer_division(rows):
+    """A = ⌊α/b⌋²: the ratio is taken of integers."""
+    return _with(rows, A=lambda of: (of.alpha // of.b) ** 2 * of.b**2 * of.d**2)
+
+
+@wrong()
+def Q_keeps_its_sign(rows):
+    """Q = z |z|/d²: negative below the waist."""
+    return _with(rows, Q=lambda of: of.z * abs(of.z) * of.b**2)
+
+
+@wrong()
+def delta_27_and_a_millionth(rows):
+    """Δ has 27.000001 c0² for 27 c0²."""
+    return position(rows, delta=lambda t, k0, k1, k2: 10**6 * sum(delta_terms(k0, k1, k2)) - k0**2)

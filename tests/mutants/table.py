@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from hypcheck.casebook.families import FAMILIES
+from hypcheck.casebook import vectors
 from hypcheck.casebook.frozen import refusals
 from hypcheck.report.markup import code, paragraph, table, text
 from tests.mutants.collection import Mutant, imported, sentence
@@ -35,6 +35,13 @@ def render(results: Sequence[Result]) -> str:
             "what rejects them has seen that piece. Options are those that the claim needs (a precision, a question, a",
             "domain) and those that ask for more than the default options do; without the latter the implementation",
             "passes, which is tried as well.",
+        ),
+        *paragraph(
+            "More must be asked where the default options cannot see it, whatever the cases are: errors of a few units",
+            "(`--tolerance 0`), lengths beyond the ordinary ranges (`--families extreme`), what begins with the",
+            "hundred-thousandth row of a process (`--count`), rows known by heart beforehand (`--seed`), changes",
+            "within the tolerance (`--deterministic`), and mistakes so rare that it is a matter of luck whether one is",
+            "met.",
         ),
         *paragraph(f"**{_tally(results)}**"),
     ]
@@ -89,7 +96,7 @@ def _tally(results: Sequence[Result]) -> str:
 
 
 def _families() -> list[str]:
-    return [*FAMILIES, refusals.NAME]
+    return [*vectors.NAMES, refusals.NAME]
 
 
 def _by_family(wrong: Sequence[Result]) -> list[str]:

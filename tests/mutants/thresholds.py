@@ -132,3 +132,44 @@ def vanishing_c2_is_contact(rows):
         return np.where(k2 == 0, 0, exactly.decide(t, k1, k2, delta)).astype(np.int8)
 
     return position(rows, decide=decide)
+
+
+@wrong()
+def tangency_is_exterior(rows):
+    """Every tangency is called exterior."""
+    return np.where(position(rows) == tangency_is_clear(rows), position(rows), 1).astype(np.int8)
+
+
+@wrong()
+def axis_within_1e_9(rows):
+    """Centres less than 1e-9 b from the axis are taken to be on it."""
+    changed = np.array(rows)
+    changed[np.hypot(rows[:, 4], rows[:, 5]) < 1e-9 * rows[:, 2], 4:6] = 0
+    return position(changed)
+
+
+@wrong()
+def waist_within_1e_6(rows):
+    """Centres less than 1e-6 d from the plane of the waist are taken to be in it."""
+    changed = np.array(rows)
+    changed[np.abs(rows[:, 6]) < 1e-6 * rows[:, 3], 6] = 0
+    return position(changed)
+
+
+@wrong()
+def equal_within_1e_12(rows):
+    """α is taken for b where they differ by less than 1e-12 of themselves."""
+    changed = np.array(rows)
+    alike = np.abs(rows[:, 0] - rows[:, 2]) < 1e-12 * rows[:, 2]
+    changed[alike, 0] = rows[alike, 2]
+    return position(changed)
+
+
+@wrong()
+def ring_of_1e_9(rows):
+    """Clear positions less than 1e-9 from the ring, of its radius, are called contact."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    a, c = alpha / b, gamma / d
+    ring = b * np.hypot(1, c) * np.hypot(1, a / c)
+    beside = (np.abs(np.hypot(x, y) - ring) < 1e-9 * ring) & (np.abs(z) < 1e-9 * d)
+    return np.where(beside, 0, position(rows)).astype(np.int8)
