@@ -44,7 +44,7 @@ KERNEL = Extension(
     depends=[f"{CORE}/hypcheck.h"],
     include_dirs=[CORE],
     # FMA may replace a product and a sum: the bounds hold with and without. Never -ffast-math: hypcheck.h refuses it.
-    extra_compile_args=[] if os.name == "nt" else ["-O3", "-ffp-contract=fast"],
+    extra_compile_args=[] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=fast"],
     optional=True,  # without a compiler numpy gives the same answers; `hypcheck info` says which it is
 )
 

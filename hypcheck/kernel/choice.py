@@ -12,10 +12,12 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 from types import ModuleType
 
 from hypcheck.errors import InputError
 
+EXTENSION = "hypcheck.kernel._compiled"
 KERNELS = ("compiled", "numpy")
 LEVELS = ("avx512", "avx2", "sse2", "plain")
 
@@ -52,9 +54,12 @@ def choice() -> Choice:
 
 def compiled() -> ModuleType:
     """The extension module. Raises ImportError where it was not built or does not load."""
-    from hypcheck.kernel import _compiled  # noqa: PLC0415 - it may not exist
-
-    return _compiled
+    try:
+        return import_module(EXTENSION)
+    except ModuleNotFoundError as error:
+        if error.name != EXTENSION:
+            raise
+        raise ImportError("it was not built at install, which takes a C compiler and Python's headers") from None
 
 
 def _level(module: ModuleType) -> str:
