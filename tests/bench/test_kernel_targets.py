@@ -40,7 +40,7 @@ class Recorder:
 def small(monkeypatch):
     """The same measurements of far fewer rows: what they find is of no interest here."""
     for module, sizes in (
-        (compiled, {"MANY": 4096, "CACHED": 2048, "WORST": 64, "PART": 1024, "LEAST_PARTS": 2}),
+        (compiled, {"MANY": 4096, "CACHED": 2048, "WORST": 64, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2}),
         (python, {"MANY": 20_000, "CALLS": 20, "FEW": 3, "TRIANGLES": 60}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
-from time import perf_counter_ns
+from time import thread_time_ns
 from typing import Any
 
 import numpy as np
 
 from hypcheck.bench.kernel.baselines import Baseline, baselines
 from hypcheck.bench.kernel.rows import SIZES, touching, uniform
-from hypcheck.bench.kernel.target import Target, measured, rate, times_as_fast
+from hypcheck.bench.kernel.target import Target, measured, rate, times_as_fast, worked
 from hypcheck.bench.memory import forget_peak, peak
 from hypcheck.bench.rounds import Entry, Samples, clocked
 from hypcheck.kernel.answering import Columns
@@ -21,7 +21,7 @@ from hypcheck.kernel.compiled_path import fill_scene
 from hypcheck.rows import Positions
 
 MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
-PART, LEAST_PARTS = 1_000_000, 15
+PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
 
 CEILING = Target("memory speed", "certified, one thread, of the speed of reading the rows; 1e7 rows", 0.75)
 PLAIN = Target("plain C, from memory", "certified, one thread, of the speed of the plain formula in C; 1e7 rows", 0.95)
@@ -38,8 +38,9 @@ def from_memory(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
     entries = [
         Entry("read", MANY, libraries[0].read_only(*columns)),
         *_plain(libraries, columns, out),
-        Entry("one", MANY, clocked(lambda: _answered(columns, out))),
-        Entry("two", MANY, clocked(lambda: _answered(columns, out, threads=2))),
+        Entry("one", MANY, worked(lambda: _answered(columns, out))),
+        Entry("one by the clock", MANY, clocked(lambda: _answered(columns, out))),
+        Entry("two by the clock", MANY, clocked(lambda: _answered(columns, out, threads=2))),
     ]
     found = measured(entries, rounds)
     one, plain = found["one"], _fastest(found)
@@ -47,14 +48,15 @@ def from_memory(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
     beside = f"{rate(one)} on {level}"
     yield CEILING.line(times_as_fast(one, found["read"]), f"{beside}; reading x, y and z alone: {rate(found['read'])}")
     yield PLAIN.line(times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate(plain)}")
-    yield THREADS.line(times_as_fast(found["two"], one), f"one thread: {rate(one)}; two: {rate(found['two'])}")
+    alone, two = found["one by the clock"], found["two by the clock"]
+    yield THREADS.line(times_as_fast(two, alone), f"by the clock, one thread: {rate(alone)}; two: {rate(two)}")
 
 
 def in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
     """A hundred thousand rows, which stay in the cache."""
     columns, out = uniform(CACHED), np.zeros(CACHED, dtype=np.int8)
     libraries = baselines(folder, str(choice().level))
-    one = Entry("one", CACHED, clocked(lambda: _answered(columns, out)))
+    one = Entry("one", CACHED, worked(lambda: _answered(columns, out)))
     found = measured([*_plain(libraries, columns, out), one], 3 * rounds)
     plain = _fastest(found)
     says = f"{rate(found['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate(plain)}"
@@ -64,35 +66,35 @@ def in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
 def near_contact(rounds: int) -> Iterator[dict[str, Any]]:
     """Rows that floats cannot decide."""
     columns, out = touching(WORST), np.zeros(WORST, dtype=np.int8)
-    found = measured([Entry("worst", WORST, clocked(lambda: _answered(columns, out)))], rounds)["worst"]
+    found = measured([Entry("worst", WORST, worked(lambda: _answered(columns, out)))], rounds)["worst"]
     yield TOUCHING.line(found.samples_ns, f"{rate(found)}; the exact integers decide nearly all of them")
 
 
 def streamed(most: int, rounds: int) -> Iterator[dict[str, Any]]:
-    """From a million rows to `most`, a million at a time, each million new in memory before its time is taken."""
-    source, columns, out = uniform(PART), uniform(PART), np.zeros(PART, dtype=np.int8)
-    _answered(columns, out)
+    """From a million rows to `most`, a million at a time, out of a ring of parts that no cache holds."""
+    columns, out = uniform(PARTS * PART), np.zeros(PART, dtype=np.int8)
+    slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
+    parts = [(columns[0][each], columns[1][each], columns[2][each]) for each in slices]
+    _cost_of_stream(PARTS, parts, out)
     before = forget_peak()
-    totals = [PART * 10**k for k in range(4) if PART * 10**k <= most]
-    costs = [[_cost_of_stream(total, source, columns, out) for total in totals] for _ in range(rounds)]
+    totals = [10**k for k in range(4) if PART * 10**k <= most]
+    costs = [[_cost_of_stream(total, parts, out) for total in totals] for _ in range(rounds)]
     grown = max(0, peak() - before)
-    each = ", ".join(
-        f"{total:,} rows {np.median(cost):.3g} ns" for total, cost in zip(totals, np.transpose(costs), strict=True)
-    )
+    middle = np.median(costs, axis=0).tolist()
+    each = ", ".join(f"{PART * total:,} rows {cost:.3g} ns" for total, cost in zip(totals, middle, strict=True))
     says = f"a row of {each}; memory grew by {grown / 2**20:.1f} MB meanwhile"
     yield STREAMED.line([max(cost) / min(cost) for cost in costs], says)
 
 
-def _cost_of_stream(total: int, source: Columns, columns: Columns, out: Positions) -> float:
-    """Nanoseconds a row; of few parts the middle one, of many their mean."""
-    spent = []
-    for _ in range(max(total // PART, LEAST_PARTS)):
-        for column, fresh in zip(columns, source, strict=True):
-            np.copyto(column, fresh)
-        started = perf_counter_ns()
-        _answered(columns, out)
-        spent.append(perf_counter_ns() - started)
-    return (median(spent) if len(spent) == LEAST_PARTS else sum(spent) / len(spent)) / PART
+def _cost_of_stream(total: int, parts: Sequence[Columns], out: Positions) -> float:
+    """Nanoseconds a row in a stream of `total` parts; a short stream is repeated, and the middle one taken."""
+    streams = []
+    for start in range(max(1, LEAST_PARTS // total)):
+        began = thread_time_ns()
+        for k in range(total):
+            _answered(parts[(start + k) % len(parts)], out)
+        streams.append((thread_time_ns() - began) / (total * PART))
+    return median(streams)
 
 
 def _plain(libraries: list[Baseline], columns: Columns, out: Positions) -> list[Entry]:
@@ -101,7 +103,8 @@ def _plain(libraries: list[Baseline], columns: Columns, out: Positions) -> list[
 
 
 def _fastest(found: dict[str, Samples]) -> Samples:
-    return min((each for name, each in found.items() if name not in ("read", "one", "two")), key=lambda s: s.median_ns)
+    others = [each for name, each in found.items() if not name.startswith(("read", "one", "two"))]
+    return min(others, key=lambda each: each.median_ns)
 
 
 def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
