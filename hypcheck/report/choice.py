@@ -15,7 +15,7 @@ from hypcheck.record import Record
 from hypcheck.report.measured import BATCH, SINGLE, Measured, measured, noise_floor, workloads
 from hypcheck.report.text import figure
 
-DISTANCES = (1e-12, 1e-9, 1e-6, 1e-3)
+DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 """Flip distances below which errors may not matter: a metre's 1e-12 is an atom's width, its 1e-3 a millimetre."""
 
 BEYOND = "reliable beyond"
@@ -108,18 +108,17 @@ def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Ne
     floats = [each for each in position if not each.exact and each.line["kind"] in IN_FLOATS]
     for precision in ("float64", "float32"):
         yield from _nearest(f"plain {precision}", [each for each in floats if each.line["precision"] == precision])
-    for distance in DISTANCES:
-        what = f"{BEYOND} {distance:g}"
+    for words, distance in DISTANCES.items():
+        what = f"{BEYOND} {words}"
         yield Need(what, distance=distance), _reliable(position, distance)
         yield Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)
         yield Need(what, EVERYDAY, CLEAR, distance), _reliable(clear, distance, timed)
+    words, distance = next(iter(DISTANCES.items()))
+    what = f"{BEYOND} {words}, in numpy"
     for need, fitting in (
         (Need("never a wrong answer, in numpy"), exact),
-        (Need(f"{BEYOND} {DISTANCES[0]:g}, in numpy", distance=DISTANCES[0]), _reliable(position, DISTANCES[0])),
-        (
-            Need(f"{BEYOND} {DISTANCES[0]:g}, in numpy", EVERYDAY, distance=DISTANCES[0]),
-            _reliable(position, DISTANCES[0], timed),
-        ),
+        (Need(what, distance=distance), _reliable(position, distance)),
+        (Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)),
     ):
         if any(each.tier == "numpy" for each in fitting):
             yield need, [each for each in fitting if each.tier == "numpy"]

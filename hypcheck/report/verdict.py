@@ -168,7 +168,8 @@ def verdict(record: Record) -> Verdict:
     reason = "; ".join(part for part in (MEANINGS.get(code, "") if code in UNFINISHED else "", _named(found)) if part)
     reason = reason or MEANINGS.get(code, "no line of the record says why")
     if code == INCONCLUSIVE:
-        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {reason}. A quieter machine or more rounds would tell.")
+        open_ = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. A quieter machine or more rounds would tell.")
     return Verdict(False, f"FAILED with exit code {code}: {reason}.")
 
 

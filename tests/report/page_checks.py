@@ -15,6 +15,10 @@ LEAST_VARIANCE = 5
 """Of the brightness of a plot's dots, from 0 to 255; that of white paper is 0."""
 
 
+PAPER = 688
+"""Pixels between the margins of an A4 sheet."""
+
+
 def run(visit, name, argument=None):
     """What a function of SCRIPT finds on the page."""
     return visit.page.evaluate(f"(argument) => {SCRIPT.strip().rstrip(';')}.{name}(argument)", argument)
@@ -120,19 +124,23 @@ def unreachable(visit):
 
 
 def folded_on_paper(visit):
-    """On paper nothing is folded away, and nothing is there that only a screen can use."""
+    """On paper nothing is folded away or wider than the sheet, and nothing is there that only a screen can use."""
     visit.page.emulate_media(media="print")
+    visit.page.set_viewport_size({"width": PAPER, "height": 900})
     visit.page.evaluate("dispatchEvent(new Event('beforeprint'))")
     found = []
     if visit.page.locator("details:not([open])").count():
         found.append("something stays folded")
-    found += [
-        f"{each} is printed" for each in (".skip", "nav", ".filter") if visit.page.locator(f"{each}:visible").count()
-    ]
+    wide = visit.page.evaluate("document.documentElement.scrollWidth")
+    if wide > PAPER:
+        found.append(f"the page is {wide} px wide, the sheet {PAPER}")
+    hidden = (".skip", "nav", ".filter")
+    found += [f"{each} is printed" for each in hidden if visit.page.locator(f"{each}:visible").count()]
     visit.page.evaluate("dispatchEvent(new Event('afterprint'))")
     if visit.page.locator("details[open]").count():
         found.append("what was unfolded for paper stays unfolded")
     visit.page.emulate_media(media="screen")
+    visit.page.set_viewport_size({"width": 1280, "height": 900})
     return found
 
 

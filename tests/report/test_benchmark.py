@@ -63,7 +63,7 @@ def test_errors_of_those_that_promise_nothing_fail_nothing():
         (
             lines("comparison", verdict="inconclusive"),
             4,
-            "INCONCLUSIVE, exit code 4: 1 failed measurement. A quieter machine or more rounds would tell.",
+            "INCONCLUSIVE, exit code 4: 1 comparison too noisy to tell. A quieter machine or more rounds would tell.",
         ),
         ([*bench_lines.lines(), REFUSED], 1, "FAILED with exit code 1: 1 failed measurement."),
         (lines("comparison", verdict="slower"), 0, "CONTRADICTORY: the record ends with exit code 0, but holds"),

@@ -140,6 +140,10 @@ BROKEN = {
         page_checks.folded_on_paper,
         lambda page: page.replace("each.open = true", "each.open = false"),
     ),
+    "a table wider than paper": (
+        page_checks.folded_on_paper,
+        lambda page: page.replace(".n{white-space:normal}", ".n{min-width:20rem}"),
+    ),
     "a printed menu": (page_checks.folded_on_paper, without(r"\.skip,nav,\.filter,\.tip\{display:none\}")),
     "a plot without a title": (page_checks.untold, without(r'(class="plot".*?)<title id=.*?</title>', r"\1")),
     "tooltips that are not told": (

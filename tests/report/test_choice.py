@@ -85,8 +85,8 @@ def test_reliable_beyond_a_distance_everywhere_and_where_it_is_timed():
     found = {key: (each.use.name, each.errs) for key, each in advice(record).items()}
     assert found == {
         ("plain float64; errors end at 1.0e-13", EVERYWHERE, "position"): ("near", ()),
-        ("reliable beyond 1e-09", EVERYWHERE, "position"): ("sound", ()),
-        ("reliable beyond 1e-09", EVERYDAY, "position"): ("narrow", ("ring",)),
+        ("reliable beyond 1e-9", EVERYWHERE, "position"): ("sound", ()),
+        ("reliable beyond 1e-9", EVERYDAY, "position"): ("narrow", ("ring",)),
         ("reliable beyond 0.001", EVERYWHERE, "position"): ("rough", ()),
     }
 

@@ -34,17 +34,16 @@ def _list(found: list[Failure]) -> Bullets:
 
 
 def _table(found: list[Failure]) -> Table:
-    rows = [
-        (
-            Code(failure.name),
-            failure.group,
-            (failure.message, *((" (", Code(failure.place), ")") if failure.place else ())),
-            Code(failure.replay) if failure.replay else "",
-        )
-        for failure in found[:IN_TABLE]
-    ]
-    rest = [("", "", text, "") for text in _rest(len(found) - IN_TABLE)]
-    return table("failures", ("which", "where", "what happened", "look at it with"), [*rows, *rest])
+    """With the commands that show them, where there are any."""
+    columns, replays = ("which", "where", "what happened"), any(failure.replay for failure in found)
+    rows = [(*_row(failure), *([Code(failure.replay or "")] if replays else [])) for failure in found[:IN_TABLE]]
+    rest = [("", "", text, *([""] if replays else [])) for text in _rest(len(found) - IN_TABLE)]
+    return table("failures", (*columns, *(["look at it with"] if replays else [])), [*rows, *rest])
+
+
+def _row(failure: Failure) -> tuple[Text, ...]:
+    place: Text = (" (", Code(failure.place), ")") if failure.place else ""
+    return Code(failure.name), failure.group, (failure.message, place)
 
 
 def _rest(left_out: int) -> list[Text]:

@@ -54,11 +54,11 @@ def _groups(found: list[Measured], workload: str) -> Iterator[tuple[str, list[Cu
 
 def _group(each: Measured) -> str:
     kind, line = each.line["kind"], each.line
+    if each.exact:
+        return "Exact methods"
     if kind in FORMULAS:
         return f"Formulas in {line['tier']}, {_SHORT if line['precision'] in SHORT else _LONG}"
-    return {"exact": "Exact methods", "mesh": "Meshes", "bounding": "Bounding volumes"}.get(
-        kind, str(kind).capitalize()
-    )
+    return {"mesh": "Meshes", "bounding": "Bounding volumes"}.get(kind, str(kind).capitalize())
 
 
 def _curve(name: str, line: Line) -> Curve:
