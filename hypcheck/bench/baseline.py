@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.bench.contenders import Contender
 from hypcheck.bench.plan import REFERENCE, BenchPlan
@@ -128,6 +129,6 @@ def change_of(before: Baseline, after: Baseline, key: Key) -> Change:
     return Change(change, min(low, change), max(high, change), noise)
 
 
-def _medians(run: Baseline, key: Key, seed: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def _medians(run: Baseline, key: Key, seed: int) -> NDArray[np.float64]:
     reference = run.speeds[(REFERENCE, *key[1:])]["samples_ns"]
     return resampled_medians(ratios(run.speeds[key]["samples_ns"], reference), seed)

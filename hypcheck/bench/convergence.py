@@ -13,6 +13,7 @@ from hypcheck.bench.workloads import NEAR_SCENES, near
 from hypcheck.casebook.draw import Draw
 from hypcheck.casebook.placing import Sizes
 from hypcheck.methods.engines import FCL, PAIRINGS
+from hypcheck.methods.method import Answers
 from hypcheck.methods.scene_mesh import built, height_of
 from hypcheck.rows import Rows
 from hypcheck.truth import batch
@@ -50,7 +51,7 @@ def near_the_tower(seed: int) -> Rows:
     return near(draw, Sizes(*np.repeat(np.array([NEAR_SCENES[0]]), ROWS, axis=0).T), GAPS)
 
 
-def _line(pairing: str, triangles: int, rows: Rows, truth: np.ndarray[Any, np.dtype[np.int8]]) -> dict[str, Any]:
+def _line(pairing: str, triangles: int, rows: Rows, truth: Answers) -> dict[str, Any]:
     alpha, gamma, b, d = NEAR_SCENES[0]
     sizes = alpha, gamma, b, d
     height = height_of(sizes, rows)

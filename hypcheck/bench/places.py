@@ -14,6 +14,7 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.stability import ENOUGH
 from hypcheck.bench.workloads import NEAR_SCENES
 from hypcheck.judge import Mistake
+from hypcheck.methods.method import Answers
 from hypcheck.pairs import SIZES, Position
 from hypcheck.processes import perform
 from hypcheck.rows import CANNOT_SAY, Rows
@@ -80,7 +81,7 @@ def grid(r: Span, z: Span) -> Rows:
     return rows
 
 
-def drawn(answers: np.ndarray[Any, np.dtype[np.int8]], rows: Rows, question: str, columns: int) -> list[str]:
+def drawn(answers: Answers, rows: Rows, question: str, columns: int) -> list[str]:
     """A text for each z from the lowest up, with a character for each r."""
     positions = batch.positions(rows)
     letters = np.full(len(rows), ".")

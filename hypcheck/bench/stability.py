@@ -7,6 +7,7 @@ from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck import judge
 from hypcheck.bench.contenders import Contender, contenders
@@ -70,7 +71,7 @@ def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
     return {"method": name, "precision": contender.precision, "bins": bins}
 
 
-def _rows(plan: BenchPlan) -> tuple[Rows, np.ndarray[tuple[int], np.dtype[np.intp]]]:
+def _rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
     """As many rows for each cell, and the cell of each row."""
     side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
     cells = np.repeat(np.arange(side * side), plan.amounts.cell)
