@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,6 +114,26 @@ def test_who_takes_long_over_a_row_is_not_taken_for_one_that_skips_it():
     with open_implementation(command("slow_reply"), QUICK) as it:
         for _ in range(2):
             assert it.classify(some).answers.tolist() == truth(some).tolist()
+
+
+def test_who_goes_on_answering_is_waited_for():
+    some = rows(lucky=True)
+    with open_implementation(command("steady", "0.04"), QUICK) as it:
+        began = time.monotonic()
+        answered = it.classify(some)
+        assert time.monotonic() - began > 2 * QUICK.timeout
+        assert it.restarts == 0
+    assert answered.answers.tolist() == truth(some).tolist()
+
+
+def test_who_answers_ever_so_slowly_is_not_waited_for_for_ever():
+    """Two and a half answers in forty are a sixteenth; of a question with one row, its answer is all."""
+    with open_implementation(command("steady", "0.45"), replace(QUICK, restarts=0)) as it:
+        began = time.monotonic()
+        answered = it.classify(rows(lucky=True))
+        assert time.monotonic() - began < 10 * QUICK.timeout
+    assert answered.status[0] == Outcome.TIMEOUT
+    assert re.search(r"1 of 40 answers, and hardly one more within 0.7 s", answered.reasons[0])
 
 
 def test_cannot_say_is_an_answer():

@@ -35,6 +35,11 @@ _DEFAULTS = Description(name="")
 _REQUIRED = ("protocol", "name")
 _ROW = " ".join(["%r"] * len(COLUMNS)) + "\n"
 _LINES = 256
+_STEPS = 16
+"""The clock begins anew whenever another part of so many of the question was read, or of the answers has come: who is
+slow is waited for, and who gives a byte now and then is not for ever."""
+_WIDEST = {"binary": 56, "text": 7 * 25}
+"""Bytes of a row at most."""
 _STALL = 4
 """After this part of the timeout without a byte, a second question is sent behind the first: where its reply comes, the
 first's was short or missing, and the implementation not slow."""
@@ -95,7 +100,7 @@ class CommandSession:
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
         again = rows[:1] if self._known is None else self._known
-        answers = reply.integers(self._ask(question, self._body(rows), reply, again))
+        answers = reply.integers(self._ask(question, self._body(rows), reply, again, n * _WIDEST[self._how]))
         self._known = rows[-1:].copy()
         return answers
 
@@ -106,21 +111,23 @@ class CommandSession:
         self._sequence += 1
         reply = TimeReply(self._sequence)
         question = f"time {self._sequence} {len(rows)} {repeat} binary"
-        return reply.times(self._ask(question, (row_bytes(rows),), reply, None))
+        return reply.times(self._ask(question, (row_bytes(rows),), reply))
 
-    def _ask(self, question: str, body: Iterable[bytes | memoryview], reply: Reply, again: Rows | None) -> bytes:
-        """The reply to a question, complete; `again` is a row for the question behind it, should it stall."""
+    def _ask(
+        self, question: str, body: Iterable[bytes | memoryview], reply: Reply, again: Rows | None = None, size: int = 0
+    ) -> bytes:
+        """The reply to a question of `size` bytes; `again` is a row for the question behind it, should it stall."""
         process = self._process
         process.mark()
         process.pump(0)
         if process.incoming:
             raise broken(f"it wrote {quoted(process.incoming)} when nothing was asked")
         process.send(chain((f"{question}\n".encode(),), body))
-        length, second = self._await(reply, again)
+        length, second = self._await(reply, again, size)
         said = bytes(process.incoming[:length])
         del process.incoming[:length]
         if second:
-            length, _ = self._await(second, None)
+            length, _ = self._await(second)
             del process.incoming[:length]
         if process.incoming:
             raise broken(f"it wrote {quoted(process.incoming)} behind a complete reply")
@@ -130,11 +137,11 @@ class CommandSession:
             raise broken("it replied before it had read the rows")
         return said
 
-    def _await(self, reply: Reply, again: Rows | None) -> tuple[int, Reply | None]:
+    def _await(self, reply: Reply, again: Rows | None = None, size: int = 0) -> tuple[int, Reply | None]:
         """The length of the reply, once it is complete, and the reply that is still to come behind it."""
         process, seconds = self._process, self._limits.timeout
         second: Reply | None = None
-        heard = time.monotonic()
+        steps, heard = 0, time.monotonic()
         until = heard + seconds
         while True:
             length = reply.length(process.incoming)
@@ -144,12 +151,17 @@ class CommandSession:
                 return length, second
             now = time.monotonic()
             if now >= until:
-                so_far = reply.progress(process.incoming)
+                more = ", and hardly one more" if reply.share(process.incoming) else ""
+                so_far = reply.progress(process.incoming) + more
                 raise FaultError(Outcome.TIMEOUT, f"{so_far} within {seconds:g} s", fatal=True)
             if again is not None and not second and not process.sending and now >= heard + seconds / _STALL:
                 second = self._ask_behind(again)
             if process.pump(until):
                 heard = time.monotonic()
+            read = 0.0 if second or not size else min(1.0, process.sent / size)
+            come = int(_STEPS * read) + int(_STEPS * reply.share(process.incoming))
+            if come > steps:
+                steps, until = come, time.monotonic() + seconds
 
     def _ask_behind(self, row: Rows) -> Reply:
         self._sequence += 1

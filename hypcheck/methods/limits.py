@@ -10,7 +10,7 @@ from hypcheck.errors import InputError
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Seconds until it is ready, seconds for one question, restarts after faults, bytes its process group may hold.
+    """Seconds until it is ready, seconds without progress, restarts after faults, bytes its process group may hold.
 
     Raises InputError where one of them leaves no room at all.
     """

@@ -72,6 +72,8 @@ class Process:
         self._part = memoryview(b"")
         self.sending = False
         """Whether bytes still wait to be read by it."""
+        self.sent = 0
+        """Bytes of the question that have left."""
         self._ended = False
         self._closed = False
         self._listen()
@@ -121,7 +123,9 @@ class Process:
     def _write(self) -> None:
         try:
             while self._part or self._next_part():
-                self._part = self._part[os.write(self._in, self._part) :]
+                written = os.write(self._in, self._part)
+                self._part = self._part[written:]
+                self.sent += written
         except BlockingIOError:
             return
         except BrokenPipeError:  # it reads no more; whether it ended, or has a last word, the other pipes tell
@@ -160,6 +164,7 @@ class Process:
     def mark(self) -> None:
         """From here on `recent` speaks: a question begins."""
         self._tail.mark()
+        self.sent = 0
 
     @property
     def recent(self) -> tuple[str, ...]:

@@ -54,6 +54,10 @@ class Reply:
         """The same for what follows the first line, which ends at `end`."""
         raise NotImplementedError
 
+    def share(self, incoming: bytearray) -> float:  # noqa: ARG002 - of one line none is a share
+        """The part of an incomplete reply's answers that have come, from 0 to 1."""
+        return 0.0
+
     def progress(self, incoming: bytearray) -> str:
         """How far an incomplete reply has come."""
         return f"only {quoted(incoming)} of a reply" if incoming else "no reply"
@@ -80,6 +84,10 @@ class _Answers(Reply):
 
     def _so_far(self, incoming: bytearray, end: int) -> int:
         raise NotImplementedError
+
+    def share(self, incoming: bytearray) -> float:
+        end = incoming.find(b"\n") + 1
+        return self._so_far(incoming, end) / self._n if end and self._n else 0.0
 
     def progress(self, incoming: bytearray) -> str:
         end = incoming.find(b"\n") + 1
