@@ -29,7 +29,7 @@ BAD_FIRST = BAD_ROWS.index('"cases": [') + 1
         (lambda case: case["row"].__setitem__(0, "infinity"), "must be a number"),
         (lambda case: case["row"].__setitem__(0, "nan"), "the bits of alpha"),
         (lambda case: case.pop("bits") and None, "lacks bits"),
-        (lambda case: case.update(position=0), "unknown field"),
+        (lambda case: case.update(position=0), "has the key 'position'"),
     ],
 )
 def test_a_row_to_be_refused_that_is_wrongly_written_is_refused(tmp_path, change, message):

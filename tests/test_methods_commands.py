@@ -208,9 +208,9 @@ def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_as_they_
 BAD_DESCRIPTIONS = [
     ("gate 1.0 ready", "its first line is no description: the description is 'gate 1.0 ready'; it must be JSON"),
     ('{"protocol":1,"name":"x",', "it must be JSON"),
-    ("[1, 2]", r"the description is \[1, 2\]; it must be a mapping"),
-    ('{"name":"x"}', "the description has no key 'protocol'; it must have protocol and name"),
-    ('{"protocol":1}', "no key 'name'"),
+    ("[1, 2]", r"the description is \[1, 2\]; it must be an object with protocol, name"),
+    ('{"name":"x"}', "the description lacks protocol"),
+    ('{"protocol":1}', "the description lacks name"),
     ('{"protocol":2,"name":"x"}', "the description's protocol is 2; it must be 1"),
     ('{"protocol":1,"name":"x","presicion":"float32"}', "has the key 'presicion'; it may have protocol, name"),
     ('{"protocol":1,"name":"x","precision":"double"}', "precision is 'double'; it must be one of float16"),

@@ -172,7 +172,7 @@ def test_nothing_need_be_said():
         ({"version": 1.0}, "version is 1.0; it must be a text"),
         ({"protocol": True}, "protocol is True; it must be 1"),
         ({"question": ["position"]}, "question is .*; it must be one of position, exterior"),
-        ({"domain": [1, 2]}, r"domain is \[1, 2\]; it must be a mapping"),
+        ({"domain": [1, 2]}, r"domain is \[1, 2\]; it must be an object with regimes, ratio, magnitude"),
         ({"domain": {"ratios": [1, 2]}}, "has the key 'ratios'; it may have regimes, ratio, magnitude"),
         ({"domain": {"ratio": [1]}}, "must be two numbers"),
         ({"domain": {"ratio": [1, "2"]}}, "holds '2'; it must be two numbers"),
@@ -181,7 +181,7 @@ def test_nothing_need_be_said():
         ({"domain": {"ratio": [float("nan"), 1]}}, r"ratio is \[nan, 1.0\]"),
         ({"domain": {"regimes": "a>=1"}}, "must be a list of names"),
         ({"domain": {"regimes": ["a>1"]}}, "the regime 'a>1'; it must be one of"),
-        ({1: 2}, "has the key 1"),
+        ({1: 2}, "has the key '1'"),
     ],
 )
 def test_what_makes_no_sense_is_refused(said, sentence):

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from hypcheck.errors import InputError
 from hypcheck.visible import visible
 
@@ -12,13 +9,6 @@ from hypcheck.visible import visible
 def shown(value: object) -> str:
     """The value as a message shows it."""
     return visible(repr(value), 80)
-
-
-def require_known(value: Mapping[Any, object], keys: tuple[str, ...], where: str) -> None:
-    """Refuse a key that is none of `keys`."""
-    unknown = [key for key in value if key not in keys]
-    if unknown:
-        raise InputError(f"{where} has the key {shown(unknown[0])}; it may have {', '.join(keys)}")
 
 
 def two_numbers(value: object, where: str) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from hypcheck.methods.checks import shown
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.domain_reading import domain_of
 from hypcheck.methods.questions import PRECISIONS, QUESTIONS
+from hypcheck.tables.strict_json import object_of
 from hypcheck.visible import visible
 
 PROTOCOL = 1
@@ -48,15 +49,8 @@ class Description:
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
     """The description that a mapping holds, completed from `defaults`; raises InputError naming key and value."""
-    if not isinstance(raw, Mapping):
-        raise InputError(f"the description is {shown(raw)}; it must be a mapping of names to values")
-    unknown = [key for key in raw if key not in _KEYS]
-    if unknown:
-        raise InputError(f"the description has the key {shown(unknown[0])}; it may have {', '.join(_KEYS)}")
-    missing = [key for key in required if key not in raw]
-    if missing:
-        raise InputError(f"the description has no key {missing[0]!r}; it must have {' and '.join(required)}")
-    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in raw.items()}
+    said = object_of(raw, "the description", tuple(_KEYS), required)
+    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in said.items()}
     values.pop("protocol", None)
     return replace(defaults, **values)
 

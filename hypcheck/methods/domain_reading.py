@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.methods.checks import number, require_known, shown, two_numbers
+from hypcheck.methods.checks import number, shown, two_numbers
 from hypcheck.methods.domain import Domain
 from hypcheck.pairs import CENTER, SIZES, trouble_with
 from hypcheck.ranges import FixedSizes
-
-KEYS = ("regimes", "ratio", "magnitude", "settings")
+from hypcheck.tables.strict_json import object_of
 
 
 def domain_of(value: object, where: str) -> Domain:
     """The domain that a mapping describes, or that is one already; raises InputError naming key and value."""
     if isinstance(value, Domain):
         return value
-    if not isinstance(value, Mapping):
-        raise InputError(f"{where} is {shown(value)}; it must be a mapping with {', '.join(KEYS)}")
-    require_known(value, KEYS, where)
-    ranges = [key for key in ("ratio", "magnitude") if key in value]
-    known: dict[str, Any] = {key: two_numbers(value[key], f"{where}'s {key}") for key in ranges}
-    if "regimes" in value:
-        known["regimes"] = _regimes(value["regimes"], f"{where}'s regimes")
-    if "settings" in value:
-        known["settings"] = _settings(value["settings"], f"{where}'s settings")
-    return Domain(**known)
+    said = object_of(value, where, tuple(_READERS), required=())
+    return Domain(**{key: _READERS[key](each, f"{where}'s {key}") for key, each in said.items()})
 
 
 def _regimes(value: object, where: str) -> tuple[str, ...]:
@@ -43,10 +35,8 @@ def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
 
 
 def _setting(value: object, where: str) -> FixedSizes:
-    if not isinstance(value, Mapping) or "sizes" not in value:
-        raise InputError(f"{where} is {shown(value)}; it must be a mapping with sizes and, at will, x, y, z")
-    require_known(value, ("sizes", *CENTER), where)
-    sizes = value["sizes"]
+    said = object_of(value, where, ("sizes", *CENTER), required=("sizes",))
+    sizes = said["sizes"]
     if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
         raise InputError(f"{where}'s sizes is {shown(sizes)}; it must be four numbers, {', '.join(SIZES)}")
     alpha, gamma, b, d = (number(each, f"{where}'s sizes") for each in sizes)
@@ -54,8 +44,13 @@ def _setting(value: object, where: str) -> FixedSizes:
         trouble = trouble_with(name, size)
         if trouble is not None:
             raise InputError(f"{where}'s sizes: {trouble}")
-    spans = {key: two_numbers(value[key], f"{where}'s {key}") for key in CENTER if key in value}
+    spans = {key: two_numbers(said[key], f"{where}'s {key}") for key in CENTER if key in said}
     for key, (low, high) in spans.items():
         if not low <= high:
             raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
     return FixedSizes((alpha, gamma, b, d), **spans)
+
+
+_READERS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
+    {"regimes": _regimes, "ratio": two_numbers, "magnitude": two_numbers, "settings": _settings}
+)

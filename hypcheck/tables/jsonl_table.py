@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from itertools import chain
 from math import isfinite
 from operator import itemgetter
-from typing import Any, NoReturn
 
 import numpy as np
 
@@ -20,11 +19,12 @@ from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.pairs import COLUMNS, REFUSED
 from hypcheck.rows import Rows, invalid
 from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Table, Write
-from hypcheck.tables.columns import ADDED, check_names, first_double
+from hypcheck.tables.columns import ADDED, check_names
 from hypcheck.tables.examine import Places, examine
 from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
 from hypcheck.tables.streams import Reader, Writer
+from hypcheck.tables.strict_json import strict_decoder
 
 
 def read_jsonl(reader: Reader, *, mark: bool) -> Table:
@@ -71,27 +71,7 @@ def _object(row: list[float]) -> str:
     return json.dumps({name: value if isfinite(value) else None for name, value in zip(COLUMNS, row, strict=True)})
 
 
-def _unlike(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object from its pairs. Raises ValueError where a key stands twice: readers disagree about which one counts."""
-    members = dict(pairs)
-    if len(members) < len(pairs):
-        raise ValueError(f"key {first_double([name for name, _ in pairs])}")
-    return members
-
-
-def _no_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is not JSON; every number must be finite")
-
-
-def _integer(text: str) -> int | Literal:
-    """An int, unless it is so long that Python would not convert it: then it is beyond float64 anyway."""
-    return int(text) if len(text) <= 400 else Literal(text)
-
-
-_FAST = json.JSONDecoder(object_pairs_hook=_unlike, parse_constant=_no_constant)
-_THOROUGH = json.JSONDecoder(
-    object_pairs_hook=_unlike, parse_constant=_no_constant, parse_float=Literal, parse_int=_integer
-)
+_FAST, _THOROUGH = strict_decoder(), strict_decoder(Literal)
 _PICK = itemgetter(*COLUMNS)
 _CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
 

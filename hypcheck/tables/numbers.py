@@ -11,6 +11,7 @@ import json
 import re
 
 from hypcheck.pairs import trouble_with
+from hypcheck.visible import visible
 
 CHARACTERS = b"0123456789+-.eE \t"
 """All that a number is written with: text of these alone that float() accepts is a number by the rules above."""
@@ -73,10 +74,10 @@ def _valid(name: str, number: float, text: str) -> float:
 def shown(text: str, *, quoted: bool = True) -> str:
     """`text` as a message shows it: on one line, quoted, and cut where it is long."""
     cut = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"
-    return repr(cut) if quoted else cut
+    return repr(cut) if quoted else visible(cut)
 
 
 def shown_json(value: object) -> str:
     """A JSON value as a message shows it: as JSON writes it, cut where it is long."""
-    text = value.text if isinstance(value, Literal) else json.dumps(value, ensure_ascii=False)
+    text = value.text if isinstance(value, Literal) else json.dumps(value, ensure_ascii=False, default=repr)
     return shown(text, quoted=False)

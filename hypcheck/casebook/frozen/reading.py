@@ -69,7 +69,7 @@ def head_of(document: Document, path: str, content: str) -> tuple[Head, Mapping[
     wanted = tuple(name for name in MEMBERS if name != "flags" or content == POSITIONS)
     for name, (place, _) in document.members.items():
         if name not in wanted:
-            raise InputError(f"{place}: the document has the unknown field {name!r}; it may have {', '.join(wanted)}")
+            raise InputError(f"{place}: the document has the key {name!r}; it may have {', '.join(wanted)}")
     for name in wanted:
         if name not in document.members:
             raise InputError(f"{path}: the document lacks {name}")

@@ -1,7 +1,7 @@
 """A JSON document with a list of cases, read strictly, each part with the line it stands on.
 
-Python's own reader takes the last of two equal keys, NaN, and 1e999 for infinity, and forgets where a value stood. Here
-a key may stand once, every number is finite JSON and keeps its text, and every message names a line.
+Python's own reader takes 1e999 for infinity and forgets where a value stood. Here every number is finite and keeps its
+text, and every message names a line.
 """
 
 from __future__ import annotations
@@ -10,17 +10,16 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.tables.columns import first_double
 from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
-from hypcheck.tables.numbers import Literal, shown, shown_json
+from hypcheck.tables.numbers import Literal, shown
 from hypcheck.tables.streams import reading
+from hypcheck.tables.strict_json import object_of, strict_decoder
 
 CASES = "cases"
 _BLANKS = re.compile(r"[ \t\n\r]*")
-_LONGEST_INTEGER = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,15 +52,8 @@ def scan(path: str) -> Document:
 
 def fields_of(value: Any, names: tuple[str, ...], place: Place, what: str) -> tuple[Any, ...]:  # noqa: ANN401 - JSON
     """The members of an object that has these and no others, in the order of `names`. Raises InputError."""
-    if not isinstance(value, dict):
-        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be an object with {', '.join(names)}")
-    unknown = [name for name in value if name not in names]
-    if unknown:
-        raise InputError(f"{place}: {what} has the unknown field {shown(unknown[0])}; it may have {', '.join(names)}")
-    missing = [name for name in names if name not in value]
-    if missing:
-        raise InputError(f"{place}: {what} lacks {missing[0]}")
-    return tuple(value[name] for name in names)
+    members = object_of(value, f"{place}: {what}", names)
+    return tuple(members[name] for name in names)
 
 
 class _Scanner:
@@ -73,9 +65,7 @@ class _Scanner:
         self._at = 0
         self._counted = 0
         self._line = 1
-        self._decoder = json.JSONDecoder(
-            object_pairs_hook=_once, parse_float=_finite, parse_int=_integer, parse_constant=_no_constant
-        )
+        self._decoder = strict_decoder(_finite)
 
     def document(self) -> Document:
         members: dict[str, tuple[Place, Any]] = {}
@@ -151,23 +141,8 @@ class _Scanner:
         return InputError(f"{self._place()}: not a JSON document of cases: {reason}{cut}")
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    members = dict(pairs)
-    if len(members) < len(pairs):
-        raise ValueError(f"key {first_double([name for name, _ in pairs])}")
-    return members
-
-
-def _no_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is not JSON; every number must be finite")
-
-
 def _finite(text: str) -> Literal:
     number = Literal(text)
     if abs(number) == float("inf"):
         raise ValueError(f"{shown(text, quoted=False)} is too large for float64")
     return number
-
-
-def _integer(text: str) -> int | Literal:
-    return int(text) if len(text) <= _LONGEST_INTEGER else _finite(text)
