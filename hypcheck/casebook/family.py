@@ -19,16 +19,15 @@ TOGETHER = 16
 """Blocks that a generator makes at one go, where it can: numpy's overhead is shared, and all still fits the cache."""
 
 
-@dataclass(frozen=True)
-class Family:
-    """One trap, and a generator of rows that lead into it.
+@dataclass(frozen=True, kw_only=True)
+class Story:
+    """What is told of a family, where it is made and in its file.
 
     `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
-    case ids. `title`, `source` (where the idea comes from) and `purpose` (what a wrong program does here) are for
-    people, as are `game` and `drone`: what a wrong answer here means to either. `extreme`: lengths near the end of a
-    float format, so the family is taken only when it is asked for. `regimes`: which hyperboloids it visits, by
-    a = α/b and c = γ/d. `by_place`: the generator works place by place, so that it can make several blocks at one go.
-    `movement`: so many consecutive rows follow one object from moment to moment; 1 where none do.
+    case ids. `title`, `source` (where the idea comes from, or how the rows are made) and `purpose` (what a wrong
+    program does here) are for people, as are `game` and `drone`: what a wrong answer here means to either. `regimes`:
+    which hyperboloids it visits, by a = α/b and c = γ/d. `extreme`: lengths near the end of a float format, so the
+    family is taken only when it is asked for.
     """
 
     name: str
@@ -39,8 +38,18 @@ class Family:
     game: str
     drone: str
     regimes: str
-    make: Maker = field(repr=False)
     extreme: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Family(Story):
+    """One trap, and a generator of rows that lead into it.
+
+    `by_place`: the generator works place by place, so that it can make several blocks at one go. `movement`: so many
+    consecutive rows follow one object from moment to moment; 1 where none do.
+    """
+
+    make: Maker = field(repr=False)
     by_place: bool = False
     movement: int = 1
 

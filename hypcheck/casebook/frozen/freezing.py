@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 import struct
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 from hypcheck.casebook.families import FAMILIES
-from hypcheck.casebook.family import Family
+from hypcheck.casebook.family import Family, Story
 from hypcheck.casebook.frozen import cancellation, refusals
 from hypcheck.casebook.frozen.checking import Fault, faults_of_refusals, faults_of_vectors
 from hypcheck.casebook.frozen.flags import FLAGS
@@ -124,18 +124,8 @@ def planned(name: str) -> Rows:
 
 def head_of(family: Family, made_by: str) -> Head:
     """What a file says of a family."""
-    return Head(
-        name=family.name,
-        version=family.version,
-        title=family.title,
-        source=family.source,
-        purpose=family.purpose,
-        game=family.game,
-        drone=family.drone,
-        regimes=family.regimes,
-        extreme=family.extreme,
-        made_by=made_by,
-    )
+    told = {each.name: getattr(family, each.name) for each in fields(Story)}
+    return Head(**told, made_by=made_by)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from hypcheck.casebook.family import Story
 from hypcheck.pairs import COLUMNS, Pair, Position
 from hypcheck.rows import Positions, Rows
 from hypcheck.truth.certificate import Certificate
@@ -63,19 +64,10 @@ class Vector:
         return Pair.from_row(self.row)
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
-    """What a file says of its family: the fields of family.Family, and the command that made the file."""
+@dataclass(frozen=True, kw_only=True)
+class Head(Story):
+    """What a file says of its family: its story, and the command that made the file."""
 
-    name: str
-    version: int
-    title: str
-    source: str
-    purpose: str
-    game: str
-    drone: str
-    regimes: str
-    extreme: bool
     made_by: str
 
 
