@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from hypcheck.cli.exits import Exit, first_that_applies
-from hypcheck.cli.options import FiniteRange, bytes_of
+from hypcheck.cli.options import Command, FiniteRange, limits_of, with_limits
 from hypcheck.errors import NothingJudgedError
 
 if TYPE_CHECKING:
@@ -20,18 +20,13 @@ if TYPE_CHECKING:
     from hypcheck.hunt.search import Progress
     from hypcheck.hunt.target import Target
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
 SUBJECT = (
     click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
     click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
     click.option("--domain", metavar="JSON", help="Where it is asked, in place of what it declares."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
     click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u."),
-    click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready."),
-    click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without an answer."),
-    click.option("--restarts", type=click.IntRange(0), default=20, show_default=True, help="After crashes and hangs."),
-    click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
+    with_limits,
 )
 """How an implementation is opened and judged: options that every command that asks one alone has."""
 
@@ -52,16 +47,12 @@ def opened(
     domain: str | None,
     regimes: str | None,
     tolerance: float,
-    startup_timeout: float,
-    timeout: float,
-    restarts: int,
-    memory: str,
+    **limits: Any,  # noqa: ANN401 - of with_limits
 ) -> Iterator[Target]:
     """The implementation that SPEC names, running, and what the options say of it. Raises InputError, StartError."""
     from hypcheck.hunt.target import target_of
     from hypcheck.judge import DEFAULT_TOLERANCE
     from hypcheck.methods.description import parse_domain
-    from hypcheck.methods.limits import Limits
     from hypcheck.methods.opening import open_implementation
 
     said = {"question": question, "precision": precision, "domain": domain, "regimes": regimes}
@@ -69,8 +60,9 @@ def opened(
     if tolerance != DEFAULT_TOLERANCE:
         options.append(("--tolerance", repr(tolerance)))
     claimed = None if domain is None else parse_domain(domain)
-    limits = Limits(startup_timeout, timeout, restarts, bytes_of(memory))
-    with open_implementation(spec, limits, precision=precision, question=question, domain=claimed) as implementation:
+    with open_implementation(
+        spec, limits_of(**limits), precision=precision, question=question, domain=claimed
+    ) as implementation:
         yield target_of(
             spec,
             implementation,

@@ -1,14 +1,20 @@
-"""What options of several commands are read as."""
+"""Options that several commands have, and what they are read as."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from hypcheck.errors import InputError
 from hypcheck.tables.numbers import is_number
+
+if TYPE_CHECKING:
+    from hypcheck.methods.limits import Limits
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class FiniteRange(click.FloatRange):
@@ -23,6 +29,27 @@ class FiniteRange(click.FloatRange):
 
 
 _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}
+
+_LIMITS = (
+    click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready."),
+    click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without progress."),
+    click.option("--restarts", type=click.IntRange(0), default=20, show_default=True, help="After crashes and hangs."),
+    click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
+)
+
+
+def with_limits(command: Command) -> Command:
+    """The command with the options that limit an implementation's processes, for `limits_of`."""
+    for option in reversed(_LIMITS):
+        command = option(command)
+    return command
+
+
+def limits_of(startup_timeout: float, timeout: float, restarts: int, memory: str) -> Limits:
+    """What these options say. Raises InputError."""
+    from hypcheck.methods.limits import Limits
+
+    return Limits(startup_timeout, timeout, restarts, bytes_of(memory))
 
 
 def bytes_of(text: str) -> int:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import click
 
 from hypcheck.cli.exits import Exit
-from hypcheck.cli.options import FiniteRange, bytes_of
+from hypcheck.cli.options import FiniteRange, limits_of, with_limits
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
@@ -35,10 +36,7 @@ Ends with 0 when the answer is right or tolerated, 1 when it is not, 5 when SPEC
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
 @click.option("--domain", metavar="JSON", help="Where it claims to be right, in place of what it declares.")
 @click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u.")
-@click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready.")
-@click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without an answer.")
-@click.option("--restarts", type=int, default=20, show_default=True, help="After crashes and hangs.")
-@click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together.")
+@with_limits
 @click.pass_context
 def replay(
     context: click.Context,
@@ -51,15 +49,11 @@ def replay(
     question: str | None,
     domain: str | None,
     tolerance: float,
-    startup_timeout: float,
-    timeout: float,
-    restarts: int,
-    memory: str,
+    **limits: Any,  # noqa: ANN401 - of with_limits
 ) -> None:
     """Replay, and tell what came of it."""
     from hypcheck.judge import Criterion
     from hypcheck.methods.description import parse_domain
-    from hypcheck.methods.limits import Limits
     from hypcheck.methods.opening import open_implementation
     from hypcheck.replay.as_json import replay_as_json
     from hypcheck.replay.case import case_of
@@ -70,8 +64,9 @@ def replay(
     asked = case_of(case)
     require_formula(formula)
     claimed = None if domain is None else parse_domain(domain)
-    limits = Limits(startup_timeout, timeout, restarts, bytes_of(memory))
-    with open_implementation(spec, limits, precision=precision, question=question, domain=claimed) as implementation:
+    with open_implementation(
+        spec, limits_of(**limits), precision=precision, question=question, domain=claimed
+    ) as implementation:
         used = implementation.description
         done = run(asked, implementation, Criterion(used.question, used.precision, Fraction(tolerance)), formula)
     for line in [replay_as_json(done)] if as_json else replay_lines(done):

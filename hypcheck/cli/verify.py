@@ -11,7 +11,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.options import FiniteRange, bytes_of
+from hypcheck.cli.options import FiniteRange, limits_of, with_limits
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import FILE, Settings
 from hypcheck.errors import InputError
@@ -58,10 +58,7 @@ _COUNT = click.IntRange(1)
 @click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
-@click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds.")
-@click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without progress.")
-@click.option("--restarts", type=int, default=20, show_default=True, help="Restarts after faults.")
-@click.option("--memory", default="4G", show_default=True, help="Resident size it may reach, with its children.")
+@with_limits
 @click.pass_context
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Verify ourselves, or gate the implementations that SPEC names.
@@ -126,7 +123,6 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
     from hypcheck.gate.lines import GateOutcome
     from hypcheck.gate.plan import GatePlan
     from hypcheck.methods.description import parse_domain
-    from hypcheck.methods.limits import Limits
 
     listed: Path | None = options["known_failures"]
     plan = GatePlan(
@@ -142,7 +138,7 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         precision=options["precision"],
         question=options["question"],
         domain=None if options["domain"] is None else parse_domain(options["domain"]),
-        limits=Limits(options["startup_timeout"], options["timeout"], options["restarts"], bytes_of(options["memory"])),
+        limits=limits_of(options["startup_timeout"], options["timeout"], options["restarts"], options["memory"]),
         workers=options["workers"],
     )
     if options["update"] and (listed is None or plan.filtered):

@@ -45,5 +45,5 @@ def test_other_families_keep_to_ordinary_ranges(tmp_path):
 def test_a_case_is_replayed_and_minimised_where_it_was_asked(capsys):
     assert main(["replay", "extreme-magnitude-0000", "python:tests.gate.subjects:contact_everywhere"]) == 1
     assert "verify skips this case" not in capsys.readouterr().out
-    main(["minimise", "python:tests.gate.subjects:contact_everywhere", "extreme-magnitude-0000"])
+    assert main(["minimise", "python:tests.gate.subjects:contact_everywhere", "extreme-magnitude-0000"]) == 0
     assert "the right answer" in capsys.readouterr().out
