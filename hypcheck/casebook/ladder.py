@@ -71,7 +71,7 @@ FAMILIES = (
         name="tangent-ladder",
         version=1,
         title="1, 2, 4 … 2⁴⁰ ulp beside exactly tangent, both ways",
-        source=f"own; exact tangencies from outside and inside in turn, one length moved; {RUNGS} consecutive rows "
+        source=f"exact tangencies from outside and inside in turn, one length moved; {RUNGS} consecutive rows "
         "are one tangency",
         purpose="the answer must change once, between the two sides, and where it does not tells a program's ulps",
         game="a wall's surface has a grain: sliding along it, the answer flickers",

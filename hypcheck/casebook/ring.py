@@ -79,7 +79,7 @@ FAMILIES = (
         name="osculation",
         version=1,
         title="a sphere that fits the groove",
-        source="c² = a but for 2⁻⁵⁰ to 2⁻³, centres near r = a + 1 and z = 0",
+        source="c² = a (1 ± 2⁻⁵⁰ … 2⁻³), centres near r = a + 1 and z = 0",
         purpose="three roots meet at c², so rounding in the coefficients is magnified by its cube root",
         game="a ball resting in a groove of its own curvature jitters",
         drone="docking at a saddle that fits the drone is where the distance is least certain",

@@ -156,7 +156,7 @@ FAMILIES = (
     Family(
         name="tower-rotors",
         version=1,
-        title="the four rotors of that quadcopter",
+        title="the four rotors of a quadcopter near a cooling tower's wall",
         source="the paper, equations (15) to (21): b = 0.1, d = 0.05; rotors at 0.135 from the body's centre",
         purpose="the children of a bounding volume hierarchy: asked when the body is in contact, so near the wall",
         game="a rotor clips through the shell, or sparks in free air",

@@ -49,7 +49,7 @@ HEAD = Head(
     name=NAME,
     version=VERSION,
     title="where rounding does most harm, found by search",
-    source="own; for Table 2 and for the sign of g at its local maximum, in float32 and in float64, for contacts "
+    source="found for Table 2 and for the sign of g at its local maximum, in float32 and in float64, for contacts "
     f"missed and contacts imagined: from {len(STRATA)} families, seed {SEED}, {ROUNDS} rounds of local search for the "
     "largest backward error",
     purpose="right in exact arithmetic, the formulas cancel here until their answers are as wrong as could be found",
