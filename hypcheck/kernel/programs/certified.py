@@ -2,7 +2,7 @@
 
 u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding mode and not in "to nearest" alone.
 
-Coefficients. The formula object counts the rounding factors (tests/kernel/test_certified.py asks it): at most 7 in c0 =
+Coefficients. The formula object counts the rounding factors (tests/kernel/test_programs.py asks it): at most 7 in c0 =
 −AB, 11 in a term of c1, 7 in a term of c2. With one unit more for the second order,
 
     |ĉ0 − c0| ≤ e0 = 8u AB,   |ĉ1 − c1| ≤ e1 = 12u (AB + A + B + BP + AQ),   |ĉ2 − c2| ≤ e2 = 8u (A + B + 1 + P + Q).

@@ -13,7 +13,11 @@
        #define HYPCHECK_IMPLEMENTATION
        #include "hypcheck.h"
 
-   and the others include the header alone. C99 or C++11, no library, not even libm.
+   and the others include the header alone. C99 or C++11, no library, not even libm. Before it, that file may define
+
+       HYPCHECK_SELF "other.h"   where the header has another name: it includes itself once for each instruction set
+       HYPCHECK_PLAIN            to leave the instruction sets of x86-64 out
+       HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
    Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z.
    Alignment   that of double. Nothing has to be padded.

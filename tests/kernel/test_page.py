@@ -1,0 +1,52 @@
+"""docs/kernel.md: its examples run as they stand, and its constants are those of the header."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import subprocess
+from pathlib import Path
+
+from hypcheck.kernel.core import generate
+from hypcheck.kernel.programs import certified
+from tests.kernel.compiling import STRICT, needs_compiler, program
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "kernel.md").read_text(encoding="utf-8")
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
+
+
+def value_of(text: str) -> float:
+    """A number as the page writes it: sums and products of numbers, powers of two, u and slack."""
+    powers = re.sub("2([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda match: f"2.0**{match[1].translate(RAISED)}", text)
+    python = powers.replace("−", "-").replace("·", "*").replace("u", "*u").replace("slack", "SLACK")
+    return float(eval(python, {"u": certified.U, "SLACK": certified.SLACK}))  # noqa: S307 - the page is ours
+
+
+def test_the_sessions_in_python_show_what_happens():
+    session = doctest.DocTestParser().get_doctest("\n".join(blocks("python")), {}, "docs/kernel.md", None, 0)
+    assert len(session.examples) > 5
+    results = doctest.DocTestRunner().run(session)
+    assert results.failed == 0
+
+
+@needs_compiler
+def test_the_program_in_c_says_what_the_page_says(tmp_path):
+    (source,) = blocks("c")
+    done = subprocess.run([program(tmp_path, source, *STRICT, "-O2")], capture_output=True, text=True, check=True)
+    shown = re.search(r"\./example\n((?:    .*\n)+)", PAGE)
+    assert shown is not None
+    assert done.stdout == re.sub("^    ", "", shown[1], flags=re.MULTILINE)
+
+
+def test_every_constant_of_the_header_stands_in_the_table_with_its_value():
+    rows = re.findall(r"^\| (`.*?`) \| (.*?) \| .+ \|$", PAGE, flags=re.MULTILINE)
+    told = {
+        name.strip("`"): value_of(value)
+        for names, values in rows
+        for name, value in zip(names.split(", "), values.split(", "), strict=True)
+    }
+    assert told == generate.CONSTANTS
