@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep attack test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep attack soak test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -37,6 +37,10 @@ mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
 	$(BIN)/python -m tests.attack
+
+soak: $(VENV)/ready-dev ## a million damaged inputs for all readers, ten minutes of verify against what crashes and hangs
+	$(BIN)/python -m tests.fuzz --count 1000000
+	$(BIN)/python -m tests.soak --seconds 600
 
 lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
 	$(BIN)/ruff check .
