@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from hypcheck.errors import HypcheckError, InputError
+from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
 
-    from hypcheck.record import Record, Recorder
+    from hypcheck.record import Line, Record, Recorder
 
 
 _SOONEST, _FIRST = 0.1, 0.002
@@ -37,32 +37,39 @@ class Part(NamedTuple):
 
 
 def record_and_report(
-    out: Path, options: Mapping[str, Any], parts: Callable[[Recorder], Sequence[Part]], exit_code: Callable[[], int]
+    out: Path,
+    options: Mapping[str, Any],
+    parts: Callable[[Recorder], Sequence[Part]],
+    exit_code: Callable[[], int],
+    carried: Sequence[Line] = (),
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. Raises InputError where `out`
-    cannot be written.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `carried` are lines of a run that
+    is gone on with, whose record may be the one in `out`. Raises InputError where `out` cannot be written.
     """
     from hypcheck.record import Recorder, read
-    from hypcheck.report.terminal import summary_lines
+    from hypcheck.record.growing import Growing
+    from hypcheck.record.reading import FILE, GROWING
     from hypcheck.report.write import write_reports
 
-    growing, path = out / "record.jsonl.part", out / "record.jsonl"
+    growing, path = out / GROWING, out / FILE
     try:
         out.mkdir(parents=True, exist_ok=True)
-        stream = growing.open("w", encoding="utf-8", errors="backslashreplace")
+        stream = Growing(growing)
     except OSError as error:
         raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
     with stream:
-        recorder = Recorder(stream, options)
+        if not carried:
+            stream.empty()
+        recorder = Recorder(stream, options, carried)
         try:
             _run(parts(recorder))
             record = recorder.close(exit_code())
-        except HypcheckError:
-            growing.unlink()
-            raise
-        except BaseException:
+        except BaseException as error:
+            if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
+                growing.unlink()
+                raise
             growing.replace(path)
             with suppress(HypcheckError, OSError):
                 record = read(path)
@@ -70,8 +77,16 @@ def record_and_report(
                 _tell(record, [])
             raise
     growing.replace(path)
-    _tell(record, summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()))
+    report(record, out)
     return record
+
+
+def report(record: Record, out: Path) -> None:
+    """Write the reports of a finished record, and print the summary."""
+    from hypcheck.report.terminal import summary_lines
+    from hypcheck.report.write import write_reports
+
+    _tell(record, summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()))
 
 
 def _tell(record: Record, lines: Sequence[str]) -> None:

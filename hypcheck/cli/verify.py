@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
 from hypcheck.cli.options import FiniteRange, limits_of, with_limits
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.recording import Part, record_and_report, report
 from hypcheck.cli.settings import FILE, Settings
 from hypcheck.errors import InputError
+from hypcheck.tables.streams import same_file
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from hypcheck.gate.resuming import Resumed
 
 OURS_ONLY = ("oracles", "judged", "roots", "meshes")
 """Options of a run without SPEC."""
@@ -32,8 +37,11 @@ GATE_ONLY = (
     "timeout",
     "restarts",
     "memory",
+    "resume",
 )
 """Options of a run with SPEC."""
+
+_REPORTS = ("summary.json", "junit.xml", "report.md")
 
 _COUNT = click.IntRange(1)
 
@@ -59,6 +67,7 @@ _COUNT = click.IntRange(1)
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
 @with_limits
+@click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to go on with it.")
 @click.pass_context
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Verify ourselves, or gate the implementations that SPEC names.
@@ -70,6 +79,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     With SPEC (builtin:NAME, python:package.module:function, python:file.py:function, library:path.so, command:…):
     ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
     wrong by more than --tolerance units, 1 when one is or a case ended without an answer, 5 when it cannot be started.
+
+    A run with SPEC that was interrupted goes on with --resume RECORD (or the folder of its run) and the same options.
 
     Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml. Options that are not
     given are those of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
@@ -122,6 +133,7 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
     from hypcheck.gate.known_failures import update
     from hypcheck.gate.lines import GateOutcome
     from hypcheck.gate.plan import GatePlan
+    from hypcheck.gate.resuming import resume
     from hypcheck.methods.description import parse_domain
 
     listed: Path | None = options["known_failures"]
@@ -145,18 +157,47 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         raise InputError(
             "--update needs --known-failures and a run of all families, or it would forget what it skipped"
         )
-    outcome = GateOutcome()
-    steps = run.size(plan) * len(specs)
+    cases = run.size(plan)
+    steps = cases * len(specs)
     shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
+    resumed = None
+    if options["resume"] is not None:
+        resumed = resume(options["resume"], plan, shown, cases)
+        if resumed.exit_code is not None:
+            return _finished(resumed, options["out"])
+    progress = resumed.progress if resumed else None
+    outcome = progress.outcome.copy() if progress else GateOutcome()
     record = record_and_report(
         options["out"],
         shown,
-        lambda recorder: [Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance), "cases")],
+        lambda recorder: [
+            Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance, progress), "cases")
+        ],
         lambda: outcome.exit_code,
+        carried=resumed.carried if resumed else (),
     )
     if options["update"] and listed is not None:
         click.echo(update(listed, record))
     return outcome.exit_code
+
+
+def _finished(resumed: Resumed, out: Path) -> int:
+    """Say of a record that there is nothing to go on with; reports that its run had no time for are made."""
+    from hypcheck.record.reading import FILE, GROWING, read
+
+    file, path = resumed.file, out / FILE
+    click.echo(f"{visible(file)} is the record of a finished run, which ended with {resumed.exit_code}")
+    if same_file(str(file), str(out / GROWING)):
+        file.replace(path)
+    elif not same_file(str(file), str(path)) or all(map(_is_behind(path), (out / name for name in _REPORTS))):
+        return int(resumed.exit_code or 0)
+    report(read(path), out)
+    return int(resumed.exit_code or 0)
+
+
+def _is_behind(record: Path) -> Callable[[Path], bool]:
+    """Whether a report was written after the record."""
+    return lambda file: file.is_file() and file.stat().st_mtime_ns >= record.stat().st_mtime_ns
 
 
 def names_in(text: str | None) -> tuple[str, ...]:

@@ -30,6 +30,10 @@ class GateOutcome:
     failed: list[str] = field(default_factory=list)
     judged: int = 0
 
+    def copy(self) -> GateOutcome:
+        """As it is now, whatever is added to it later."""
+        return GateOutcome(list(self.not_started), list(self.failed), self.judged)
+
     @property
     def exit_code(self) -> int:
         """5 where an implementation could not be started or broke the protocol throughout, 1 where one failed."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from dataclasses import asdict
+from itertools import islice
 
 from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
@@ -13,15 +15,16 @@ from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines
 from hypcheck.gate.plan import GatePlan
+from hypcheck.gate.progress import Keeper, Progress, fingerprints, opening_of
 from hypcheck.gate.rules import Rules
-from hypcheck.gate.schedule import Crew, State, states, steps
+from hypcheck.gate.schedule import Crew, State, Step, states, steps
 from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import Here, Workers, keep_memory
 from hypcheck.judge import Criterion
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
-from hypcheck.record import Recorder
+from hypcheck.record import Recorder, plain
 
 Advance = Callable[[int], object]
 
@@ -36,19 +39,29 @@ def size(plan: GatePlan) -> int:
     return sum(map(len, _chunks(plan)))
 
 
-def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance) -> None:
+def run(
+    plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, progress: Progress | None = None
+) -> None:
     """Gate every implementation of the plan; `advance` is told how many cases have been asked.
 
-    Interrupted, it records what was finished. Raises NothingJudgedError where not one case was judged, which proves
+    `progress` is what to go on from, which the recorder and the outcome have begun with. Interrupted, it records what
+    was finished. Raises NothingJudgedError where not one case was judged, which proves
     nothing.
     """
     listed, cases = _known(plan), size(plan)
     keep_memory()
-    for spec in plan.specs:
-        opening = Opening(spec, plan.limits, plan.precision, plan.question, plan.domain)
+    for number, spec in enumerate(plan.specs):
+        if progress is not None and number < progress.number:
+            advance(cases)
+            continue
+        opening, files = opening_of(plan, number), fingerprints(plan, number)
+        begun = progress.state if progress is not None and number == progress.number else None
         try:
             with opening.open() as implementation:
-                _gate(implementation, opening, plan, listed, recorder, outcome, advance)
+                keeper = Keeper(
+                    recorder, Progress(number, plain(asdict(implementation.declared)), files, cases, outcome.copy())
+                )
+                _gate(implementation, opening, plan, listed, recorder, outcome, advance, keeper, begun)
         except StartError as error:
             recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
             outcome.not_started.append(str(error))
@@ -82,24 +95,34 @@ def _gate(
     recorder: Recorder,
     outcome: GateOutcome,
     advance: Advance,
+    keeper: Keeper,
+    begun: State | None,
 ) -> None:
     used = implementation.description
     criterion = Criterion(used.question, used.precision, plan.tolerance)
     rules = Rules(criterion, used.domain, listed, plan.seed)
     lines = Lines(plan, opening.spec, implementation.declared, used, rules)
+    state = begun = begun or State(implementation.allowance)
     asked = steps(_chunks(plan, used.domain), refuses=used.refuses)
-    begun = State(implementation.allowance)
-    state = begun
+    advance(sum(map(_cases_of, islice(steps(_chunks(plan, used.domain), refuses=False), begun.done))))
     with ExitStack() as stack:
         crew = _crew(stack, implementation, opening, plan, rules)
         try:
+            keeper.begin(state)
             for step, after in states(asked, crew, begun):
                 state = after
-                advance(len(step) if isinstance(step, Chunk) else 0)
+                advance(_cases_of(step))
+                keeper.offer(state)
         except BaseException:
+            with suppress(OSError):  # on a full disk, what was kept last is what is gone on from
+                keeper.keep(state)
             lines.add(state, recorder, outcome, finished=False)
             raise
     lines.add(state, recorder, outcome, finished=True)
+
+
+def _cases_of(step: Step) -> int:
+    return len(step) if isinstance(step, Chunk) else 0
 
 
 def _crew(stack: ExitStack, implementation: Implementation, opening: Opening, plan: GatePlan, rules: Rules) -> Crew:

@@ -12,10 +12,18 @@ from hypcheck.tables.streams import reading
 FILE = "record.jsonl"
 """The record's name in the folder of a run."""
 
+GROWING = "record.jsonl.part"
+"""Its name while the run goes on, and after one that was killed."""
+
 
 def file_of(path: Path) -> Path:
     """The file of a record, which may be named by the folder of its run."""
     return path / FILE if os.path.isdir(path) else path  # is_dir() raises where a name is too long
+
+
+def interrupted_in(path: Path) -> Path:
+    """The file of a record to go on with: in the folder of a run, that of one that was killed goes before."""
+    return path / GROWING if (path / GROWING).is_file() else file_of(path)
 
 
 def read(path: Path) -> Record:

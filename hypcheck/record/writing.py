@@ -4,7 +4,8 @@ The first line is a header, the last a footer; a file without its footer was int
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
 
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
-declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused.
+declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
+1.3.0 adds the progress that a gating run has made when it is interrupted.
 """
 
 from __future__ import annotations
@@ -12,30 +13,49 @@ from __future__ import annotations
 import math
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, TextIO
 
+from hypcheck.processes import interrupts_deferred
+from hypcheck.record.growing import Growing
 from hypcheck.record.model import Line, Record
 from hypcheck.record.sealing import sealed
 from hypcheck.version import VERSION
 
-SCHEMA = "1.2.0"
+SCHEMA = "1.3.0"
+
+PROGRESS = "progress"
+"""The line from which an interrupted run goes on; a finished record has none."""
 
 
 class Recorder:
-    """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished."""
+    """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    def __init__(self, stream: TextIO, options: Mapping[str, Any]) -> None:
+    `carried` are lines of the record that is gone on with, which are there from the first moment on. Interrupts wait
+    while a line is written, so that none is ever written twice, or by half with another behind it.
+    """
+
+    def __init__(self, stream: TextIO | Growing, options: Mapping[str, Any], carried: Sequence[Line] = ()) -> None:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
-        self._lines: list[Line] = []
+        self._lines = [line for line in carried if line["type"] != PROGRESS]
+        self._progress: Line | None = next((line for line in carried if line["type"] == PROGRESS), None)
+        self._place = len(self._lines)
         self._check = 0
         self._header = plain(header(options, self._started))
-        self._write(self._header)
+        if carried:
+            self._renew()
+        else:
+            self._write(self._header)
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether a run could go on from what is recorded."""
+        return self._progress is not None
 
     @property
     def lines(self) -> tuple[Line, ...]:
@@ -48,17 +68,44 @@ class Recorder:
         self._write(line)
         self._lines.append(line)
 
+    def keep(self, **fields: Any) -> None:  # noqa: ANN401  as above
+        """Let a line of progress stand behind what is recorded, in place of the one before; in a file alone."""
+        if isinstance(self._stream, Growing):
+            self._progress, self._place = plain({"type": PROGRESS, **fields}), len(self._lines)
+            self._renew()
+
     def close(self, exit_code: int) -> Record:
         """Write the footer; the record as it would be read back."""
         seconds = (datetime.now(timezone.utc) - self._started).total_seconds()
         footer: Line = {"type": "footer", "lines": len(self._lines) + 2, "exit_code": exit_code, "seconds": seconds}
-        self._write(footer)
+        if self._progress is None:
+            self._write(footer)
+        else:
+            self._progress = None
+            self._renew(footer)
         return Record(self._header, tuple(self._lines), footer)
 
     def _write(self, line: Line) -> None:
-        data, self._check = sealed(line, self._check)
-        self._stream.write(data.decode())
-        self._stream.flush()
+        with interrupts_deferred():
+            data, self._check = sealed(line, self._check)
+            if isinstance(self._stream, Growing):
+                self._stream.write(data)
+            else:
+                self._stream.write(data.decode())
+                self._stream.flush()
+
+    def _renew(self, *ending: Line) -> None:
+        """Write all lines anew."""
+        if not isinstance(self._stream, Growing):
+            raise TypeError("only a file can be renewed")
+        progress = [] if self._progress is None else [self._progress]
+        data, check = b"", 0
+        for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *ending):
+            text, check = sealed(line, check)
+            data += text
+        with interrupts_deferred():
+            self._stream.renew(data)
+            self._check = check
 
 
 def header(options: Mapping[str, Any], started: datetime) -> Line:
