@@ -1,13 +1,79 @@
-"""A gating run that keeps its progress at every step, of chunks so small that there are many: to be interrupted."""
+"""A gating run of many small steps that keeps its progress at every one: to be interrupted, and gone on with."""
 
 from __future__ import annotations
 
+import json
+import subprocess
 import sys
+import time
+from contextlib import suppress
 
 from hypcheck.cli.main import main
 from hypcheck.gate import chunks, progress, schedule
+from hypcheck.record import read
+from hypcheck.record.reading import FILE, GROWING
+
+SPECS = ("builtin:hessian-float32", "python:tests.gate.subjects:dies_on_the_axis")
+WORDS = ("--families", "tower-body,axis", "--count", "300", "--restarts", "1", "--precision", "float32")
+CODE = 1
+"""How it ends: the first is wrong beyond the tolerance, and the second dies more often than it may."""
+
+
+def in_small_steps(put):
+    """Let `put(owner, name, value)` make the steps of runs small, and their progress kept at each."""
+    put(progress, "EVERY", 0.0)
+    put(progress, "SHARE", 0)
+    put(chunks, "SIZE", 64)
+    put(schedule, "ROUND", 600)
+
+
+def words(out, *more):
+    return ["verify", *SPECS, *WORDS, "--out", str(out), *more]
+
+
+def started(out, *more, **how):
+    """A process that performs the run."""
+    command = [sys.executable, "-m", "tests.gate.interrupted", *words(out, *more)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
+
+
+def ended(out, *more, **how):
+    """Its exit code and what it said."""
+    process = started(out, *more, **how)
+    said = "".join(process.communicate())
+    assert "Traceback" not in said
+    return process.returncode, said
+
+
+def kept(out):
+    """The bytes of the record that grows in a folder, none before there is one."""
+    with suppress(FileNotFoundError):
+        return (out / GROWING).read_bytes()
+    return b""
+
+
+def wait_for(process, out, what, patience=60.0):
+    """Wait until `what` is in the growing record, or its process has ended."""
+    until = time.monotonic() + patience
+    while what not in kept(out) and process.poll() is None:
+        assert time.monotonic() < until
+        time.sleep(0.002)
+
+
+def came_to(out):
+    """What a run came to: the lines of its record and its summary as they are written, but for times and workers."""
+    assert not list(out.glob("*.part*"))
+    assert read(out / FILE).footer
+    lines = [json.loads(line) for line in (out / FILE).read_text(encoding="utf-8").splitlines()]
+    for line in lines:
+        del line["crc32"]
+    del lines[0]["started"], lines[0]["options"]["workers"], lines[-1]["seconds"]
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    del summary["started"], summary["seconds"]
+    return [json.dumps(line).encode() for line in (*lines, summary)]
+
 
 if __name__ == "__main__":
-    progress.EVERY, progress.SHARE = 0.0, 0
-    chunks.SIZE, schedule.ROUND = 1024, 2500
+    sys.modules["matplotlib"] = sys.modules["jinja2"] = None  # whose reports are no part of what is looked at
+    in_small_steps(setattr)
     sys.exit(main())
