@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep attack soak test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep attack soak kernels test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -34,6 +34,9 @@ paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
 	$(BIN)/python -m tests.mutants --out docs/mutants.md
+
+kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
+	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/emission
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
 	$(BIN)/python -m tests.attack

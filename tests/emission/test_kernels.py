@@ -6,25 +6,21 @@ import json
 import shutil
 import subprocess
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from hypcheck import judge
-from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.methods.description import Description, described_by_json
-from hypcheck.methods.domain import representable
-from hypcheck.methods.domain_reading import domain_of
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.scene.model import Hyperboloid, Mover, Region, Scene, Span
 from hypcheck.scene.reading import read_scene
 from hypcheck.truth import batch
-from tests.emission.building import COMMAND, answers, answers_by_scene, built, needs, skip_without
-from tests.specialise.scenes import random_scene, scene
+from tests.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, skip_without
+from tests.emission.judging import worst_error
+from tests.specialise.scenes import scene
 
 TOWER = read_scene("tower")
 SCENES = {
@@ -38,25 +34,6 @@ SCENES = {
 }
 
 
-def worst_error(library, plan, count):
-    """The largest backward error of a kernel, in units u, over the families of its own sizes; and its rows."""
-    claimed = description(plan, "c")
-    domain = domain_of(claimed["domain"], "the domain")
-    criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
-    worst, asked = 0.0, 0
-    for family in families_for(domain.settings):
-        rows = family.rows(0, count)
-        rows = rows[domain.holds(rows) & representable(rows, plan.format.name)]
-        if not len(rows):
-            continue
-        found = answers(library, rows)
-        assert (found == answers_by_scene(library, rows)).all(), family.name
-        for case in judge.wrong_cases(rows, batch.positions(rows), found, criterion):
-            worst = max(worst, judge.in_units(judge.measured(case, plan.question), criterion.unit))
-        asked += len(rows)
-    return worst, asked
-
-
 @pytest.mark.parametrize("precision", ["float64", "float32"])
 @pytest.mark.parametrize("name", SCENES)
 @needs("c")
@@ -64,32 +41,9 @@ def test_c_is_within_its_bound(name, precision, tmp_path):
     for question in ("position", "interior") if name != "tower" else ("position", "exterior", "interior", "contact"):
         chosen = replace(SCENES[name], question=question)
         plan = plan_of(chosen, precision)
-        worst, asked = worst_error(built(tmp_path, chosen, "c", precision), plan, 512)
+        worst, asked = worst_error(asking(built(tmp_path, chosen, "c", precision), "c"), plan, 512)
         assert asked > 0
         assert worst <= min(8, plan.bound_u)
-
-
-@pytest.mark.parametrize("part", range(4))
-@needs("c")
-def test_kernels_of_random_scenes_are_within_their_bound(part, tmp_path):
-    for seed in range(50 * part, 50 * part + 50):
-        chosen = random_scene(seed)
-        precision = ("float64", "float32")[seed % 2]
-        plan = plan_of(chosen, precision)
-        worst, _ = worst_error(built(tmp_path, chosen, "c", precision, "-O0"), plan, 64)
-        assert worst <= min(8, plan.bound_u), seed
-
-
-@pytest.mark.parametrize(
-    ("language", "precision"), [("cpp", "float64"), ("cpp", "float32"), ("rust", "float64"), ("rust", "float32")]
-)
-def test_other_compiled_languages_are_within_their_bound(language, precision, tmp_path):
-    skip_without(language)
-    for chosen in (replace(TOWER, question="position"), SCENES["steep"]):
-        plan = plan_of(chosen, precision)
-        worst, asked = worst_error(built(tmp_path, chosen, language, precision), plan, 256)
-        assert asked > 0
-        assert worst <= 8
 
 
 @needs("c")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from hypcheck.derivation.program import Program, needed
-from hypcheck.kernel.emission.body import answer
+from hypcheck.kernel.emission.body import answer, beyond_height
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
@@ -24,11 +24,12 @@ PASSED_OVER = 15
 OPEN = 3
 """The code of a centre that is not decided yet."""
 
-_MANY = """static void many_{place}(size_t n, const double *x, const double *y, const double *z, int8_t *positions)
+_MANY = """static void many_{place}(size_t n, const double *all_x, const double *all_y, const double *all_z,
+                         int8_t *positions)
 {{
     int pass_over = 0;
     for (size_t start = 0; start < n; start += {block}) {{
-        const double *xs = x + start, *ys = y + start, *zs = z + start;
+        const double *xs = all_x + start, *ys = all_y + start, *zs = all_z + start;
         const size_t count = n - start < {block} ? n - start : {block};
         {number} code[{block}];
         if (pass_over > 0) {{
@@ -100,6 +101,9 @@ class _Batch:
                 yield from self._printed(line.program, (line.holds,))
                 choices.append((line.holds, answer(line.side, self._question)))
             if self._question in ONE_SIDED:
+                if stages.search is not None:
+                    widest, highest = self._literal(stages.search.widest), self._literal(stages.search.highest)
+                    choices.append((f"!((R <= {widest}) & (zz <= {highest}))", CANNOT_SAY))
                 yield from self._side()
                 choices.append(("outside" if self._question == "interior" else "!outside", 0))
         yield f"code[i] = {self._chosen(choices, self.code(rest))};"
@@ -144,7 +148,8 @@ class _Batch:
         cut = self._stages.setting.cut
         if cut is None:
             return []
-        return [(f"(z < {self._literal(cut.low)}) | (z > {self._literal(cut.high)})", CANNOT_SAY)]
+        beyond = (f"({each})" for each in beyond_height(cut, self._precision, self._literal))
+        return [(" | ".join(beyond) or "0", CANNOT_SAY)]
 
     def _thresholds(self) -> Iterator[tuple[str, int]]:
         found = self._stages.thresholds

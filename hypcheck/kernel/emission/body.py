@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from math import isfinite
+
+import numpy as np
 
 from hypcheck.derivation.program import Program, needed
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.specialise.centre import CENTRE
+from hypcheck.kernel.specialise.discriminant import Discriminant
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
+from hypcheck.kernel.specialise.search import Search
 from hypcheck.pairs import Position
 from hypcheck.rows import CANNOT_SAY
+from hypcheck.scene.model import Span
 
 INDENT = "    "
 
@@ -31,6 +37,18 @@ def function(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
 
 
+def beyond_height(cut: Span, precision: str, literal: Callable[[float], str]) -> Iterator[str]:
+    """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
+
+    Rounding is monotone: no z within the height is beyond the rounded ends once it is rounded itself.
+    """
+    with np.errstate(over="ignore", under="ignore"):
+        ends = [float(np.dtype(precision).type(end)) for end in (cut.low, cut.high)]
+    for sign, end in zip("<>", ends, strict=True):
+        if isfinite(end):
+            yield f"z {sign} {literal(end)}"
+
+
 class _Body:
     """The statements of one function; the stages share the language, the format and the question."""
 
@@ -42,10 +60,9 @@ class _Body:
     def lines(self) -> Iterator[str]:
         stages = self._stages
         if stages.setting.cut is not None:
-            low, high = (self._literal(end) for end in (stages.setting.cut.low, stages.setting.cut.high))
-            beyond = self._say("or", left=f"z < {low}", right=f"z > {high}")
             yield self._note("beyond the modelled height")
-            yield self._say("return if", condition=beyond, value=CANNOT_SAY)
+            for beyond in beyond_height(stages.setting.cut, self._precision, self._literal):
+                yield self._say("return if", condition=beyond, value=CANNOT_SAY)
         if stages.always is not None:
             yield self._say("return", value=answer(stages.always, self._question))
         elif stages.thresholds is not None:
@@ -76,6 +93,8 @@ class _Body:
             yield from self._constants(line.constants)
             yield from self._printed(line.program, (line.holds,))
             yield self._return_if(line.holds, line.side)
+        yield ""
+        yield from self._too_far()
         if self._question in ONE_SIDED or (stages.discriminant is not None and self._needs_side()):
             yield ""
             yield from self._centre()
@@ -85,6 +104,16 @@ class _Body:
         if stages.search is not None:
             yield ""
             yield self._say("return", value=self._searched())
+
+    def _too_far(self) -> Iterator[str]:
+        last = self._stages.search
+        if last is not None:
+            yield self._note("so far out, or no number, that something overflows")
+            yield self._say("return if", condition=self._say("not", value=f"({self._within(last)})"), value=CANNOT_SAY)
+
+    def _within(self, stage: Discriminant | Search) -> str:
+        widest, highest = self._literal(stage.widest), self._literal(stage.highest)
+        return self._say("and", left=f"R <= {widest}", right=f"zz <= {highest}")
 
     def _centre(self) -> Iterator[str]:
         yield self._note("the side of the centre")
@@ -104,9 +133,7 @@ class _Body:
         yield self._note("the sign of three times the discriminant, where it is certain")
         yield from self._constants(delta.constants)
         yield from self._printed(delta.program, ("delta_3",))
-        near = self._say(
-            "and", left=f"R <= {self._literal(delta.widest)}", right=f"zz <= {self._literal(delta.highest)}"
-        )
+        near = self._within(delta)
         bound = self._literal(delta.bound)
         yield self._return_if(self._say("and", left=near, right=f"delta_3 < -{bound}"), Position.CONTACT)
         if delta.clear_where_positive:

@@ -9,6 +9,7 @@ from textwrap import wrap
 
 from hypcheck.derivation.counting import Operations, count
 from hypcheck.kernel.specialise.centre import CENTRE
+from hypcheck.kernel.specialise.entry import AXIAL, RADIAL
 from hypcheck.kernel.specialise.plan import Plan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.rows import CANNOT_SAY
@@ -39,7 +40,8 @@ def _paragraphs(plan: Plan, command: Sequence[str]) -> Iterator[str]:
     yield "    " + safe(shlex.join(command))
     yield (
         "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
-        f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say."
+        f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say. "
+        "What is promised below is promised of centres in the region of their sizes, its border included."
     )
     for number, stages in enumerate(plan.settings, start=1):
         yield from _setting(number, stages)
@@ -62,7 +64,10 @@ def _setting(number: int, stages: Stages) -> Iterator[str]:
     setting = stages.setting
     alpha, gamma, b, d = setting.sizes
     uses = "; ".join(safe(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
-    yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} {_cost(stages)}"
+    yield (
+        f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} "
+        f"{outside(stages)} {_cost(stages)}"
+    )
 
 
 def region(setting: Setting) -> str:
@@ -70,6 +75,23 @@ def region(setting: Setting) -> str:
     told = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
     beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
     return f"Region: {', '.join(told) or 'everywhere'}.{beyond}"
+
+
+def outside(stages: Stages) -> str:
+    """What an answer about a centre outside the region is worth, in a sentence."""
+    if stages.always is not None:
+        return "Outside it the answer is worth nothing: the centre is not looked at."
+    if stages.thresholds is not None:
+        return "At any other height the answer is worth nothing: z is not looked at."
+    last = stages.search
+    if last is None:
+        raise AssertionError("stages end with all of one answer, thresholds or a search")
+    radial, axial = (float(stages.entry_constants.get(name, 1.0)) for name in (RADIAL, AXIAL))
+    across, up = (last.widest / 2) ** 0.5 / radial, last.highest**0.5 / axial
+    return (
+        f"Outside it the answer is as good, as long as |x| and |y| are below {across:.2g} and |z| below {up:.2g}; "
+        f"farther out, where a line does not decide, it is {CANNOT_SAY}."
+    )
 
 
 def _span(span: Span) -> str:

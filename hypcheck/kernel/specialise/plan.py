@@ -34,6 +34,9 @@ MOST_SETTINGS = 64
 USEFUL = 0.5
 """Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
 
+AFAR = 2.0**13
+"""How far out a kernel has to answer where the region is open: in waist radii and heights γ."""
+
 ONE_SIDED = ("exterior", "interior")
 
 SIDES = {
@@ -128,7 +131,8 @@ def _stages(setting: Setting, question: str, form: Format) -> Stages:
     if question in ONE_SIDED:
         (outside,) = outputs(CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
         by_lines |= outside == (question == "interior")
-    delta = discriminant(scale, form, first, constants, _corner(setting))
+    corner = _corner(setting)
+    delta = discriminant(scale, form, first, constants, corner)
     left = np.flatnonzero(~by_lines)
     by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
     if delta is not None and by_delta.sum() < USEFUL * len(left):
@@ -140,9 +144,8 @@ def _stages(setting: Setting, question: str, form: Format) -> Stages:
     }
     bound = searching.backward_bound()
     omitted = _omissions(setting, question, delta, constants)
-    return Stages(
-        setting, first, constants, None, None, tuple(lines), sides, delta, search(scale, form), shares, omitted, bound
-    )
+    last = search(scale, form, _corner(setting, AFAR))
+    return Stages(setting, first, constants, None, None, tuple(lines), sides, delta, last, shares, omitted, bound)
 
 
 def _sample(
@@ -163,12 +166,12 @@ def _decided(delta: Discriminant, form: Format, R: NDArray[np.float64], zz: NDAr
     return np.asarray(inside & beyond)
 
 
-def _corner(setting: Setting) -> tuple[Fraction, Fraction]:
-    """The far corner of the box, or as far as centres lie that lines leave open, where the box is open."""
+def _corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fraction]:
+    """The far corner of the box; where the box is open, so many times as far as the surface at the waist, or γ."""
     alpha, gamma, b, d = map(Fraction, setting.sizes)
     x, y, z = setting.box.spans
-    across = [_most(span) if span is not None else Fraction(REACH) * (alpha + b) for span in (x, y)]
-    return max(across), _most(z) if z is not None else Fraction(REACH) * (gamma + d)
+    across = [_most(span) if span is not None else Fraction(reach) * (alpha + b) for span in (x, y)]
+    return max(across), _most(z) if z is not None else Fraction(reach) * (gamma + d)
 
 
 def _most(span: Span) -> Fraction:

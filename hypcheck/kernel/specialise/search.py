@@ -12,6 +12,12 @@ relative to 1 + λ. A claim of clear is thus right for inputs changed by half of
 positive at the λ found, that λ is the true maximum for P and Q changed by the few u of F's own count; since φ is
 stationary there, the true maximum is larger by the square of that only, far below one u of the terms. So the answer
 "contact" is right for inputs changed by half of (k + j)u too, up to a share of order √u. `backward_bound` counts.
+
+Range. That holds as long as nothing overflows, which `widest` and `highest` see to: with P and Q so bounded that
+P, Q times 1, A or B, P/A and Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and beside the other pole,
+and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B)) < 2 M. Towards a pole
+F's own term may overflow: it is then the larger one. What underflows is the square of a coordinate that is nothing
+beside the semi-axes, or a term that is nothing beside 1 + λ: at most 2^least/A or 2^least/B (`_least_square`).
 """
 
 from __future__ import annotations
@@ -95,15 +101,28 @@ PHI = cut(FORMULAS["dual"].program, ("P", "Q", "lambda_", "A_plus_lambda", "B_mi
 
 @dataclass(frozen=True)
 class Search:
-    """The constants of a setting: A and B, products that lead to P, Q, a r and c z, and where the search begins."""
+    """The constants of a setting: A and B, products that lead to P, Q, a r and c z, and where the search begins.
+
+    It answers where R ≤ `widest` and zz ≤ `highest`; beyond, something overflows.
+    """
 
     constants: dict[str, float]
     steps: int
+    widest: float
+    highest: float
 
 
-def search(scaled: Scaled, form: Format) -> Search:
-    """The stage for a setting. Raises OverflowError where a constant leaves the format."""
+def search(scaled: Scaled, form: Format, corner: tuple[Fraction, Fraction]) -> Search:
+    """The stage for a setting whose centres have |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
+
+    Raises OverflowError where a constant leaves the format, or what is computed of such a centre.
+    """
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    if min(A, B) < _least_square(form):
+        raise OverflowError(f"a spheroid so much larger than the hyperboloid loses its terms in {form.name}")
+    widest, highest = _farthest(scaled, form)
+    if 2 * (corner[0] * scaled.radial) ** 2 > widest or (corner[1] * scaled.axial) ** 2 > highest:
+        raise OverflowError(f"products of the lengths in the region leave {form.name}")
     floor = Fraction(2) ** (form.least + 6)
     exact = {
         "A": A,
@@ -116,7 +135,21 @@ def search(scaled: Scaled, form: Format) -> Search:
     constants = {name: form.rounded(value) for name, value in exact.items()}
     # a r = (α/b²) √R and c z = (γ/d²) |z|: square roots of A/b² and B/d², rounded to nearest.
     constants["AR"], constants["CZ"] = _root(A / bb, form), _root(B / dd, form)
-    return Search(constants, GEOMETRIC_STEPS + form.bits + 3)
+    ends = (form.rounded(widest, "down"), form.rounded(highest, "down"))
+    return Search(constants, GEOMETRIC_STEPS + form.bits + 3, *ends)
+
+
+def _least_square(form: Format) -> Fraction:
+    """What A and B must not be below: 2^least beside it is less than a sixteenth of u."""
+    return Fraction(2) ** (form.least + form.bits + 4)
+
+
+def _farthest(scaled: Scaled, form: Format) -> tuple[Fraction, Fraction]:
+    """The greatest R and zz of which nothing overflows in a search."""
+    A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    most = Fraction(2) ** (form.greatest - 2)
+    P, Q = (most / max(Fraction(1), A, B, 1 / own) for own in (A, B))
+    return min(most, P * bb), min(most, Q * dd)
 
 
 def _root(value: Fraction, form: Format) -> float:

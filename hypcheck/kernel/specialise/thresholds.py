@@ -44,19 +44,25 @@ def thresholds(sizes: Sizes, height: float, scaled: Scaled, form: Format) -> Thr
     def rounded(x: Fraction) -> float:
         return form.rounded((x * scaled.radial) ** 2)
 
-    outer = rounded(_first(exterior, Fraction(sizes[0]) + Fraction(sizes[2]), form))
+    least = Fraction(2) ** (form.least // 2) / scaled.radial
+    outer = rounded(_first(exterior, Fraction(sizes[0]) + Fraction(sizes[2]), least, form))
     if not_interior(Fraction(0)):
         return Thresholds(height, outer, None)
-    return Thresholds(height, outer, rounded(_first(not_interior, Fraction(sizes[0]), form)))
+    return Thresholds(height, outer, rounded(_first(not_interior, Fraction(sizes[0]), least, form)))
 
 
-def _first(holds: _Test, start: Fraction, form: Format) -> Fraction:
-    """About the least x > 0 from which on it holds, within a relative u/4; it does at some x."""
+def _first(holds: _Test, start: Fraction, least: Fraction, form: Format) -> Fraction:
+    """About the least x > 0 from which on it holds, within a relative u/4; it does at some x.
+
+    Raises OverflowError where that is below `least`.
+    """
     high = start
     while not holds(high):
         high *= 2
     low = high / 2
     while low and holds(low):
+        if low < least:
+            raise OverflowError(f"a border so near to the axis has no square in {form.name}")
         high, low = low, low / 2
     while high - low > high * form.unit / 4:
         middle = (low + high) / 2

@@ -1,0 +1,28 @@
+"""How far off the answers of an emitted kernel are, over all families of its own sizes."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypcheck import judge
+from hypcheck.casebook.fixed_sizes import families_for
+from hypcheck.kernel.emission.kernel import description
+from hypcheck.methods.domain import representable
+from hypcheck.methods.domain_reading import domain_of
+from hypcheck.truth import batch
+
+
+def worst_error(asked_of, plan, count):
+    """The largest backward error in units u of what `asked_of(rows)` answers, and how many rows were asked."""
+    domain = domain_of(description(plan, "c")["domain"], "the domain")
+    criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
+    worst, asked = 0.0, 0
+    for family in families_for(domain.settings):
+        rows = family.rows(0, count)
+        rows = rows[domain.holds(rows) & representable(rows, plan.format.name)]
+        if not len(rows):
+            continue
+        for case in judge.wrong_cases(rows, batch.positions(rows), asked_of(rows), criterion):
+            worst = max(worst, judge.in_units(judge.measured(case, plan.question), criterion.unit))
+        asked += len(rows)
+    return worst, asked
