@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import fcntl
 import os
 import select
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
@@ -43,6 +45,8 @@ ONE_THREAD = dict.fromkeys(
 
 _TICK = 0.05
 _CHUNK = 1 << 16
+_ROOM = 1 << 18
+"""Bytes that a pipe holds where the system lets it: both sides wait for each other less often than with 64 KiB."""
 _GOODBYE = 1.0
 _LAST_WORDS = 0.5
 _GUARD = 'read -r _; kill -s KILL -- "-$1"'
@@ -86,6 +90,8 @@ class Process:
         self._poll = select.poll()
         for pipe in (self._in, self._out, self._err):
             os.set_blocking(pipe, False)
+        for pipe in (self._in, self._out):
+            _widen(pipe)
         for pipe in (self._out, self._err):
             self._poll.register(pipe, select.POLLIN)
 
@@ -213,6 +219,12 @@ class Process:
             if not data:
                 return
             self._tail.add(data)
+
+
+def _widen(pipe: int) -> None:
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError):  # a user may have no more room for pipes
+            fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, _ROOM)
 
 
 def _guard(group: int) -> subprocess.Popen[bytes] | None:
