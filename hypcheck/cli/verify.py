@@ -38,6 +38,7 @@ GATE_ONLY = (
     "restarts",
     "memory",
     "resume",
+    "cluster",
 )
 """Options of a run with SPEC."""
 
@@ -68,6 +69,7 @@ _COUNT = click.IntRange(1)
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
 @with_limits
 @click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to go on with it.")
+@click.option("--cluster", metavar="ADDRESS", help="With SPEC: a dask.distributed scheduler; local:N starts one here.")
 @click.pass_context
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Verify ourselves, or gate the implementations that SPEC names.
@@ -152,6 +154,7 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         domain=None if options["domain"] is None else parse_domain(options["domain"]),
         limits=limits_of(options["startup_timeout"], options["timeout"], options["restarts"], options["memory"]),
         workers=options["workers"],
+        cluster=options["cluster"],
     )
     if options["update"] and (listed is None or plan.filtered):
         raise InputError(

@@ -12,11 +12,11 @@ from hypcheck import judge
 from hypcheck.gate.chunks import Cases, cases
 from hypcheck.gate.results import Again, Open, Result, merged
 from hypcheck.gate.rules import Final, Rules, final
+from hypcheck.gate.subject import Subject
 from hypcheck.gate.trial import ended
 from hypcheck.groups import CODES, STATUSES, Codes, Fault
 from hypcheck.judge import Criterion, Status
 from hypcheck.methods.faults import Outcome
-from hypcheck.methods.implementation import Implementation
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
 
 ALONE = 32
@@ -56,7 +56,7 @@ Changes = dict[int, tuple[Status, str]]
 """How those end that were not answered as before, and why; TOLERATED where rounding may explain the change."""
 
 
-def ask_again(asked: Round, implementation: Implementation, rules: Rules) -> Result:
+def ask_again(asked: Round, implementation: Subject, rules: Rules) -> Result:
     """Ask the open cases again, and judge all; those that have changed end as what has become of them."""
     if not asked.open:
         return Result()
@@ -104,7 +104,7 @@ def _moments(each: Open) -> NDArray[np.int64]:
 
 
 def _questions(
-    sample: _Sample, implementation: Implementation, seed: tuple[int, int]
+    sample: _Sample, implementation: Subject, seed: tuple[int, int]
 ) -> Iterator[tuple[NDArray[np.intp], int | None]]:
     """Which cases to ask together, and in questions of how many; None: of as many as can be.
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
+from hypcheck.gate.cluster import check_address
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.limits import Limits
@@ -26,6 +27,7 @@ class GatePlan:
     the frozen vectors and `count` generated rows are asked. `precision`, `question` and `domain` stand for what an
     implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only one that claims clear in contact.
     `workers` is how many processes ask; None: one, but for a large run as many as there are processors.
+    `cluster` is the address of a scheduler whose workers ask instead.
     """
 
     specs: tuple[str, ...]
@@ -42,6 +44,7 @@ class GatePlan:
     domain: Domain | None = None
     limits: Limits = field(default_factory=Limits)
     workers: int | None = None
+    cluster: str | None = None
 
     def __post_init__(self) -> None:
         if not self.specs:
@@ -50,6 +53,10 @@ class GatePlan:
             raise InputError(f"--fail-on is {self.fail_on!r}; it must be one of {', '.join(FAIL_ON)}")
         if self.max_abstained < 0:
             raise InputError(f"--max-abstained is {self.max_abstained}; it must be 0 or more")
+        if self.cluster is not None:
+            check_address(self.cluster)
+            if self.workers is not None:
+                raise InputError("--workers is for a run on this machine; a cluster has workers of its own")
 
     def crew(self, cases: int) -> int:
         """How many processes ask so many cases."""

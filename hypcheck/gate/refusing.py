@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from hypcheck.casebook import vectors
 from hypcheck.casebook.frozen import refusals
 from hypcheck.gate.results import Result
+from hypcheck.gate.subject import Subject
 from hypcheck.groups import Fault, Tally, merged
 from hypcheck.judge import Status
 from hypcheck.methods.faults import Outcome
-from hypcheck.methods.implementation import Implementation
 from hypcheck.pairs import REFUSED
 
 
@@ -20,7 +20,7 @@ class Invalid:
     """All of the invalid rows."""
 
 
-def ask_invalid(implementation: Implementation) -> Result:
+def ask_invalid(implementation: Subject) -> Result:
     """Ask them all."""
     file = vectors.load_refusals()
     answered = implementation.classify(file.rows)

@@ -16,7 +16,7 @@ from hypcheck.record import Line, plain, read
 from hypcheck.record.reading import interrupted_in
 from hypcheck.record.writing import PROGRESS, header
 
-FREE = ("workers",)
+FREE = ("workers", "cluster")
 """Options that may differ: the result is the same with any."""
 
 LIBRARIES = ("numpy", "mpmath", "sympy")

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, nullcontext, suppress
 from dataclasses import asdict
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
 from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import NothingJudgedError
 from hypcheck.gate.chunks import Chunk, chunks, found_by_search
+from hypcheck.gate.cluster import connected
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines
 from hypcheck.gate.plan import GatePlan
@@ -25,6 +27,9 @@ from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
 from hypcheck.record import Recorder, plain
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 Advance = Callable[[int], object]
 
@@ -50,22 +55,23 @@ def run(
     """
     listed, cases = _known(plan), size(plan)
     keep_memory()
-    for number, spec in enumerate(plan.specs):
-        if progress is not None and number < progress.number:
-            advance(cases)
-            continue
-        opening, files = opening_of(plan, number), fingerprints(plan, number)
-        begun = progress.state if progress is not None and number == progress.number else None
-        try:
-            with opening.open() as implementation:
-                keeper = Keeper(
-                    recorder, Progress(number, plain(asdict(implementation.declared)), files, cases, outcome.copy())
-                )
-                _gate(implementation, opening, plan, listed, recorder, outcome, advance, keeper, begun)
-        except StartError as error:
-            recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
-            outcome.not_started.append(str(error))
-            advance(cases)
+    with connected(plan.cluster) if plan.cluster else nullcontext() as client:
+        for number, spec in enumerate(plan.specs):
+            if progress is not None and number < progress.number:
+                advance(cases)
+                continue
+            opening, files = opening_of(plan, number), fingerprints(plan, number)
+            begun = progress.state if progress is not None and number == progress.number else None
+            try:
+                with opening.open() as implementation:
+                    keeper = Keeper(
+                        recorder, Progress(number, plain(asdict(implementation.declared)), files, cases, outcome.copy())
+                    )
+                    _gate(implementation, opening, plan, listed, recorder, outcome, advance, keeper, begun, client)
+            except StartError as error:
+                recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
+                outcome.not_started.append(str(error))
+                advance(cases)
     if not outcome.judged and not outcome.not_started:
         raise NothingJudgedError(
             "no case was judged: every one lies outside the domain, or cannot be written in the declared precision"
@@ -97,6 +103,7 @@ def _gate(
     advance: Advance,
     keeper: Keeper,
     begun: State | None,
+    client: Client | None,
 ) -> None:
     used = implementation.description
     criterion = Criterion(used.question, used.precision, plan.tolerance)
@@ -106,7 +113,7 @@ def _gate(
     asked = steps(_chunks(plan, used.domain), refuses=used.refuses)
     advance(sum(map(_cases_of, islice(steps(_chunks(plan, used.domain), refuses=False), begun.done))))
     with ExitStack() as stack:
-        crew = _crew(stack, implementation, opening, plan, rules)
+        crew = _crew(stack, implementation, opening, plan, rules, client)
         try:
             keeper.begin(state)
             for step, after in states(asked, crew, begun):
@@ -125,10 +132,21 @@ def _cases_of(step: Step) -> int:
     return len(step) if isinstance(step, Chunk) else 0
 
 
-def _crew(stack: ExitStack, implementation: Implementation, opening: Opening, plan: GatePlan, rules: Rules) -> Crew:
-    """Who asks: this process, or for large runs several, in which case the implementation here has done its part."""
+def _crew(
+    stack: ExitStack,
+    implementation: Implementation,
+    opening: Opening,
+    plan: GatePlan,
+    rules: Rules,
+    client: Client | None,
+) -> Crew:
+    """Who asks: this process; for large runs several, or a cluster: then the implementation here has done its part."""
     count = plan.crew(size(plan))
-    if count == 1:
+    if client is None and count == 1:
         return Here(implementation, rules)
     implementation.close()
-    return stack.enter_context(Workers(count, opening, rules, implementation.declared))
+    if client is None:
+        return stack.enter_context(Workers(count, opening, rules, implementation.declared))
+    from hypcheck.gate.afar import Afar  # noqa: PLC0415 - loads dask.distributed, which no other run needs
+
+    return stack.enter_context(Afar(client, opening, rules, implementation))

@@ -10,11 +10,11 @@ import numpy as np
 from hypcheck.gate.chunks import Chunk, cases
 from hypcheck.gate.results import Open, Result
 from hypcheck.gate.rules import Final, Indices, Rules, claimed, final
+from hypcheck.gate.subject import Subject
 from hypcheck.groups import CODES, FAULTS_KEPT, Codes, Fault
 from hypcheck.judge import Status
 from hypcheck.methods.asking import Answered
 from hypcheck.methods.faults import Outcome
-from hypcheck.methods.implementation import Implementation
 from hypcheck.rows import CANNOT_SAY, Rows
 
 AGAIN_EACH = 32
@@ -29,7 +29,7 @@ _ENDED = np.array(
 )
 
 
-def ask(chunk: Chunk, implementation: Implementation, rules: Rules) -> Result:
+def ask(chunk: Chunk, implementation: Subject, rules: Rules) -> Result:
     """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay open, to be asked again."""
     made = cases(chunk)
     indices = claimed(made, rules)[: implementation.most]

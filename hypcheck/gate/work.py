@@ -9,6 +9,7 @@ from hypcheck.gate.chunks import Chunk
 from hypcheck.gate.refusing import Invalid, ask_invalid
 from hypcheck.gate.results import Performed, Result
 from hypcheck.gate.rules import Rules
+from hypcheck.gate.subject import Subject
 from hypcheck.gate.trial import ask
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.implementation import Implementation
@@ -36,14 +37,14 @@ class Opening:
         )
 
 
-def perform(task: Task, implementation: Implementation, rules: Rules, allowance: Allowance) -> Performed:
+def perform(task: Task, implementation: Subject, rules: Rules, allowance: Allowance) -> Performed:
     """Do it; the result depends on nothing but these, as far as the implementation's answers do not."""
     implementation.allow(allowance)
     result = _result(task, implementation, rules)
     return Performed(result, allowance, implementation.allowance)
 
 
-def _result(task: Task, implementation: Implementation, rules: Rules) -> Result:
+def _result(task: Task, implementation: Subject, rules: Rules) -> Result:
     if isinstance(task, Chunk):
         return ask(task, implementation, rules)
     if isinstance(task, Round):

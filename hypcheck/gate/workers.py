@@ -174,7 +174,7 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
     keep_memory()
     try:
         with opening.open() as implementation:
-            _require_same(implementation, declared)
+            require_same_description(implementation, declared)
             while (task := line.recv()) is not None:
                 line.send(perform(task[0], implementation, rules, task[1]))
     except (EOFError, BrokenPipeError, ConnectionResetError):
@@ -185,7 +185,8 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
         line.send(RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
 
 
-def _require_same(implementation: Implementation, declared: Description) -> None:
+def require_same_description(implementation: Implementation, declared: Description) -> None:
+    """Raise StartError where it says something else of itself than it is declared to."""
     if implementation.declared != declared:
         raise StartError(f"{implementation.spec} describes itself otherwise in each process")
 

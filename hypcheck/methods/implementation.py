@@ -108,6 +108,10 @@ class Implementation:
         """Let the process leave, or end it where it does not."""
         self._runs.close()
 
+    def kill(self) -> None:
+        """End the process now, whatever it is at."""
+        self._runs.kill()
+
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
         """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
 

@@ -1,0 +1,149 @@
+"""The way to a dask.distributed scheduler: one that runs somewhere, or one that is started here.
+
+What is sent is Python's pickle, which a scheduler and its workers execute: they belong in a network that is trusted.
+"""
+
+from __future__ import annotations
+
+import logging
+import re
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from multiprocessing import active_children
+from typing import TYPE_CHECKING, Any
+
+from hypcheck.errors import InputError, UnavailableError
+from hypcheck.processes import interrupts_held
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+LOCAL = re.compile(r"local:([1-9]\d{0,3})")
+"""`local:N`: a scheduler here, with N workers."""
+
+CONNECT = 10.0
+"""Seconds until a scheduler must answer, and until it must have a worker."""
+
+CLOSE = 5.0
+ALLOWED_FAILURES = 1
+"""Of a scheduler that is started here: a task may cost this many workers and one more, and then is tried alone."""
+
+SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
+"""What must be of one version everywhere, of Python its first two numbers."""
+
+
+def check_address(address: str) -> None:
+    """Raise InputError where the text is no address at all."""
+    if not LOCAL.fullmatch(address) and not re.fullmatch(r"([a-z]+://)?[^\s/:]\S*:\d{1,5}", address):
+        right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
+        raise InputError(f"--cluster is {address!r}; it must be {right}")
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Client]:
+    """A client of the scheduler at that address, which has a worker; what was started here is ended with the block.
+
+    Raises UnavailableError where dask.distributed is not installed, and InputError where the scheduler cannot be
+    reached, has no workers, or has other versions than there are here.
+    """
+    try:
+        import distributed  # noqa: F401, PLC0415 - an extra, and slow to load
+    except ModuleNotFoundError as error:
+        raise UnavailableError(
+            f"--cluster needs dask.distributed ({error.name} is not installed): pip install 'hypcheck[cluster]'"
+        ) from None
+    _silence()
+    local = LOCAL.fullmatch(address)
+    if local is None:
+        with _client(address) as client:
+            yield client
+        return
+    with _started(int(local[1])) as found, _client(found) as client:
+        yield client
+
+
+@contextmanager
+def _started(workers: int) -> Iterator[str]:
+    """The address of a scheduler that runs here with so many workers, which end with the block, willing or not."""
+    from distributed import LocalCluster  # noqa: PLC0415
+
+    others = active_children()
+    try:
+        with interrupts_held():  # the threads that start workers, again and again, hold interrupts as long as they live
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,
+                memory_limit=0,
+                silence_logs=logging.CRITICAL,
+                scheduler_kwargs={"allowed_failures": ALLOWED_FAILURES},
+            )
+        try:
+            yield cluster.scheduler_address
+        finally:
+            with suppress(Exception):  # of workers that take their time
+                cluster.close(timeout=CLOSE)
+    finally:
+        for process in set(active_children()) - set(others):
+            process.kill()
+            process.join()
+
+
+@contextmanager
+def _client(address: str) -> Iterator[Client]:
+    from distributed import Client  # noqa: PLC0415
+
+    try:
+        with warnings.catch_warnings(), interrupts_held():
+            warnings.simplefilter("ignore")  # of versions, which are looked at below
+            client = Client(address, timeout=CONNECT, set_as_default=False, name="hypcheck")
+    except (OSError, ValueError) as error:
+        raise InputError(f"--cluster {address}: no dask scheduler answers there: {_reason(error)}") from None
+    try:
+        _require_workers(client, address)
+        _require_versions(client.get_versions(packages=["hypcheck"]), address)
+        yield client
+    finally:
+        with suppress(Exception):
+            client.close(timeout=CLOSE)
+
+
+def _require_workers(client: Client, address: str) -> None:
+    try:
+        client.wait_for_workers(1, timeout=CONNECT)
+    except OSError:  # a timeout is one
+        raise InputError(
+            f"--cluster {address}: the scheduler has no workers; `dask worker {address}` starts one"
+        ) from None
+
+
+def _require_versions(found: Mapping[str, Any], address: str) -> None:
+    """Raise InputError naming the first difference between here and the scheduler or a worker."""
+    here = _versions(found["client"])
+    there = {"the scheduler": found["scheduler"], **{f"worker {name}": each for name, each in found["workers"].items()}}
+    for who, each in there.items():
+        versions = _versions(each)
+        for package in SAME:
+            if versions[package] != here[package]:
+                had = f"has {package} {versions[package]}" if versions[package] else f"has no {package}"
+                raise InputError(f"--cluster {address}: {who} {had}, and here it is {here[package]}; both must be one")
+
+
+def _versions(machine: Mapping[str, Any]) -> dict[str, str | None]:
+    packages = machine["packages"]
+    return {name: packages.get(name) for name in SAME} | {"python": ".".join(packages["python"].split(".")[:2])}
+
+
+def _reason(error: Exception) -> str:
+    """The last cause of an error: dask wraps those of connections."""
+    while error.__cause__ is not None and isinstance(error.__cause__, Exception):
+        error = error.__cause__
+    return str(error) or type(error).__name__
+
+
+def _silence() -> None:
+    """Whatever there is to say of the cluster, this process says itself, in a sentence."""
+    for name in ("distributed", *logging.root.manager.loggerDict):
+        if name.split(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
