@@ -1,0 +1,60 @@
+"""A scheduler and workers of dask.distributed in processes of their own, on ports that are free."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ALLOWED_FAILURES = 1
+
+
+class Cluster:
+    """A scheduler, and workers once they are started; `environment` is theirs besides ours."""
+
+    def __init__(self, folder: Path, environment: dict[str, str]) -> None:
+        self._folder = folder
+        self._file = folder / "scheduler.json"
+        allowed = {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": str(ALLOWED_FAILURES)}
+        self._environment = {**os.environ, **allowed, **environment}
+        self.processes: list[subprocess.Popen[bytes]] = []
+        self._start("dask_scheduler", "--host", "127.0.0.1", "--port", "0")
+        until = time.monotonic() + 60
+        while not self._file.exists() or not self._file.read_text():
+            assert time.monotonic() < until
+            time.sleep(0.05)
+        self.address = json.loads(self._file.read_text())["address"]
+
+    def start_workers(self, count: int) -> None:
+        """Workers, each of which is started again when it ends."""
+        home = ["--local-directory", str(self._folder)]
+        self._start("dask_worker", "--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0", *home)
+
+    def _start(self, program: str, *options: str) -> None:
+        words = [sys.executable, "-m", f"distributed.cli.{program}", "--scheduler-file", str(self._file)]
+        self.processes.append(
+            subprocess.Popen(
+                [*words, "--no-dashboard", *options],
+                env=self._environment,
+                cwd=Path(__file__).parents[2],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+        )
+
+    def kill_scheduler(self) -> None:
+        """As the system does when memory runs out."""
+        os.killpg(self.processes[0].pid, signal.SIGKILL)
+
+    def end(self) -> None:
+        """All of it, now."""
+        for process in reversed(self.processes):
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()

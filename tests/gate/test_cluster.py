@@ -1,0 +1,147 @@
+"""A run on a cluster comes to what it comes to here, whoever of its workers ends in the middle."""
+
+from __future__ import annotations
+
+import os
+import signal
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.errors import InputError
+from hypcheck.gate import chunks, schedule
+from hypcheck.gate.rules import Rules
+from hypcheck.gate.saved import saved, saved_result
+from hypcheck.gate.schedule import State, states, steps
+from hypcheck.gate.work import Opening
+from hypcheck.gate.workers import Here
+from hypcheck.judge import Criterion
+from hypcheck.methods.limits import Limits
+from tests.gate.clusters import Cluster
+
+pytest.importorskip("distributed")
+
+from hypcheck.gate.afar import Afar
+from hypcheck.gate.cluster import connected
+
+KILLS = Opening("python:tests.gate.subjects:kills_who_asks", Limits())
+UNLUCKY = chunks.cases(chunks.Chunk("uniform", 1, 2500, 2501)).rows
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    """Two workers, whom the unlucky row kills."""
+    started = Cluster(tmp_path_factory.mktemp("cluster"), {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()})
+    started.start_workers(2)
+    yield started
+    started.end()
+
+
+@pytest.fixture(scope="module")
+def client(cluster):
+    with connected(cluster.address) as found:
+        yield found
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Chunks and rounds small enough that a test has many."""
+    monkeypatch.setattr(chunks, "SIZE", 1024)
+    monkeypatch.setattr(schedule, "ROUND", 3000)
+
+
+def todo(names, count):
+    return list(steps((chunk for name in names for chunk in chunks.chunks(FAMILIES[name], 1, count)), refuses=False))
+
+
+def rules_of(it):
+    used = it.description
+    return Rules(Criterion(used.question, used.precision, Fraction(8)), used.domain)
+
+
+def here(opening, some):
+    with opening.open() as it:
+        *_, (_, state) = states(some, Here(it, rules_of(it)), State(it.allowance))
+        return state
+
+
+def there(client, opening, some, after=lambda crew, number: None):
+    """The last state; `after` is called behind each step."""
+    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+        it.close()
+        passed = []
+        for _, state in states(some, crew, State(it.allowance)):
+            after(crew, len(passed))
+            passed.append(state)
+        return passed[-1]
+
+
+def pids(client):
+    return client.run(os.getpid)
+
+
+def test_killed_workers_cost_nothing(client):
+    some = todo(["tower-body", "ring"], 9000)
+
+    def kill(crew, number):
+        if number in {1, 12}:
+            os.kill(next(iter(pids(client).values())), signal.SIGKILL)
+
+    assert saved(there(client, KILLS, some, kill)) == saved(here(KILLS, some))
+
+
+def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(client):
+    some = todo(["uniform", "tower-body"], 4000)
+    (culprit,) = [step for step in some if _holds(step, "uniform", 2500)]
+    found = there(client, KILLS, some).total
+    expected = here(KILLS, [step for step in some if step != culprit]).total
+    tower = [saved_result(each)["tallies"]["tower-body"] for each in (found, expected)]
+    assert tower[0] == tower[1]
+    counts = dict(found.tallies["uniform"].counts)
+    assert counts.pop("crash") == len(culprit)
+    assert counts == expected.tallies["uniform"].counts
+    assert found.again == expected.again
+    fault = found.tallies["uniform"].faults[0]
+    assert fault.case == culprit.name(0)
+    assert "workers of the cluster ended, one after the other, while they had nothing but these cases" in fault.reason
+
+
+def _holds(step, family, index):
+    """Whether a step asks the generated row of that index."""
+    return (
+        isinstance(step, chunks.Chunk) and step.family == family and bool(step.seed) and step.start <= index < step.stop
+    )
+
+
+def _subject(folder: Path) -> tuple[Path, Opening]:
+    file = folder / "subject.py"
+    file.write_text("import numpy as np\n\n\ndef f(rows):\n    return np.zeros(len(rows), dtype=np.int8)\n")
+    return file, Opening(f"python:{file}:f", Limits())
+
+
+def test_a_file_that_a_worker_does_not_have_is_sent(client, tmp_path):
+    file, opening = _subject(tmp_path)
+    some = todo(["ring"], 2000)
+    expected = here(opening, some)
+    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+        file.rename(tmp_path / "elsewhere.py")
+        *_, (_, state) = states(some, crew, State(it.allowance))
+    assert saved(state) == saved(expected)
+
+
+def test_another_file_on_a_worker_is_refused(client, tmp_path):
+    file, opening = _subject(tmp_path)
+    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+        file.write_text(file.read_text() + "\n")
+        with pytest.raises(
+            InputError, match=r"subject.py is another file on worker tcp://127.0.0.1:\d+: sha256 \w{64} "
+        ):
+            list(states(todo(["ring"], 100), crew, State(it.allowance)))
+
+
+def test_nothing_is_left_on_the_workers(client, cluster):
+    """Neither an implementation nor a copy of its file: all of the tests above are over."""
+    held = client.run(lambda: len(__import__("hypcheck.gate.station").gate.station._HELD))
+    assert set(held.values()) == {0}
