@@ -76,6 +76,11 @@ def test_the_first_bad_center_is_named_and_nothing_is_written(value):
     with pytest.raises(InputError, match=f"^row 1: y is {value}; it must be finite"):
         hypcheck.classify_scene((1, 2, 1, 1), [1, 2, value], [1, value, 0], 0, out=out)
     assert out.tolist() == [99] * 3
+    flagged = hypcheck.classify_scene((1, 2, 1, 1), [2.5, 2, value], [0, value, 0], 0, out=out, on_invalid="flag")
+    assert flagged is out
+    assert out.tolist() == [1, 127, 127]
+    with pytest.raises(InputError, match="d is -1"):
+        hypcheck.classify_scene((1, 2, 1, -1), 1, 2, 3, on_invalid="flag")
 
 
 @pytest.mark.parametrize(
@@ -101,6 +106,8 @@ def test_an_out_that_does_not_fit_is_refused(out):
         ((1, 2, 1, -1), (1, 2, 3), "d is -1.0; a semi-axis must be greater than 0"),
         ((1, 2, 1, np.nan), (1, 2, 3), "d is nan; it must be finite"),
         ((1, 2, 1, "1"), (1, 2, 3), "the sizes: of type <U"),
+        ((1, [2, 3], 1, 1), (1, 2, 3), "the sizes: no array of numbers: "),
+        ((1, 2, 1, 1), (1, [[1], [1, 2]], 3), "y: no array of numbers: "),
         ((1, 2, 1, 1), ([1, 2], [1, 2, 3], 3), "x, y, z do not go together"),
         ((1, 2, 1, 1), ([[1, 2]], 1, 3), r"x, y, z have shape \(1, 2\)"),
         ((1, 2, 1, 1), (1, 2j, 3), "y: of type complex128"),
@@ -118,3 +125,5 @@ def test_a_scene_that_is_none_is_refused(sizes, center, sentence):
 def test_an_unknown_mode_is_refused():
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
         hypcheck.classify(ROWS, on_invalid="ignore")
+    with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
+        hypcheck.classify_scene((1, 2, 1, 1), 1, 2, 3, on_invalid="ignore")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import index
 from typing import Literal
 
 import numpy as np
@@ -32,12 +33,10 @@ def classify(
     A row is valid when its sizes are finite and > 0 and its centre finite. The first that is not raises InputError
     (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are marked 127.
     """
-    if on_invalid not in ("raise", "flag"):
-        raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
-    _require_sense(question, threads)
+    number = _required(question, threads, on_invalid)
     queries = as_rows(rows)
     _require_fitting(out, len(queries))
-    result, refused = kernel().answer_rows(queries, question, threads)
+    result, refused = kernel().answer_rows(queries, question, number)
     if refused and on_invalid == "raise":
         require_valid(queries)
     return _into(out, result)
@@ -50,37 +49,53 @@ def classify_scene(
     z: ArrayLike,
     out: Positions | None = None,
     *,
+    on_invalid: Literal["raise", "flag"] = "raise",
     question: Question = "position",
     threads: int | None = None,
 ) -> Positions:
     """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
 
     `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre.
-    The first centre that is not finite raises InputError (its index counted from 0) and `out` is left alone.
+    The first centre that is not finite raises InputError (its index counted from 0) and `out` is left alone; with
+    on_invalid="flag" such centres are marked 127. Sizes that are not valid are always refused.
     """
-    _require_sense(question, threads)
+    number = _required(question, threads, on_invalid)
     four = _sizes(sizes)
+    columns = [_numbers(name, column) for name, column in zip(CENTER, (x, y, z), strict=True)]
     try:
-        u, v, w = (np.atleast_1d(column) for column in np.broadcast_arrays(*map(_numbers, CENTER, (x, y, z))))
+        u, v, w = (np.atleast_1d(column) for column in np.broadcast_arrays(*columns))
     except ValueError as error:
         raise InputError(f"x, y, z do not go together: {error}") from None
     if u.ndim != 1:
         raise InputError(f"x, y, z have shape {u.shape}; each must be (n,) or a single number")
     _require_fitting(out, len(u))
-    result, refused = kernel().answer_scene(four, (u, v, w), question, threads)
-    if refused:
+    result, refused = kernel().answer_scene(four, (u, v, w), question, number)
+    if refused and on_invalid == "raise":
         _require_finite(u, v, w)
     return _into(out, result)
 
 
-def _require_sense(question: str, threads: int | None) -> None:
+def _required(question: str, threads: int | None, on_invalid: str) -> int | None:
+    """The number of threads, when all three make sense."""
+    if on_invalid not in ("raise", "flag"):
+        raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
     require_known(question)
-    if threads is not None and (isinstance(threads, bool) or not isinstance(threads, int) or threads < 1):
+    if threads is None:
+        return None
+    try:
+        number = 0 if isinstance(threads, bool) else index(threads)
+    except TypeError:
+        number = 0
+    if number < 1:
         raise InputError(f"threads is {threads!r}; it must be a whole number greater than 0")
+    return number
 
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: no array of numbers: {error}") from None
     if array.dtype.kind not in "fiu":
         raise InputError(f"{name}: of type {array.dtype}; it must be real numbers that fit into float64")
     return array.astype(np.float64, copy=False)

@@ -15,6 +15,9 @@ from hypcheck.rows import Positions, Rows
 ROWS_A_THREAD = 1 << 20
 """Fewer rows are not worth a thread: to start one takes as long as some 10⁵ rows."""
 
+BLOCK = 64
+"""Rows that the kernel takes at once: a part has a whole number of them."""
+
 CHUNK = 1 << 16
 """Rows of a column copied at a time where it is not contiguous."""
 
@@ -60,13 +63,20 @@ def fill_scene(
 
 
 def _in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
-    """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own."""
-    number = max(1, min(most_threads(), count // ROWS_A_THREAD)) if threads is None else threads
-    bounds = [count * k // number // 64 * 64 for k in range(number)] + [count]  # whole blocks of the kernel
-    results = [0] * number
+    """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
+
+    What a part raises is raised here, once all have ended.
+    """
+    number = min(most_threads(), count // ROWS_A_THREAD) if threads is None else min(threads, count // BLOCK)
+    number = max(1, number)
+    bounds = [count * k // number // BLOCK * BLOCK for k in range(number)] + [count]
+    results, troubles = [0] * number, list[BaseException]()
 
     def run(k: int) -> None:
-        results[k] = part(bounds[k], bounds[k + 1])
+        try:
+            results[k] = part(bounds[k], bounds[k + 1])
+        except BaseException as trouble:  # noqa: BLE001 - it is raised where the answers are waited for
+            troubles.append(trouble)
 
     others = [threading.Thread(target=run, args=(k,), name=f"hypcheck-{k}") for k in range(1, number)]
     for thread in others:
@@ -74,4 +84,6 @@ def _in_parts(part: Callable[[int, int], int], count: int, threads: int | None) 
     run(0)
     for thread in others:
         thread.join()
+    if troubles:
+        raise troubles[0]
     return sum(results)

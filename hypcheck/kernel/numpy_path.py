@@ -24,7 +24,7 @@ from hypcheck.rows import Positions, Rows, invalid
 CHUNK = 8192
 """Rows at a time: the buffers of one chunk stay in the cache, and the calls of ufuncs are few."""
 
-LINES_CHUNK = 1 << 14
+LINES_CHUNK = 1 << 15
 """The same for the lines, which need fewer buffers."""
 
 LINES_FROM = 1 << 14
@@ -51,7 +51,8 @@ def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Positio
     """The exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d; int8 (n,)."""
     result = np.empty(len(x), dtype=np.int8)
     constants = scene_lines.constants_of(sizes, z) if len(x) >= LINES_FROM else None
-    left = np.arange(len(x)) if constants is None else _by_lines(constants, x, y, z, result)
+    with np.errstate(all="ignore"):
+        left = np.arange(len(x)) if constants is None else _by_lines(constants, x, y, z, result)
     for start in range(0, len(left), CHUNK):
         rest = left[start : start + CHUNK]
         rows = np.empty((len(rest), 7))
@@ -107,10 +108,9 @@ def _by_lines(constants: dict[str, float], x: Floats, y: Floats, z: Floats, resu
     buffers = Buffers(chunks.ONE_LINE_BUFFERS, LINES_CHUNK)
     for start in range(0, len(x), LINES_CHUNK):
         part = slice(start, start + LINES_CHUNK)
-        with np.errstate(all="ignore"):
-            numbers, truths = buffers.of(len(x[part]))
-            sums, exterior, interior, decided = stage(x[part], y[part], z[part], constants, numbers, truths)
-            within_cap = float(sums.max()) < CAP  # False for NaN
+        numbers, truths = buffers.of(len(x[part]))
+        sums, exterior, interior, decided = stage(x[part], y[part], z[part], constants, numbers, truths)
+        within_cap = float(sums.max()) < CAP  # False for NaN
         np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result[part])
         if not (within_cap and decided.all()):
             rest = np.flatnonzero(~decided) if within_cap else np.arange(len(sums))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import threading
 
 import numpy as np
@@ -58,7 +59,7 @@ def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, ques
     assert (after[others] == before[others]).all()
 
 
-@pytest.mark.parametrize("threads", [1, 2, 3, 7])
+@pytest.mark.parametrize("threads", [1, 2, 3, 7, np.int64(2), 10**9])
 def test_any_number_of_threads_answers_the_same(threads, rows, scene):
     truth = batch.positions(rows)
     assert (hypcheck.classify(rows, threads=threads) == truth).all()
@@ -81,6 +82,17 @@ def test_an_unknown_question_is_refused():
         hypcheck.classify_scene(SIZES, 1, 2, 3, question="inside")
 
 
+def test_a_question_that_is_none_asks_c_for_the_position(scene):
+    library = ctypes.CDLL(compiled.__file__)
+    answers = np.full(len(scene.x), 99, np.int8)
+    sizes, columns = np.array(scene.sizes), (scene.x, scene.y, scene.z)
+    pointers = [ctypes.c_void_p(array.ctypes.data) for array in (sizes, *columns, answers)]
+    for question in (-1, 4, 1 << 20):
+        refused = library.hypcheck_ask_scene(question, pointers[0], ctypes.c_size_t(len(answers)), *pointers[1:])
+        assert refused == 0
+        assert (answers == batch.positions(scene.rows)).all()
+
+
 def test_a_million_rows_are_shared_among_threads_and_the_interpreter_is_free_meanwhile(monkeypatch):
     monkeypatch.setattr(compiled_path, "ROWS_A_THREAD", 1000)
     monkeypatch.setenv("HYPCHECK_THREADS", "3")
@@ -99,6 +111,20 @@ def test_a_million_rows_are_shared_among_threads_and_the_interpreter_is_free_mea
     assert len(seen) == 3
     assert refused == 0
     assert (answers == numpy_path.positions_of_scene(SIZES, x, y, z)).all()
+
+
+@pytest.mark.parametrize("bad", ["hypcheck-1", threading.current_thread().name])
+def test_what_goes_wrong_in_a_thread_is_raised_and_no_answer_given(bad, monkeypatch):
+    class Failing:
+        @staticmethod
+        def ask_scene(*arguments):
+            if threading.current_thread().name == bad:
+                raise MemoryError("no room")
+            return compiled.ask_scene(*arguments)
+
+    monkeypatch.setattr(compiled_path, "compiled", lambda: Failing)
+    with pytest.raises(MemoryError, match="no room"):
+        hypcheck.classify_scene(SIZES, np.zeros(1000), 0, 0, threads=3)
 
 
 def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):

@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-/* What is asked. HYPCHECK_POSITION is answered by a position, the others by 1 (yes) or 0 (no). */
+/* What is asked. HYPCHECK_POSITION, and any number not here, is answered by a position, the others by 1 (yes) or 0 (no). */
 enum { HYPCHECK_POSITION = 0, HYPCHECK_EXTERIOR = 1, HYPCHECK_INTERIOR = 2, HYPCHECK_CONTACT = 3 };
 
 /* The position of each of n rows of 7 doubles. */
@@ -874,7 +874,8 @@ size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const d
                           const double *z, int8_t *answers) {
     const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
     const hc_level_functions *level = hc_level();
-    hc_lines_function lines = level->one_line[question];
+    const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
+    hc_lines_function lines = level->one_line[asked];
     hc_waiting waiting;
     hc_scene scene;
     uint64_t left[HC_STRIP / HC_BLOCK];
@@ -897,7 +898,7 @@ size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const d
                 i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
                 refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
-        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[question];
+        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
         for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
             refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }

@@ -16,7 +16,7 @@ SLACK = 1.0000009536743164  # 1 + 2**-20
 
 def single(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> tuple[float, ...]:
     """A, B, BB, c1, e1, c2, e2, delta_3, E of the program "single"."""
-    u_8 = 1.7763568394002505e-15  # 0x1.0000000000000p-49
+    u_8 = 1.776358533466145e-15  # 0x1.0000100000000p-49
     u_12 = 2.6645378001992175e-15  # 0x1.8000180000000p-49
     u_48 = 1.065815120079687e-14  # 0x1.8000180000000p-47
     alpha_over_b = alpha / b

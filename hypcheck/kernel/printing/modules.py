@@ -95,7 +95,8 @@ def _scalars() -> str:
 
 def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]:
     kind = "bool" if name == "chord" else "float"
-    constants = {**single.CONSTANTS, "u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
+    of_lines = {"u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
+    constants = single.CONSTANTS if program is single.SINGLE else of_lines
     given = [each for each in program.inputs if each not in constants]
     read = {each for step in needed(program, wanted) for each in step.reads}
     return [

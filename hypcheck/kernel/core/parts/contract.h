@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-/* What is asked. HYPCHECK_POSITION is answered by a position, the others by 1 (yes) or 0 (no). */
+/* What is asked. HYPCHECK_POSITION, and any number not here, is answered by a position, the others by 1 (yes) or 0 (no). */
 enum { HYPCHECK_POSITION = 0, HYPCHECK_EXTERIOR = 1, HYPCHECK_INTERIOR = 2, HYPCHECK_CONTACT = 3 };
 
 /* The position of each of n rows of 7 doubles. */
