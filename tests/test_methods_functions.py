@@ -54,6 +54,8 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
         ("floats", "it returned an array of float64; it must be integers, such as int8"),
         ("too_many", r"it returned an array of shape \(2,\) for 1 rows; it must be \(1,\)"),
         ("nothing", r"it returned a NoneType of shape \(\) for 1 rows; it must be \(1,\)"),
+        ("masked", "it returned a masked array with masked answers; it must answer every row"),
+        ("ragged", "it returned a list that is no array of one integer a row"),
     ],
 )
 def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, sentence):

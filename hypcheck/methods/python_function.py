@@ -92,7 +92,12 @@ def _of_file(path: str) -> ModuleType:
 
 
 def _integers(result: object, n: int) -> Answers:
-    array = np.asarray(result)
+    if np.ma.is_masked(result):
+        raise ContractError("it returned a masked array with masked answers; it must answer every row")
+    try:
+        array = np.asarray(result)
+    except ValueError:  # of several lengths, or an array that numpy cannot take
+        raise ContractError(f"it returned {_kind(result)} that is no array of one integer a row") from None
     if array.shape != (n,):
         raise ContractError(f"it returned {_kind(result)} of shape {array.shape} for {n} rows; it must be ({n},)")
     if array.dtype.kind not in "iub":
