@@ -6,7 +6,7 @@ A format's module is imported when a report of it is made.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,17 +16,20 @@ from hypcheck.tables.streams import writing
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
+    from hypcheck.report.plots.drawn import Drawings
 
 
 @dataclass(frozen=True, slots=True)
 class Around:
     """What a report is made with beside its record: the names of the files that stand beside it, and another record.
 
-    The other is what the report says the changes against; formats for programs leave it aside.
+    The other is what the report says the changes against; formats for programs leave it aside. `drawings` are plots
+    that were drawn already.
     """
 
     beside: Collection[str] = ()
     against: Record | None = None
+    drawings: Drawings = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,14 +93,23 @@ def write_reports(
     except OSError as error:
         raise InputError(f"cannot make the folder {directory}: {(error.strerror or str(error)).lower()}") from error
     done: list[Written] = []
-    for name in [name for name in REPORTS if name in (kept() if formats is None else formats)]:
+    wanted = [name for name in REPORTS if name in (kept() if formats is None else formats)]
+    drawings = _drawn_ahead(record) if "html" in wanted else {}
+    for name in wanted:
         report = REPORTS[name]
         if report.shows and not record.of(report.shows):
             _remove(directory / report.file)
             continue
         beside = {each.path.name for each in done if each.skipped is None}
-        done.append(_write(report, record, directory / report.file, Around(beside, against)))
+        done.append(_write(report, record, directory / report.file, Around(beside, against, drawings)))
     return done
+
+
+def _drawn_ahead(record: Record) -> Drawings:
+    """The plots that several reports show."""
+    from hypcheck.report.plots.drawn import ahead  # noqa: PLC0415
+
+    return ahead(record)
 
 
 def _write(report: Report, record: Record, path: Path, around: Around) -> Written:

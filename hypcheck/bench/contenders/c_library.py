@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -65,22 +66,27 @@ def place_of(name: str) -> int:
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
     """The library, made in a folder. Raises UnavailableError where there is no compiler that makes it."""
-    code, library = folder / "methods.c", folder / "methods.so"
+    code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
-    kernel = _kernel(folder)
-    return library, compile_c(code, library, kernel)
+    with ThreadPoolExecutor(1) as beside:
+        kernel = beside.submit(_kernel, folder)
+        compiler = compile_c(code, methods, "-c")
+    done = run_compiler([compiler.program, "-shared", str(methods), kernel.result(), "-o", str(library), "-lm"])
+    if done.returncode != 0:
+        raise UnavailableError(f"{compiler.program} does not link {library.name}: {_first_line(done)}")
+    return library, compiler
 
 
-def compile_c(code: Path, library: Path, *others: str) -> Compiler:
-    """Make a library of a file in C, and of other files. Raises UnavailableError where no compiler is there for it."""
+def compile_c(code: Path, target: Path, how: str = "-shared") -> Compiler:
+    """Make a library, or what `how` says, of a file in C. Raises UnavailableError where no compiler is there for it."""
     program = compiler_here()
     trouble = ""
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
-        words = [program, *flags, f"-I{core.__path__[0]}", "-shared", str(code), *others, "-o", str(library), "-lm"]
+        words = [program, *flags, f"-I{core.__path__[0]}", how, str(code), "-o", str(target), "-lm"]
         done = run_compiler(words)
         if done.returncode == 0:
             return Compiler(program, _version(program), flags)
-        trouble = trouble or (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+        trouble = trouble or _first_line(done)
     raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
 
 
@@ -90,8 +96,7 @@ def _kernel(folder: Path) -> str:
     code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
     done = run_compiler([program, *KERNEL_FLAGS, f"-I{core.__path__[0]}", "-c", str(code), "-o", str(target)])
     if done.returncode != 0:
-        said = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
-        raise UnavailableError(f"{program} does not compile the fast path: {said}")
+        raise UnavailableError(f"{program} does not compile the fast path: {_first_line(done)}")
     return str(target)
 
 
@@ -111,6 +116,10 @@ def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
         return subprocess.run(words, capture_output=True, text=True, timeout=_SECONDS, check=False)  # noqa: S603
     except (OSError, subprocess.TimeoutExpired) as error:
         raise UnavailableError(f"{words[0]} cannot be run: {error}") from None
+
+
+def _first_line(done: subprocess.CompletedProcess[str]) -> str:
+    return (done.stderr.strip().splitlines() or ["it says nothing"])[0]
 
 
 def _version(program: str) -> str:

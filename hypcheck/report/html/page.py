@@ -18,7 +18,7 @@ from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.report.content.blocks import Block, Bullets, Details, Either, Figures, Paragraph, Section, Table, plain
 from hypcheck.report.content.report import content
-from hypcheck.report.plots.table import draw
+from hypcheck.report.plots.drawn import Drawings, drawn
 from hypcheck.version import VERSION
 from hypcheck.visible import visible
 
@@ -51,7 +51,7 @@ def render(record: Record, around: Around | None = None) -> bytes:
     page: str = environment.get_template("page.html").render(
         title=whole.title,
         verdict=whole.verdict,
-        sections=list(_sections(whole.sections, record)),
+        sections=list(_sections(whole.sections, record, around.drawings if around else {})),
         version=VERSION,
         style=_own(style),
         script=_own(script),
@@ -96,29 +96,27 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _sections(sections: tuple[Section, ...], record: Record) -> Iterator[dict[str, Any]]:
+def _sections(sections: tuple[Section, ...], record: Record, drawings: Drawings) -> Iterator[dict[str, Any]]:
     for number, section in enumerate(sections):
         words = re.sub(r"[^a-z0-9]+", "-", plain(section.title).lower())[:40].strip("-")
-        blocks = [_shown(block, record) for block in section.blocks]
+        blocks = [_shown(block, record, drawings) for block in section.blocks]
         anchor = f"s{number}-{words}"
         yield {"title": section.title, "level": section.level, "anchor": anchor, "blocks": blocks}
 
 
-def _shown(block: Block, record: Record) -> _Shown:
+def _shown(block: Block, record: Record, drawings: Drawings) -> _Shown:
     if isinstance(block, Either):
-        return _shown(block.page, record)
+        return _shown(block.page, record, drawings)
     if isinstance(block, Details):
-        return _Shown("details", block, tuple(_shown(each, record) for each in block.blocks))
+        return _Shown("details", block, tuple(_shown(each, record, drawings) for each in block.blocks))
     if isinstance(block, Figures):
-        return _figures(block, record)
+        return _figures(block, record, drawings)
     return _Shown(_KINDS[type(block)], block)
 
 
-def _figures(block: Figures, record: Record) -> _Shown:
-    from hypcheck.report.plots.svg import inline  # noqa: PLC0415
-
+def _figures(block: Figures, record: Record, drawings: Drawings) -> _Shown:
     try:
-        plots = tuple({"title": plot.title, "svg": _own(inline(plot))} for plot in draw(block.name, record))
+        plots = tuple({"title": plot.title, "svg": _own(plot.svg)} for plot in drawn(block.name, record, drawings))
     except UnavailableError as error:
         return _Shown("figures", block, missing=f"The plots are missing: {error}")
     return _Shown("figures", block, plots=plots)

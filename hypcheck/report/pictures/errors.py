@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING
 
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
+from hypcheck.report.plots.drawn import drawn
 from hypcheck.report.plots.svg import together
-from hypcheck.report.plots.table import draw
 
 if TYPE_CHECKING:
     from hypcheck.report.write import Around
 
 
-def render(record: Record, _around: Around | None = None) -> bytes:
+def render(record: Record, around: Around | None = None) -> bytes:
     """The plots as one file. Raises UnavailableError where the record has none or matplotlib is missing."""
-    plots = list(draw("errors", record))
+    plots = drawn("errors", record, around.drawings if around else {})
     if not plots:
         raise UnavailableError("the record has no errors by distance")
-    return together("errors", "Share of wrong answers against flip distance", plots)
+    return together(
+        "errors", "Share of wrong answers against flip distance", [(plot.title, plot.svg) for plot in plots]
+    )

@@ -59,12 +59,12 @@ def inline(plot: Plot) -> str:
 
 def standalone(plot: Plot) -> bytes:
     """The plot as a file, which follows the reader's scheme of colours."""
-    return _file(_element(plot), plot)
+    return _file(_element(plot))
 
 
-def together(name: str, title: str, plots: Sequence[Plot], columns: int = 2) -> bytes:
-    """Several plots as one file, row by row under their titles."""
-    parts = [_element(plot) for plot in plots]
+def together(name: str, title: str, plots: Sequence[tuple[str, str]], columns: int = 2) -> bytes:
+    """Several plots, each a title and its element, as one file: row by row under their titles."""
+    parts = [Xml.fromstring(svg) for _, svg in plots]  # noqa: S314 - as inline made it
     sizes = [tuple(float(each) for each in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
     rows = [range(first, min(first + columns, len(parts))) for first in range(0, len(parts), columns)]
     width, top = max(size[0] for size in sizes), 0.0
@@ -75,7 +75,7 @@ def together(name: str, title: str, plots: Sequence[Plot], columns: int = 2) -> 
             heading = Xml.SubElement(
                 whole, f"{_SVG}text", {"x": f"{left + 6:g}", "y": f"{top + 14:g}", "class": "f-ink"}
             )
-            heading.text = _shown(plots[place].title)
+            heading.text = _shown(plots[place][0])
             heading.set("font-size", "12px")
             heading.set("font-weight", "bold")
             part = parts[place]
@@ -87,14 +87,12 @@ def together(name: str, title: str, plots: Sequence[Plot], columns: int = 2) -> 
         top += max(sizes[place][1] for place in row) + 20 + _APART
     across = width * min(columns, len(parts)) + _APART * (min(columns, len(parts)) - 1)
     whole.set("viewBox", f"0 0 {across:g} {top - _APART:g}")
-    description = "; ".join(plot.title for plot in plots)
-    return _file(whole, Plot(name, title, description, plots[0].figure))
+    _describe(whole, name, title, "; ".join(words for words, _ in plots))
+    return _file(whole)
 
 
-def _file(root: Xml.Element, plot: Plot) -> bytes:
-    """An element as a file of its own: with the colours' rules, a ground, a title and a description."""
-    if root.get("aria-labelledby") is None:
-        _describe(root, plot)
+def _file(root: Xml.Element) -> bytes:
+    """A described element as a file of its own: with the colours' rules and a ground."""
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
     style.text = css()
@@ -125,7 +123,7 @@ def _element(plot: Plot) -> Xml.Element:
         _unstyle(element)
     _give_tips(root, plot)
     _rename(root, plot.name)
-    _describe(root, plot)
+    _describe(root, plot.name, plot.title, plot.description)
     return root
 
 
@@ -187,17 +185,16 @@ def _rename(root: Xml.Element, name: str) -> None:
                 element.set(attribute, _REFERENCE.sub(rf"#{name}-\1", value))
 
 
-def _describe(root: Xml.Element, plot: Plot) -> None:
-    for name in ("width", "height", "version"):
-        root.attrib.pop(name, None)
-    texts = (("title", plot.title), ("desc", plot.description))
-    for place, (tag, words) in enumerate(texts):
-        element = Xml.Element(f"{_SVG}{tag}", {"id": f"{plot.name}-{tag}"})
+def _describe(root: Xml.Element, name: str, title: str, description: str) -> None:
+    for attribute in ("width", "height", "version"):
+        root.attrib.pop(attribute, None)
+    for place, (tag, words) in enumerate((("title", title), ("desc", description))):
+        element = Xml.Element(f"{_SVG}{tag}", {"id": f"{name}-{tag}"})
         element.text = _shown(words)
         root.insert(place, element)
     root.set("class", "plot")
     root.set("role", "img")
-    root.set("aria-labelledby", f"{plot.name}-title {plot.name}-desc")
+    root.set("aria-labelledby", f"{name}-title {name}-desc")
     root.set("stroke-linejoin", "round")
     root.set("text-rendering", "geometricPrecision")  # else a scaled picture spaces its letters as if it were not
 
