@@ -10,6 +10,9 @@ from hypcheck.record import Line, Record
 
 BATCH, SINGLE, BUILD = "batch", "single", "build"
 
+PRINCIPAL = "near-contact"
+"""The workload that has cases at every distance."""
+
 LEAST_NS = 0.01
 """What a benchmark writes for a time of which nothing was left when the empty call was taken off: it is not known."""
 
@@ -86,6 +89,12 @@ def workloads(record: Record) -> dict[str, Line]:
         name = line["workload"]
         found.setdefault(name, {"workload": name, "title": name, "text": "", "rows": 0, "seed": 0})
     return found
+
+
+def principal(record: Record) -> str:
+    """The workload that has cases at every distance from contact; the first where it was not measured."""
+    known = workloads(record)
+    return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
 
 
 def reference(record: Record) -> str | None:

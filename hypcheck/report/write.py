@@ -60,6 +60,7 @@ REPORTS = {
     "map": Report("map.svg", "pictures.map", shows="map"),
     "errors": Report("errors.svg", "pictures.errors", shows="accuracy"),
     "pareto": Report("pareto.svg", "pictures.pareto", shows="speed"),
+    "front": Report("front.svg", "pictures.front", shows="speed"),
     "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
     "overview": Report("overview.md", "overview", kept=False),
     "html": Report("report.html", "html.page", compares=True),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from hypcheck.record import Line, Record
-from hypcheck.report.measured import TIERS, Measured, measured, workloads
+from hypcheck.report.measured import TIERS, Measured, measured, principal, workloads
 from hypcheck.report.plots.curves import Curve, curve, in_parts, plot
 from hypcheck.report.plots.svg import Plot
 
@@ -15,29 +15,20 @@ FORMULAS = ("paper", "algebraic", "certified")
 SHORT = ("float16", "bfloat16", "float32")
 _SHORT, _LONG = "float32 and shorter", "float64 and longer"
 
-PRINCIPAL = "near-contact"
-"""The workload that has cases at every distance."""
-
 
 def plots(record: Record) -> Iterator[Plot]:
     """For the workload near contact, or the first, a plot for each group of methods."""
-    known = workloads(record)
-    principal = _principal(known)
-    for number, (group, curves) in enumerate(_groups(measured(record), principal)):
+    for number, (group, curves) in enumerate(_groups(measured(record), principal(record))):
         yield plot(f"errors-{number}", group, curves)
 
 
 def others(record: Record) -> Iterator[Plot]:
     """The same for every other workload, of the methods that are wrong there."""
     found, known = measured(record), workloads(record)
-    for place, workload in enumerate(name for name in known if name != _principal(known)):
+    for place, workload in enumerate(name for name in known if name != principal(record)):
         wrong = [each for each in found if each.accuracy.get(workload, {}).get("wrong")]
         for number, (group, curves) in enumerate(_groups(wrong, workload)):
             yield plot(f"errors-{place}-{number}", f"{known[workload]['title']}: {group}", curves)
-
-
-def _principal(known: Mapping[str, Line]) -> str:
-    return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
 
 
 def _groups(found: list[Measured], workload: str) -> Iterator[tuple[str, list[Curve]]]:

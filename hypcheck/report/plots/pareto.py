@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from hypcheck.record import Record
-from hypcheck.report.measured import BATCH, TIERS, lost, measured, workloads
+from hypcheck.report.measured import BATCH, TIERS, Measured, lost, measured, principal, workloads
 from hypcheck.report.plots import labels
 from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
@@ -36,6 +36,7 @@ class Point:
     time_ns: float
     reliable_above: float
     asked: int
+    exact: bool
 
     @property
     def shown(self) -> bool:
@@ -46,11 +47,26 @@ class Point:
 def points(record: Record, workload: str) -> list[Point]:
     """The methods that were judged and timed on the workload."""
     return [
-        Point(each.name, each.tier, float(speed["median_ns"]), float(accuracy["reliable_above"]), accuracy["asked"])
-        for each in measured(record)
-        if (accuracy := each.accuracy.get(workload)) and (speed := each.speed.get((workload, BATCH)))
-        if not lost(speed)
+        Point(each.name, each.tier, time, float(accuracy["reliable_above"]), accuracy["asked"], each.exact)
+        for each, time in _timed(record, workload)
+        if (accuracy := each.accuracy.get(workload))
     ]
+
+
+def worst_points(record: Record, workload: str) -> list[Point]:
+    """The same with the errors of all workloads; the times are of the one."""
+    return [
+        Point(each.name, each.tier, time, each.reliable_above, each.asked, each.exact)
+        for each, time in _timed(record, workload)
+        if workload in each.accuracy
+    ]
+
+
+def _timed(record: Record, workload: str) -> Iterator[tuple[Measured, float]]:
+    for each in measured(record):
+        speed = each.speed.get((workload, BATCH))
+        if speed is not None and not lost(speed):
+            yield each, float(speed["median_ns"])
 
 
 def front(found: Sequence[Point]) -> list[Point]:
@@ -71,8 +87,17 @@ def plots(record: Record) -> Iterator[Plot]:
             yield _plot(f"pareto-{place}", f"Error against run time, {line['title']}", found)
 
 
-def _plot(name: str, title: str, found: Sequence[Point]) -> Plot:
-    drawn = new_figure(WIDTH, 375)
+def pair(record: Record) -> Iterator[Plot]:
+    """Two plots with names wherever there is room: of the workload near contact, and of the worst of all workloads."""
+    known, name = workloads(record), principal(record)
+    near, everywhere = points(record, name), worst_points(record, name)
+    if near:
+        yield _plot("front-near", f"{str(known[name]['title']).capitalize()}", near, 400, everyone=True)
+        yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, everyone=True)
+
+
+def _plot(name: str, title: str, found: Sequence[Point], height: float = 375, *, everyone: bool = False) -> Plot:
+    drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
     best = front(found)
     heights = _axes(axes, found)
@@ -82,15 +107,18 @@ def _plot(name: str, title: str, found: Sequence[Point]) -> Plot:
     tips = _marks(axes, found, heights, name)
     _legend(drawn, found)
     important = sorted(found, key=lambda point: (point not in best, point.time_ns))
-    names = [visible(point.name, 28) if point in best else None for point in important]
-    labels.place(axes, [(point.time_ns, heights[point.reliable_above]) for point in important], names, steps)
+    names = [visible(point.name, 28) if everyone or point in best else None for point in important]
+    places = [(point.time_ns, heights[point.reliable_above]) for point in important]
+    labels.place(axes, places, names, steps, len(best))
     said = f"The front, from the fastest: {'; '.join(_tip(point) for point in best)}."
     return Plot(name, title, said, drawn, tips)
 
 
 def _marks(axes: Axes, found: Sequence[Point], heights: dict[float, float], name: str) -> dict[str, list[str]]:
     tips: dict[str, list[str]] = {}
-    for number, tier in enumerate(TIERS):
+    exact = [point for point in found if point.exact]
+    axes.plot([point.time_ns for point in exact], [heights[point.reliable_above] for point in exact], **_RING)
+    for number, tier in reversed(list(enumerate(TIERS))):  # the fastest on top
         for shown in (True, False):
             mine = [point for point in found if (point.tier, point.shown) == (tier, shown)]
             if mine:
@@ -107,6 +135,17 @@ def _look(number: int, *, shown: bool) -> dict[str, Any]:
     return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
 
 
+_RING: dict[str, Any] = {
+    "marker": "o",
+    "markersize": 10.5,
+    "markerfacecolor": "none",
+    "markeredgecolor": colour("ink"),
+    "markeredgewidth": 0.9,
+    "linestyle": "none",
+}
+"""Around the mark of a method that promises never to be wrong."""
+
+
 def _legend(drawn: Figure, found: Sequence[Point]) -> None:
     from matplotlib.lines import Line2D  # noqa: PLC0415
 
@@ -119,6 +158,8 @@ def _legend(drawn: Figure, found: Sequence[Point]) -> None:
     drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
     best = Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label="no method is faster and more reliable")
     below = [best]
+    if any(point.exact for point in found):
+        below.append(Line2D([], [], label="ringed: promises never to be wrong", **_RING))
     if not all(point.shown for point in found):
         soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
         few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"

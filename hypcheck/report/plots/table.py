@@ -17,6 +17,7 @@ PLOTS = {
     "errors": "errors:plots",
     "other-errors": "errors:others",
     "pareto": "pareto:plots",
+    "front": "pareto:pair",
     "speeds": "speeds:plots",
     "stability": "stability:plots",
     "places": "places:plots",
