@@ -40,7 +40,7 @@ def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
     shown = {name: report for name, report in REPORTS.items() if report.shows is None or record.of(report.shows)}
-    assert len(shown) == len(REPORTS) - 2  # the pictures of a benchmark
+    assert len(shown) == len(REPORTS) - 3  # the pictures of a benchmark
     for name, report in shown.items():
         assert report.render(read(path)) == report.render(record), name
 

@@ -36,6 +36,10 @@ TOLERABLE = 1e-3
 """The share of wrong answers that "reliable above" allows."""
 
 
+NEAREST = 2.0**-75
+"""A flip distance below those of all rows but the exact tangencies."""
+
+
 @dataclass(frozen=True)
 class Known:
     """A workload's judged rows (n, 7) with their exact positions, int8 (n,), and flip octaves (n,)."""
@@ -180,17 +184,24 @@ def by_octave(octaves: Floats, wrong: NDArray[np.bool_]) -> list[list[int | str]
 
 
 def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
-    """The lowest 2^k such that of the rows that flip at 2^k or farther at most TOLERABLE are answered wrong.
+    """The lowest 2^k from which on, of the rows that flip at any 2^(k + j) or farther, at most TOLERABLE are wrong.
 
-    0 where nothing is wrong, inf where even the farthest rows are wrong too often.
+    0 where nothing is wrong, NEAREST where exact tangencies alone are, inf where even the farthest rows are wrong too
+    often or there is no other.
     """
+    edges = np.unique(octaves[np.isfinite(octaves)])
     if not wrong.any():
         return 0.0
-    edges = np.unique(octaves[np.isfinite(octaves)])
+    if not len(edges):
+        return math.inf
+    if not wrong[np.isfinite(octaves)].any():
+        return NEAREST
     numbers = np.array([np.count_nonzero(octaves >= edge) for edge in edges])
     errors = np.array([np.count_nonzero(wrong & (octaves >= edge)) for edge in edges])
-    held = edges[errors <= TOLERABLE * numbers]
-    return float(2.0 ** held[0]) if len(held) else math.inf
+    failing = np.flatnonzero(errors > TOLERABLE * numbers)
+    if not len(failing):
+        return float(2.0 ** edges[0])
+    return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
 def _worst(contender: Contender, answered: Answered, truth: Known, wrong: NDArray[np.intp]) -> list[dict[str, Any]]:

@@ -167,6 +167,29 @@ def _interval(each: Measured, workload: str, mode: str) -> tuple[float, float]:
     return float(low), float(high)
 
 
+@dataclass(frozen=True, slots=True)
+class Price:
+    """The fastest method that was never wrong, the fastest that was, and the ratio of their times in a batch."""
+
+    never: Measured
+    fastest: Measured
+    ratio: float
+
+
+def price(record: Record) -> Price | None:
+    """What it costs never to be wrong, on the first timed workload; None where not both were timed there."""
+    timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
+    ranked = sorted(
+        ((ratio, each) for each in measured(record) for name in timed[:1] if (ratio := each.ratio(name)) is not None),
+        key=lambda pair: pair[0],
+    )
+    never = next((pair for pair in ranked if pair[1].exact and pair[1].asked and not pair[1].wrong), None)
+    fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line["kind"] != "bounding"), None)
+    if never is None or fastest is None:
+        return None
+    return Price(never[1], fastest[1], never[0] / fastest[0])
+
+
 def beaten(record: Record) -> list[tuple[Measured, Measured]]:
     """Methods with one of the same tier and question that is faster beyond doubt and reliable at least as near."""
     found = [each for each in measured(record) if each.line["kind"] != "bounding"]

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from hypcheck.record import Record
 from hypcheck.report.choice import IN_FLOATS
 from hypcheck.report.digest import implementations, oracle_totals, worst_error_u
-from hypcheck.report.measured import Measured, measured, workloads
+from hypcheck.report.measured import NEAREST, Measured, measured, workloads
 from hypcheck.report.text import counted, figure, listed
 
 
@@ -94,13 +94,12 @@ def _endings(title: str, workload: str, found: Sequence[Measured]) -> Iterator[s
         mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload]["asked"] >= most}
         if mine and max(mine.values()):
             best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
-            least = f"errors end at {figure(mine[best])}" if mine[best] else "none"
             if mine[best] == mine[worst]:
-                yield f"{title}, {precision}: {least}"
+                yield f"{title}, {precision}: {_end(mine[best])}"
                 continue
             yield (
-                f"{title}, {precision}, the best and the worst: {best.name}, {least};"
-                f" {worst.name}, errors end at {figure(mine[worst])}"
+                f"{title}, {precision}, the best and the worst: {best.name}, {_end(mine[best])};"
+                f" {worst.name}, {_end(mine[worst])}"
             )
     never, others = ([each.name for each in found if (ends[each] == math.inf) == bad] for bad in (True, False))
     if never and len(never) <= len(others):
@@ -108,3 +107,9 @@ def _endings(title: str, workload: str, found: Sequence[Measured]) -> Iterator[s
     elif never:
         but = f", all but {listed(others)}" if others else ""
         yield f"{title}: at no distance reliable: {len(never)} of {counted(len(found), 'method')} in floats{but}"
+
+
+def _end(distance: float) -> str:
+    if not distance:
+        return "none"
+    return "at exact tangencies alone" if distance <= NEAREST else f"errors end at {figure(distance)}"

@@ -16,6 +16,9 @@ PRINCIPAL = "near-contact"
 LEAST_NS = 0.01
 """What a benchmark writes for a time of which nothing was left when the empty call was taken off: it is not known."""
 
+NEAREST = 2.0**-75
+"""What a benchmark writes for "reliable above" of a method that is wrong at exact tangencies alone."""
+
 TIERS = ("C", "numpy", "python", "FCL", "foreign")
 """What methods are written in, the fastest first; only those of one tier compare as algorithms."""
 

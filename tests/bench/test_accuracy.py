@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hypcheck import judge
-from hypcheck.bench.accuracy import Answered, Known, by_octave, line, mistakes_of, reliable_above
+from hypcheck.bench.accuracy import NEAREST, Answered, Known, by_octave, line, mistakes_of, reliable_above
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
@@ -91,10 +91,12 @@ def test_octaves_ascend_from_tangencies():
         ([-1, -2, -3], [], 0.0),
         ([-1, -2, -3], [0], INF),
         ([-1, -2, -3], [2], 2.0**-2),
-        ([-1, -2, -INF], [2], 2.0**-2),
+        ([-1, -2, -INF], [2], NEAREST),
+        ([-1, -9, -20], [2], 2.0**-19),
         ([-INF, -INF], [0], INF),
         ([-1] * 1000 + [-5] * 1000, [1000], 2.0**-5),
-        ([-1] * 1000 + [-5] * 1000, [1000, 1001, 1002], 2.0**-1),
+        ([-1] * 1000 + [-5] * 1000, [1000, 1001, 1002], 2.0**-4),
+        ([-1] * 600 + [-5] * 600, [0], INF),  # all together would be few enough
         ([-1] * 1000 + [-5] * 1000, [0, 1, 1000], INF),
     ],
 )

@@ -20,8 +20,15 @@ def test_a_verification():
 
 
 def test_a_benchmark():
-    text = overview.render(bench_record(), Around(["pareto.svg", "errors.svg"])).decode()
-    order = ["## Which method to use when", "## What it shows", "](pareto.svg)", "](errors.svg)", "## The run"]
+    text = overview.render(bench_record(), Around(["front.svg", "pareto.svg", "errors.svg"])).decode()
+    order = [
+        "## Which method to use when",
+        "## What it shows",
+        "](front.svg)",
+        "](pareto.svg)",
+        "](errors.svg)",
+        "## The run",
+    ]
     places = [text.index(each) for each in order]
     assert places == sorted(places)
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.errors import UnavailableError
-from hypcheck.report.pictures import errors, pareto
+from hypcheck.report.pictures import errors, front, pareto
 from hypcheck.report.plots.style import ROLES, colour, new_figure, styled
 from hypcheck.report.plots.svg import Plot, css, inline, standalone
 from hypcheck.report.plots.table import draw
@@ -86,7 +86,7 @@ def test_a_file_of_its_own_follows_the_scheme_and_has_a_ground():
     assert (ground.get("width"), ground.get("height"), ground.get("class")) == ("100%", "100%", "f-surface")
 
 
-@pytest.mark.parametrize(("picture", "plots"), [(errors, "errors"), (pareto, "pareto")])
+@pytest.mark.parametrize(("picture", "plots"), [(errors, "errors"), (pareto, "pareto"), (front, "front")])
 def test_pictures_of_a_benchmark_have_all_their_plots(picture, plots):
     root = parsed(picture.render(bench_record()))
     inner = root.findall(f"{SVG}svg")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from hypcheck.record import Record
-from hypcheck.report.choice import Advice, beaten, choice
+from hypcheck.report.choice import Advice, beaten, choice, price
 from hypcheck.report.content.blocks import (
     Block,
     Cell,
@@ -21,13 +22,14 @@ from hypcheck.report.content.blocks import (
     table,
 )
 from hypcheck.report.measured import reference, workloads
-from hypcheck.report.text import listed, with_interval
+from hypcheck.report.text import figure, listed, with_interval
 
 _HOW = prose(
-    "The fastest method that fills the need, by its ratio to the run's reference; behind it those that the intervals or"
-    " the noise of the run do not tell from it. *Reliable above* a flip distance: at most 1 in 1000 answers beyond it"
-    " is wrong, on every workload that is spoken of. A need without a line of its own is filled by a stricter"
-    " one's. What was not measured is not spoken of either: gate a method on your own scene before you rely on it."
+    "The fastest method that fills the need, by its ratio to the run's reference; nanoseconds are this machine's. Those"
+    " that the intervals or the noise of the run do not tell from it are named behind it. *Reliable above* a flip"
+    " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that is spoken of. A need without a"
+    " line of its own is filled by a stricter one's. What was not measured is not spoken of either: gate a method on"
+    " your own scene before you rely on it."
 )
 
 
@@ -40,7 +42,7 @@ def sections(record: Record) -> Iterator[Section]:
     timed = [line for name, line in known.items() if any(each["workload"] == name for each in record.of("speed"))]
     scenes = listed([str(line["title"]) for line in timed])
     against = reference(record)
-    said: list[Text] = [f"Everyday scenes are the workloads that were timed: {scenes}."]
+    said: list[Text] = [*_in_short(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:
         said.append(("The reference, of ratio 1, is ", Code(against), "."))
     said += [(f"Nothing measured fills this: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
@@ -52,10 +54,23 @@ def sections(record: Record) -> Iterator[Section]:
     yield Section("Which method to use when", blocks)
 
 
+def _in_short(record: Record) -> Iterator[Text]:
+    """What it costs never to be wrong."""
+    found = price(record)
+    if found is not None:
+        distance = found.fastest.reliable_above
+        errs = (
+            f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
+        )
+        fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
+        times = f"{figure(found.ratio)} times the time of "
+        yield ("What it costs never to be wrong: ", Code(found.never.name), " takes ", times, fastest, ".")
+
+
 def _table(advice: tuple[Advice, ...]) -> Block:
-    numbers = (number("time ratio"), number("judged"))
+    numbers = (number("time ratio"), number("ns a query"), number("judged"))
     columns: tuple[Column | str, ...] = (
-        *("you need", "in", "asked", "use"),
+        *("you need", "use", "in", "asked"),
         *numbers,
         *("not told from it", "not reliable on"),
     )
@@ -68,10 +83,11 @@ def _row(each: Advice) -> tuple[Cell, ...]:
     ratio = with_interval(float(line["ratio"]), interval)
     return (
         Cell(each.need.what),
+        Cell(Code(each.use.name)),
         Cell(each.need.where),
         Cell(each.need.asked),
-        Cell(Code(each.use.name)),
         Cell(ratio, float(line["ratio"])),
+        Cell(figure(line["median_ns"]), line["median_ns"]),
         Cell(f"{each.use.asked:,}", each.use.asked),
         Cell(joined([Code(other.name) for other in each.alike])),
         Cell(", ".join(each.errs)),

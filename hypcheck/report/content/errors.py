@@ -32,14 +32,15 @@ _DISTANCE = prose(
     " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
 _FRONT = prose(
-    "Lower is right nearer to contact, farther left is faster. Every mark tells what it is; the names are those of the"
-    " methods that no other beats in both."
+    "Lower is right nearer to contact, farther left is faster; the line joins the methods that no other beats in both."
+    " Every mark tells what it is. The *worst of all workloads* is with those that are only judged, as the ring."
 )
 _TABLE = prose(
     "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
     " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
 )
-PARETO = Figures("pareto", "error against run time", "pareto.svg")
+FRONT = Figures("front", "error against run time near contact, and with the errors of all workloads", "front.svg")
+PARETO = Figures("pareto", "error against run time on the other workloads", "pareto.svg")
 ERRORS = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
 
 _PLACES = tuple((role, words) for words, role in places.MISTAKES.values())
@@ -48,7 +49,7 @@ _PLACES = tuple((role, words) for words, role in places.MISTAKES.values())
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of these."""
     if record.of("accuracy"):
-        blocks: tuple[Block, ...] = (Paragraph(_FRONT), PARETO)
+        blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
         if record.of("speed"):
             yield Section("Error against run time", blocks)
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))

@@ -80,10 +80,11 @@ def front(found: Sequence[Point]) -> list[Point]:
 
 
 def plots(record: Record) -> Iterator[Plot]:
-    """A plot for each workload on which methods were timed."""
+    """A plot for each workload on which methods were timed, but the one that stands in `pair` if there are others."""
+    found_on = {name: found for name in workloads(record) if (found := points(record, name))}
     for place, (name, line) in enumerate(workloads(record).items()):
-        found = points(record, name)
-        if found:
+        found = found_on.get(name, [])
+        if found and (name != principal(record) or len(found_on) == 1):
             yield _plot(f"pareto-{place}", f"Error against run time, {line['title']}", found)
 
 
