@@ -11,6 +11,7 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
+from hypcheck.kernel.world.bodies import bodies_of
 from hypcheck.kernel.world.grid import grid_of
 from hypcheck.kernel.world.reach import reaches
 from hypcheck.kernel.world.scene import Scene
@@ -96,9 +97,8 @@ def test_a_difference_that_rounds_to_contact_is_not_taken_for_it():
 
 def test_what_is_left_out_is_out_of_reach():
     scene = forest(80, 9)
-    far = reaches(scene)
-    centres = np.array([body.center for body in scene.hyperboloids])
-    grid = grid_of(centres[:, 0], centres[:, 1], far)
+    bodies = bodies_of(scene.hyperboloids)
+    grid = grid_of(bodies.origins[:, 0], bodies.origins[:, 1], reaches(bodies, scene.mover, scene.region.z))
     asked = 0
     for centre in centres_about(scene, 200, 5).tolist():
         near = set(grid.near(*centre[:2]))
@@ -168,7 +168,7 @@ def test_the_public_name_reads_a_file(tmp_path):
     [
         ((np.inf, 0.0, 0.0), "row 0: x is inf"),
         ((0.0, [0.0, np.nan], 0.0), "row 1: y is nan"),
-        ((np.eye(2), 0.0, 0.0), "have shape"),
+        ((np.eye(2), 0.0, 0.0), "have shapes that do not go together"),
     ],
 )
 def test_bad_centres_are_refused(centre, sentence):

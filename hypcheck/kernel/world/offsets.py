@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hypcheck.kernel import integers
 from hypcheck.kernel.classify import classify
+from hypcheck.kernel.world.sums import two_sum
 from hypcheck.pairs import Lengths, to_integers
 from hypcheck.rows import Positions, Rows
 
@@ -23,25 +24,17 @@ Floats = NDArray[np.float64]
 
 
 def positions(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
-    """The exact position of each mover, int8 (n,): sizes (n, 4), and both centres (n, 3) in the scene's coordinates.
-
-    Raises InputError where a difference leaves float64.
-    """
-    offset, error = _difference(centres, origins)
-    result = classify(np.concatenate([sizes, offset], axis=1))
-    rounded = np.flatnonzero((error != 0).any(axis=1))
+    """The exact position of each mover, int8 (n,): sizes (n, 4), and both centres (n, 3) in the scene's coordinates."""
+    with np.errstate(all="ignore"):
+        offset, error = two_sum(centres, -origins)
+    beyond = np.logical_not((np.abs(offset) < np.finfo(np.float64).max).all(axis=1))  # no float64, or none above it
+    result = classify(np.concatenate([sizes, np.where(beyond[:, None], 0.0, offset)], axis=1))
+    rounded = np.flatnonzero((error != 0).any(axis=1) & ~beyond)
     if len(rounded):
         result[rounded] = _between(sizes[rounded], offset[rounded], centres[rounded], origins[rounded])
+    for index in np.flatnonzero(beyond).tolist():
+        result[index] = exact_position(sizes[index].tolist(), centres[index].tolist(), origins[index].tolist())
     return result
-
-
-def _difference(left: Rows, right: Rows) -> tuple[Floats, Floats]:
-    """left − right rounded, and what rounding left out: exact, since float64 sums lose a float64 (Knuth's TwoSum)."""
-    with np.errstate(all="ignore"):
-        total = left - right
-        back = total + right
-        error = (left - back) - (right - (back - total))
-    return total, error
 
 
 def _between(sizes: Rows, offset: Floats, centres: Rows, origins: Rows) -> Positions:

@@ -8,24 +8,26 @@ Parts of the mover are asked where the mover itself is in contact: what all part
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from math import cos, isfinite, radians, sin
+from math import cos, isfinite, nan, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.kernel.world import offsets
+from hypcheck.kernel.world.bodies import Bodies, Levels, bodies_of, levels_of
 from hypcheck.kernel.world.grid import Grid, grid_of
-from hypcheck.kernel.world.reach import reaches
+from hypcheck.kernel.world.reach import in_reach, reaches
 from hypcheck.kernel.world.step import Body, position_beside
 from hypcheck.pairs import CENTER
 from hypcheck.rows import CANNOT_SAY, Positions
 from hypcheck.scene import model
 from hypcheck.scene.reading import parse_scene, read_scene
+from hypcheck.visible import visible
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -34,8 +36,8 @@ NOTHING_SAID = 2
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
-_OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT, EXTERIOR)
-"""What counts more when hyperboloids say different things: 0 is nothing said, and −1, the last, nobody near."""
+_OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT)
+"""What counts more when hyperboloids say different things; 0 is nothing said by those that are near."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,10 @@ class Scene:
     """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`."""
 
     model: model.Scene
+
+    def __post_init__(self) -> None:
+        if not self.model.hyperboloids:
+            raise InputError("the scene has no hyperboloid; it must have one at least")
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
@@ -62,68 +68,69 @@ class Scene:
         height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded centre is.
         Raises InputError for numbers that are not finite.
         """
-        columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(each, np.float64)) for each in (x, y, z, heading)))
+        columns = _columns((x, y, z, heading))
         centres = np.stack(columns[:3], axis=1)
-        if centres.ndim != 2:
-            raise InputError(f"x, y, z have shape {columns[0].shape}; each must be (n,) or a single number")
         for name, values in zip((*CENTER, "heading"), columns, strict=True):
             if not np.isfinite(values).all():
                 index = int(np.argmin(np.isfinite(values)))
                 raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
         query, body = self._pairs(centres)
         said = self._said(query, body, centres, columns[3])
-        return self._answers(_combined(said, query, len(centres)))
+        found = _combined(said, query, len(centres))
+        silent = found == NOTHING_SAID
+        found[silent] = np.where(self._levels.hold_each(centres[silent, 2]), EXTERIOR, NOTHING_SAID)
+        return self._answers(found)
 
     def position(self, x: float, y: float, z: float, heading: float = 0.0) -> int:
         """The exact answer to the scene's question for one centre: as classify, at the price of a step.
 
         Raises InputError for numbers that are not finite.
         """
-        x, y, z = float(x), float(y), float(z)
+        try:
+            x, y, z, heading = float(x), float(y), float(z), float(heading)
+        except (TypeError, ValueError, OverflowError):
+            x = nan
         if not (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading)):
             return int(self.classify(x, y, z, heading)[0])  # which says what is wrong
-        bodies, mover, found = self._steps, self.model.mover, -1
+        mover, found = self.model.mover, 0
         for index in self._near(x, y, z):
-            body = bodies[index]
-            if not body[5] <= z - body[4] <= body[6]:
-                rank = 0
-            else:
+            body = self._body(index)
+            if body[5] <= z <= body[6]:
                 said = position_beside(body, mover.b, mover.d, x, y, z)
                 if said == CONTACT and mover.parts:
                     said = self._of_parts(index, (x, y, z), heading)
                 if said == CONTACT:
                     found = _RANK[CONTACT]
                     break
-                rank = _RANK[said]
-            found = max(found, rank)
-        answer = _OF_RANK[found]
+                found = max(found, _RANK[said])
+        answer = _OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR
         return answer if self.model.question == "position" else int(self._answers(np.array([answer], np.int8))[0])
 
-    def _near(self, x: float, y: float, z: float) -> Iterable[int]:
+    def _near(self, x: float, y: float, z: float) -> Sequence[int]:
         height = self.model.region.z
-        if height is not None and not height.low <= z <= height.high:
-            return range(len(self._steps))
+        if height is not None and not height.low <= z <= height.high:  # of which the grid promises nothing
+            near: list[int] = in_reach(self._bodies, self.model.mover, (x, y, z)).tolist()
+            return near
         return self._grid.near(x, y)
 
     def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
         """Which hyperboloids have to be asked about which centres."""
         height = self.model.region.z
-        if height is not None and not ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
-            count = len(self.model.hyperboloids)  # outside its region the grid promises nothing
-            return np.repeat(np.arange(len(centres)), count), np.tile(np.arange(count), len(centres))
-        near = [self._grid.near(x, y) for x, y in centres[:, :2].tolist()]
+        if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
+            return self._grid.near_each(centres[:, 0], centres[:, 1])
+        near = [self._near(x, y, z) for x, y, z in centres.tolist()]
         counts = [len(each) for each in near]
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
     def _said(self, query: Indices, body: Indices, centres: Floats, heading: Floats) -> Positions:
         """What each hyperboloid says about its centre."""
-        shapes, origins, heights = self._bodies
+        shapes, origins, heights = self._bodies.shapes, self._bodies.origins, self._bodies.heights
         mover = self.model.mover
         result = _positions(shapes[body], (mover.b, mover.d), centres[query], origins[body])
         for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
             x, y, z = centres[query[pair]].tolist()
             result[pair] = self._of_parts(int(body[pair]), (x, y, z), float(heading[query[pair]]))
-        level = centres[query, 2] - origins[body, 2]
+        level = centres[query, 2]
         result[(level < heights[body, 0]) | (level > heights[body, 1])] = NOTHING_SAID
         return result
 
@@ -133,7 +140,7 @@ class Scene:
         for number, part in enumerate(self.model.mover.parts):
             turn = radians(heading + part.angle)
             x, y = centre[0] + part.arm * cos(turn), centre[1] + part.arm * sin(turn)
-            said = position_beside(self._steps[index], part.b, part.d, x, y, centre[2])
+            said = position_beside(self._body(index), part.b, part.d, x, y, centre[2])
             if said == CONTACT or (number and said != found):
                 return CONTACT
             found = said
@@ -146,25 +153,57 @@ class Scene:
         yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
         return np.where(positions == NOTHING_SAID, CANNOT_SAY, positions == yes).astype(np.int8)
 
+    def _body(self, index: int) -> Body:
+        """A hyperboloid's numbers without arrays; each is kept once it was asked."""
+        found = self._asked.get(index)
+        if found is None:
+            of = self._bodies
+            columns = (of.shapes[index], of.origins[index], of.heights[index])
+            alpha, gamma, x, y, z, low, high = (number for column in columns for number in column.tolist())
+            found = self._asked[index] = (alpha, gamma, x, y, z, low, high)
+        return found
+
+    @cached_property
+    def _asked(self) -> dict[int, Body]:
+        return {}
+
     @cached_property
     def _grid(self) -> Grid:
-        _, origins, _ = self._bodies
-        return grid_of(origins[:, 0], origins[:, 1], reaches(self.model))
+        origins = self._bodies.origins
+        far = reaches(self._bodies, self.model.mover, self.model.region.z)
+        return grid_of(origins[:, 0], origins[:, 1], far)
 
     @cached_property
-    def _steps(self) -> list[Body]:
-        """The same as _bodies, as numbers without arrays."""
-        shapes, origins, heights = self._bodies
-        table = np.concatenate([shapes, origins, heights], axis=1).tolist()
-        return [(alpha, gamma, x, y, z, low, high) for alpha, gamma, x, y, z, low, high in table]
+    def _levels(self) -> Levels:
+        return levels_of(self._bodies.heights)
 
     @cached_property
-    def _bodies(self) -> tuple[Floats, Floats, Floats]:
-        """α and γ (m, 2), centres (m, 3) and modelled heights (m, 2) of all hyperboloids."""
-        bodies = self.model.hyperboloids
-        heights = [(-np.inf, np.inf) if body.height is None else (body.height.low, body.height.high) for body in bodies]
-        shapes = np.array([(body.alpha, body.gamma) for body in bodies])
-        return shapes, np.array([body.center for body in bodies], np.float64), np.array(heights)
+    def _bodies(self) -> Bodies:
+        return bodies_of(self.model.hyperboloids)
+
+
+def _columns(given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """x, y, z and the heading as columns of one length; raises InputError."""
+    names = (*CENTER, "heading")
+    columns = [_numbers(name, values) for name, values in zip(names, given, strict=True)]
+    try:
+        return tuple(_one_column(each) for each in np.broadcast_arrays(*columns))
+    except ValueError:
+        shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
+        raise InputError(f"{shapes} have shapes that do not go together; each must be (n,) or a number") from None
+
+
+def _numbers(name: str, values: ArrayLike) -> Floats:
+    try:
+        return np.atleast_1d(np.asarray(values, np.float64))
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} is {visible(repr(values), 60)}; it must be a number or an array (n,)") from None
+
+
+def _one_column(values: Floats) -> Floats:
+    if values.ndim != 1:
+        raise ValueError("no column")
+    return values
 
 
 def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, origins: Floats) -> Positions:
@@ -173,8 +212,8 @@ def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, o
 
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:
-    """One answer a centre: contact before interior before exterior; where nobody was near, exterior."""
+    """What those that are near come to at each centre: contact before interior before exterior, else nothing said."""
     rank = np.select([said == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
-    highest = np.full(count, -1, np.int8)
+    highest = np.zeros(count, np.int8)
     np.maximum.at(highest, query, rank)
     return np.array(_OF_RANK, np.int8)[highest]

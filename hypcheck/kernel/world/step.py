@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from math import inf, nextafter
+from sys import float_info
 
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.world.offsets import exact_position
+
+GREATEST = float_info.max
+"""A difference of centres from here on has no float64 above it."""
 
 Body = tuple[float, float, float, float, float, float, float]
 """α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
@@ -24,6 +28,8 @@ def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float
     ):
         return position(alpha, gamma, b, d, across, along, up)
     across, along, up = abs(across), abs(along), abs(up)
+    if not (across < GREATEST and along < GREATEST and up < GREATEST):
+        return exact_position([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
     outermost = position(alpha, gamma, b, d, nextafter(across, inf), nextafter(along, inf), nextafter(up, 0.0))
     innermost = position(alpha, gamma, b, d, nextafter(across, 0.0), nextafter(along, 0.0), nextafter(up, inf))
     if outermost == innermost:
