@@ -24,6 +24,7 @@ COMMANDS = {
     "record": "hypcheck.cli.record:record_",
     "plan": "hypcheck.cli.plan:plan",
     "emit": "hypcheck.cli.emit:emit",
+    "simulate": "hypcheck.cli.simulate:simulate",
     "init": "hypcheck.cli.init:init",
     "info": "hypcheck.cli.info:info",
 }

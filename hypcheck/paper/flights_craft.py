@@ -97,7 +97,7 @@ def craft_of(scene: Scene) -> Craft:
     if len(scene.hyperboloids) != 1:
         raise InputError(f"the scene {scene.name!r} has {len(scene.hyperboloids)} hyperboloids; a tower is one alone")
     (tower,) = scene.hyperboloids
-    _require_ordinary(scene)
+    require_ordinary(scene)
     _require_regime(scene, tower)
     first = _first_of_four(scene)
     return Craft(
@@ -109,7 +109,7 @@ def craft_of(scene: Scene) -> Craft:
     )
 
 
-def _require_ordinary(scene: Scene) -> None:
+def require_ordinary(scene: Scene) -> None:
     """Raise InputError where lengths are so long or so short that what is printed overflows in float64."""
     for body in (*scene.hyperboloids, scene.mover, *scene.mover.parts):
         for name in ("alpha", "gamma", "b", "d"):

@@ -9,13 +9,31 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.kernel.classify import classify_scene
 from hypcheck.pairs import Position
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.flights_circle import Direction
 from hypcheck.paper.flights_craft import ROTORS, Craft, Mask, Point
-from hypcheck.paper.motion import always, always_turning
+from hypcheck.paper.motion import always, always_turning, first_contact
+
+TOLD = 12
+"""First contacts that are told one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The first contact on an accepted move from `start` to `end`, the centre's: of `rotor` 1 to 4.
+
+    It is at a time from `first_lower` to `first_upper`, where the move takes from 0 to 1.
+    """
+
+    start: tuple[float, float, float]
+    end: tuple[float, float, float]
+    rotor: int
+    first_lower: float
+    first_upper: float
 
 
 @dataclass(slots=True)
@@ -25,7 +43,7 @@ class Ways:
     Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact somewhere on the way, `…_begun` of these
     at its very beginning (after a turn in place whose answer was ignored), `wrongly_accepted` of all at their end.
     `wrongly_refused` moves end in a valid position. Of the `turns` in place `turns_touching` sweep a rotor through
-    contact.
+    contact. The `contacts` of moves that begin in a valid position are told, TOLD of them at most.
     """
 
     vertical: int = 0
@@ -38,11 +56,13 @@ class Ways:
     wrongly_refused: int = 0
     turns: int = 0
     turns_touching: int = 0
+    contacts: tuple[Contact, ...] = ()
 
     def add(self, other: Ways) -> None:
         """Count what another has counted as well."""
         for each in fields(self):
             setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
+        self.contacts = self.contacts[:TOLD]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
         """Count what a draw of many flights came to."""
@@ -55,6 +75,9 @@ class Ways:
             self._count(f"{name}_touching", those & ~clear)
             self._count(f"{name}_begun", those & ~begun)
         self._count("wrongly_accepted", ~ended)
+        touching = np.flatnonzero(begun & ~clear)[: TOLD - len(self.contacts)]
+        if len(touching):
+            self.contacts += _contacts(craft, _of(start, touching), _of(end, touching), _headed(heading, touching))
         refused = np.flatnonzero(moves.refused)
         self._count("wrongly_refused", valid(craft, _of(moves.end, refused), _headed(moves.before, refused)))
         self._watch_turns(craft, moves)
@@ -98,10 +121,29 @@ def _judged(craft: Craft, start: Point, end: Point, heading: Direction) -> tuple
     return clear, begun, ended
 
 
-def _of(point: Point, those: np.typing.NDArray[np.int64]) -> Point:
+def _contacts(craft: Craft, start: Point, end: Point, heading: Direction) -> tuple[Contact, ...]:
+    """The first contact of each of these moves; the rotor that has it first."""
+    first, last = craft.rotors(start, heading), craft.rotors(end, heading)
+    found = []
+    for move, (here, there) in enumerate(zip(zip(*start, strict=True), zip(*end, strict=True), strict=True)):
+        times = [
+            (first_contact(craft.rotor, first, last, move + rotor * len(start[0])), rotor + 1)
+            for rotor in range(ROTORS)
+        ]
+        (lower, upper), rotor = min(times)
+        found.append(Contact(_floats(here), _floats(there), rotor, lower, upper))
+    return tuple(found)
+
+
+def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
+    x, y, z = map(float, point)
+    return x, y, z
+
+
+def _of(point: Point, those: NDArray[np.int64]) -> Point:
     x, y, z = point
     return x[those], y[those], z[those]
 
 
-def _headed(direction: Direction, those: np.typing.NDArray[np.int64]) -> Direction:
+def _headed(direction: Direction, those: NDArray[np.int64]) -> Direction:
     return direction[0][those], direction[1][those]

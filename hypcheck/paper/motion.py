@@ -48,6 +48,14 @@ def always(
     return clear
 
 
+def first_contact(
+    sizes: Sizes, start: Point, end: Point, lane: int, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> tuple[float, float]:
+    """Bounds of the time of first contact on one of these ways, 0 ≤ time ≤ 1; inf twice where there is none."""
+    way = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
+    return way.first_lower, way.first_upper
+
+
 def _favoured(side: Position, at: Point) -> Point:
     """A position that is not on that side only where the exact one is not either: a hair nearer to it."""
     more, less = (1 - MARGIN, 1 + MARGIN) if side is Position.INTERIOR else (1 + MARGIN, 1 - MARGIN)

@@ -41,6 +41,7 @@ class TowerPlan:
         """The scene's rules of flight. Raises InputError where it has none."""
         if self.scene.flight is None:
             raise InputError(f"the scene {self.scene.name!r} has no [flight]; docs/scenes.md has its keys")
+        _require_room(self.scene, self.scene.flight)
         return self.scene.flight
 
     def blocks(self) -> dict[tuple[float, float], list[Block]]:
@@ -48,6 +49,26 @@ class TowerPlan:
         if not self.runs:
             return {}
         return tower_table.blocks(self.craft, self.flight, self.seed, self.runs, watched=self.continuous)
+
+
+def _require_room(scene: Scene, flight: Flight) -> None:
+    """Raise InputError where flights begin outside the modelled height, or the region bounds them closer than that."""
+    (tower,) = scene.hyperboloids
+    start, height, region = flight.start.z, tower.height, scene.region
+    if height is not None and not height.low <= start.low <= start.high <= height.high:
+        raise InputError(
+            f"the scene {scene.name!r}: flights start at z from {start.low:g} to {start.high:g}; that must be within "
+            f"the tower's height, {height.low:g} to {height.high:g}"
+        )
+    level = tower.center[2]
+    roomy = region.z is None or (
+        height is not None and region.z.low <= level + height.low and region.z.high >= level + height.high
+    )
+    if region.x is not None or region.y is not None or not roomy:
+        raise InputError(
+            f"the scene {scene.name!r}: its region bounds the flights, which only the tower's wall and height may do; "
+            "it must have no x and no y, and a z no shorter than the tower's height"
+        )
 
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:

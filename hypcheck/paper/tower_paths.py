@@ -20,7 +20,7 @@ def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[di
     """Three flights of 25 positions each, from the tower's centre, as JSON has them; and exact verdicts on their ways.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and how many `executions`, of these
-    `touching` (Δ ≤ 0) and of the movements `refused`.
+    `touching` (Δ ≤ 0), of the movements `refused`, and draws to `outside_height`.
     """
     tracks: list[list[tuple[float, ...]]] = [[] for _ in range(FLIGHTS)]
     ways = Ways()
@@ -43,6 +43,7 @@ def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[di
             "executions": int(tallies.executions[lane]),
             "touching": int(tallies.touching[lane]),
             "refused": int(tallies.refused[lane]),
+            "outside_height": int(tallies.redrawn[lane]),
         }
         for lane, track in enumerate(tracks)
     ], ways

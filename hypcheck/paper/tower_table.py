@@ -70,25 +70,28 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A figure of the table: the mean percentage and its standard error (None for a single run), and means a run."""
+    """A figure of the table: the mean percentage and its standard error (None for a single run), and means a run.
+
+    `outside_height`: draws that lead beyond the modelled height, of which nothing is asked.
+    """
 
     percent: float
     standard_error: float | None
     executions: float
     refused: float
-    redrawn: float
+    outside_height: float
     ways: Ways | None
 
 
 def moves_of(flight: Flight, step: float) -> int:
     """How many steps cover the distance; a last one that overshoots by rounding alone is not made."""
-    moves = math.ceil(flight.distance / step * (1 - 2.0**-40))
+    moves = flight.distance / step * (1 - 2.0**-40)
     if moves > MOST_MOVES:
         raise InputError(
-            f"a run of {flight.distance!r} with steps of {step!r} would take {moves:,} moves; it must be "
-            f"{MOST_MOVES:,} at most"
+            f"a run of {flight.distance!r} with steps of {step!r} would take {moves:.3g} moves; "
+            f"it must be {MOST_MOVES:,} at most"
         )
-    return moves
+    return math.ceil(moves)
 
 
 def fly_block(block: Block) -> tuple[Tallies, Ways | None]:
@@ -143,7 +146,7 @@ def _cell(results: Sequence[tuple[Tallies, Ways | None]]) -> Cell:
         standard_error=error,
         executions=float(np.mean(executions)),
         refused=float(np.mean(refused)),
-        redrawn=float(np.mean(redrawn)),
+        outside_height=float(np.mean(redrawn)),
         ways=together(ways for _, ways in results),
     )
 
@@ -175,6 +178,8 @@ def as_json(cells: Mapping[tuple[float, float], Cell], runs: int) -> dict[str, A
             for row, figures in zip(rows, PRINTED, strict=True)
         ],
         "executions": [[cell.executions for cell in row] for row in rows],
+        "refused": [[cell.refused for cell in row] for row in rows],
+        "outside_height": [[cell.outside_height for cell in row] for row in rows],
         "root_mean_square_difference": _root_mean_square(rows),
         "second_row_read_as_0.25": {
             "t": SECOND_READING,
@@ -184,6 +189,8 @@ def as_json(cells: Mapping[tuple[float, float], Cell], runs: int) -> dict[str, A
                 _difference(cell, figure, runs) for cell, figure in zip(other, PRINTED[1], strict=True)
             ],
             "executions": [cell.executions for cell in other],
+            "refused": [cell.refused for cell in other],
+            "outside_height": [cell.outside_height for cell in other],
             "root_mean_square_difference": _root_mean_square([rows[0], other, rows[2]]),
         },
         "ways": None if ways is None else asdict(ways),

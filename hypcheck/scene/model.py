@@ -117,8 +117,8 @@ class Flight:
 class Walk:
     """How a walker wanders: `steps` moves of length `step`, each after a turn uniform within ±`largest_turn` degrees.
 
-    It begins at `start` with `heading` (degrees from the x axis). After a refusal it turns by `refused_turn` degrees,
-    left or right alike, in place of the next turn.
+    It begins at `start` with `heading` (degrees from the x axis). After a refusal the next turn is by `refused_turn`
+    degrees more, left or right alike.
     """
 
     start: Point

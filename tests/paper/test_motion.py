@@ -14,7 +14,7 @@ from hypcheck.paper import motion
 from hypcheck.paper.flights import Moves, fly
 from hypcheck.paper.flights_circle import any_angle, small_angle
 from hypcheck.paper.flights_craft import craft_of
-from hypcheck.paper.flights_ways import Ways, valid
+from hypcheck.paper.flights_ways import TOLD, Contact, Ways, valid
 from hypcheck.paper.motion import always, always_turning
 from hypcheck.scene.model import Span
 from hypcheck.scene.reading import read_scene
@@ -142,6 +142,9 @@ def watched_alone(craft, moves, place, expected):
         begun = body.start is INTERIOR or all(way.start is INTERIOR for way in found)
         for name, count in ((kind, True), (f"{kind}_touching", not good), (f"{kind}_begun", not begun)):
             setattr(expected, name, getattr(expected, name) + count)
+        if begun and not good:
+            (lower, upper), rotor = min(((way.first_lower, way.first_upper), each) for each, way in enumerate(found, 1))
+            expected.contacts += (Contact(floats(*start)[0], floats(*end)[0], rotor, lower, upper),)
         expected.wrongly_accepted += not (body.end is INTERIOR or all(way.end is INTERIOR for way in found))
     if moves.turn[place]:
         angle, center = float(np.radians(moves.turn[place])), floats(*start)[0]
@@ -165,6 +168,32 @@ def test_flights_are_watched_move_by_move():
     assert counted.wrongly_accepted == counted.wrongly_refused == 0
     assert counted.turns_touching > 0
     assert counted.horizontal_touching > 0
+
+
+def test_a_move_through_the_waist_touches_first_where_its_first_rotor_does():
+    """Both ends are a metre and more from the waist, where the tower is wider than a rotor needs; the waist is not."""
+    craft, counted, expected = craft_of(read_scene("tower")), Ways(), Ways()
+    yes, no = np.ones(40, dtype=bool), np.zeros(40, dtype=bool)
+    start = (np.linspace(1.76, 1.79, 40), np.zeros(40), np.full(40, -1.0))
+    moves = Moves(
+        lane=np.arange(40),
+        start=start,
+        end=(start[0], start[1], np.full(40, 2.0)),
+        before=small_angle(np.radians(np.linspace(-45.0, 45.0, 40))),
+        turn=np.zeros(40),
+        accepted=yes,
+        refused=no,
+        vertical=yes,
+        turning=no,
+        executed=yes,
+        touching=yes,
+    )
+    counted.watch(craft, moves)
+    for place in range(40):
+        watched_alone(craft, moves, place, expected)
+    assert 0 < len(expected.contacts) <= TOLD
+    assert all(0 < contact.first_lower <= contact.first_upper < 1 for contact in expected.contacts)
+    assert counted == expected
 
 
 def test_a_position_is_valid_where_the_rotors_are_though_the_body_is_not():

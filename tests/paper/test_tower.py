@@ -16,6 +16,7 @@ from hypcheck.paper.flights_craft import Procedures, craft_of
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.paper.tower_table import PRINTED, SPEEDS, STATEMENT, TIMES, blocks, fly_block, moves_of
 from hypcheck.processes import processes
+from hypcheck.scene.model import Region, Span, Start
 from hypcheck.scene.reading import read_scene
 
 TOWER = read_scene("tower")
@@ -147,8 +148,14 @@ def test_every_assumption_is_told():
         ({"scene": replace(TOWER, flight=None)}, r"has no \[flight\]"),
         (
             {"scene": replace(TOWER, flight=replace(TOWER.flight, distance=1e9))},
-            "a run of 1000000000.0 with steps of 0.5 would take 2,000,000,000 moves",
+            r"a run of 1000000000.0 with steps of 0.5 would take 2e.09 moves; it must be 1,000,000 at most",
         ),
+        (
+            {"scene": replace(TOWER, flight=replace(TOWER.flight, start=Start(Span(-30.0, 0.0), 1.0)))},
+            "flights start at z from -30 to 0; that must be within the tower's height, -17.8 to 17.8",
+        ),
+        ({"scene": replace(TOWER, region=Region(z=Span(-5.0, 5.0)))}, "its region bounds the flights"),
+        ({"scene": replace(TOWER, region=Region(x=Span(-5.0, 5.0)))}, "it must have no x and no y"),
     ],
 )
 def test_what_cannot_be_simulated_is_refused(changes, message):

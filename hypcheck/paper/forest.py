@@ -1,0 +1,159 @@
+"""`simulate forest`: the walker of the paper's section 3.1 among trees of both types, as one JSON object."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.paper.flights_craft import require_ordinary
+from hypcheck.paper.forest_trees import Mask, Trees
+from hypcheck.paper.forest_walk import Steps, Verdicts, judged, walk
+from hypcheck.paper.forest_wall import wall
+from hypcheck.paper.forest_ways import ways
+from hypcheck.scene.model import Scene, Walk
+from hypcheck.version import VERSION
+
+SCHEMA = "1.0.0"
+
+MOST_STEPS = 1_000_000
+
+WINDOW = 0.1
+"""Half of the side of the window that shows a wall closely, in units of the walker's b."""
+
+
+@dataclass(frozen=True, slots=True)
+class ForestPlan:
+    """What is to be simulated: `steps` of the scene's walk, or as many as it says; `continuous`: the ways as well."""
+
+    scene: Scene
+    seed: int
+    steps: int | None
+    continuous: bool
+
+    @property
+    def rules(self) -> Walk:
+        """The scene's walk. Raises InputError where it has none."""
+        if self.scene.walk is None:
+            raise InputError(f"the scene {self.scene.name!r} has no [walk]; docs/scenes.md has its keys")
+        return self.scene.walk
+
+    @property
+    def count(self) -> int:
+        """How many steps are tried. Raises InputError where they are too many."""
+        steps = self.rules.steps if self.steps is None else self.steps
+        if steps > MOST_STEPS:
+            raise InputError(f"{steps:,} steps were asked for; it must be {MOST_STEPS:,} at most")
+        return steps
+
+
+def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda _: None) -> dict[str, Any]:
+    """The result, as schemas/simulate-forest-1.0.0.json has it; advanced by tried steps. Raises InputError."""
+    require_ordinary(plan.scene)
+    trees = Trees(plan.scene)
+    steps = walk(trees, plan.rules, plan.scene.region, plan.count, plan.seed, advance)
+    asked = ~steps.edge
+    verdicts = judged(trees, steps.end[asked])
+    free = np.asarray((verdicts.exterior | ~verdicts.asked).all(axis=1))
+    phantom = np.zeros_like(steps.edge)
+    phantom[asked] = free & steps.refused[asked]
+    stops = _stops(trees, steps, phantom)
+    blocking = {name for stop in stops if stop["kind"] == "phantom" for name in stop["trees"]}
+    return {
+        "hypcheck": VERSION,
+        "schema": SCHEMA,
+        "simulation": "forest",
+        "scene": plan.scene.name,
+        "seed": plan.seed,
+        "walker": {"b": plan.scene.mover.b, "d": plan.scene.mover.d, "step": plan.rules.step},
+        "trees": _trees(trees, plan.rules, blocking),
+        "outside_stated_regime": trees.outside_regime,
+        "steps": _steps(steps, phantom, free),
+        "questions": _questions(verdicts),
+        "phantoms": _phantoms(verdicts, free),
+        "ways": ways(trees, steps) if plan.continuous else None,
+        "path": [list(plan.rules.start), *steps.end[steps.made].tolist()],
+        "stops": stops,
+        "wall": _wall(trees, stops),
+    }
+
+
+def _trees(trees: Trees, rules: Walk, blocking: set[str]) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": tree.name,
+            "type": trees.types[place],
+            "alpha": tree.alpha,
+            "gamma": tree.gamma,
+            "center": list(tree.center),
+            "height": None if tree.height is None else [tree.height.low, tree.height.high],
+            "ring": trees.ring(place, rules.start[2]),
+            "phantom": tree.name in blocking,
+        }
+        for place, tree in enumerate(trees.scene.hyperboloids)
+    ]
+
+
+def _steps(steps: Steps, phantom: Mask, free: Mask) -> dict[str, int]:
+    return {
+        "tried": len(steps.edge),
+        "made": _count(steps.made),
+        "edge": _count(steps.edge),
+        "contact": _count(steps.refused & ~phantom),
+        "phantom": _count(phantom),
+        "wrongly_allowed": _count(steps.made[~steps.edge] & ~free),
+    }
+
+
+def _questions(verdicts: Verdicts) -> dict[str, int]:
+    return {
+        "asked": _count(verdicts.asked),
+        "outside_height": _count(~verdicts.asked),
+        "line": _count(verdicts.line & verdicts.asked),
+    }
+
+
+def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
+    """Tried steps that lead to a free place and are refused: by Table 2 in each precision, and after the line test."""
+    ignored = ~verdicts.asked
+    return {
+        name: _count(free & ~(allowed | ignored).all(axis=1))
+        for name, allowed in (
+            ("float32", verdicts.single),
+            ("float64", verdicts.double),
+            ("float32_after_line", verdicts.single | verdicts.line),
+        )
+    }
+
+
+def _stops(trees: Trees, steps: Steps, phantom: Mask) -> list[dict[str, Any]]:
+    """Every refusal but those at the edge: what refused it, and the free way to the nearest tree that did."""
+    refused = np.flatnonzero(steps.refused)
+    verdicts, gaps = judged(trees, steps.end[refused]), trees.gaps(steps.end[refused])
+    against = verdicts.asked & ~verdicts.single
+    return [
+        {
+            "kind": "phantom" if phantom[step] else "contact",
+            "at": steps.start[step].tolist(),
+            "tried": steps.end[step].tolist(),
+            "trees": [trees.scene.hyperboloids[tree].name for tree in np.flatnonzero(against[place])],
+            "gap": float(gaps[place][against[place]].min()),
+        }
+        for place, step in enumerate(refused.tolist())
+    ]
+
+
+def _wall(trees: Trees, stops: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
+    """The wall that stopped the walker with the most free way before her; None where there was none."""
+    phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
+    if not phantoms:
+        return None
+    worst = max(phantoms, key=lambda stop: float(stop["gap"]))
+    return wall(trees, np.array(worst["tried"]), WINDOW * trees.scene.mover.b)
+
+
+def _count(those: Mask) -> int:
+    return int(np.count_nonzero(those))

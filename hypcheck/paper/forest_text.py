@@ -1,0 +1,66 @@
+"""The result of `simulate forest` in words."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from typing import Any
+
+WIDTH = 100
+SHOWN = 8
+"""Phantoms that are told one by one."""
+
+
+def forest_lines(result: dict[str, Any]) -> Iterator[str]:
+    """Line by line."""
+    trees, walker, steps = result["trees"], result["walker"], result["steps"]
+    wide = sum(tree["type"] == 1 for tree in trees)
+    yield (
+        f"{result['scene']}, seed {result['seed']}: {len(trees)} trees ({wide} of type 1, {len(trees) - wide} of "
+        f"type 2), a walker of b = {walker['b']:g}, d = {walker['d']:g}"
+    )
+    yield from _regime(result["outside_stated_regime"])
+    yield (
+        f"{steps['tried']:,} steps of {walker['step']:g} tried by Table 2 in float32: {steps['made']:,} made, "
+        f"{steps['contact']:,} rightly refused,"
+    )
+    yield f"  {steps['phantom']:,} stopped by a phantom, {steps['edge']:,} turned back at the region's edge"
+    if steps["wrongly_allowed"]:
+        yield f"  {steps['wrongly_allowed']:,} of the made ones lead into contact"
+    yield from _questions(result["questions"])
+    phantoms = result["phantoms"]
+    yield (
+        f"phantoms, contact with nothing: {phantoms['float32']:,} in float32, {phantoms['float64']:,} in float64, "
+        f"{phantoms['float32_after_line']:,} in float32 where the line is asked first"
+    )
+    yield from _stops(result["stops"])
+    if result["ways"] is not None:
+        ways = result["ways"]
+        yield f"{ways['made']:,} made steps: {ways['touching']:,} touch a tree on the way"
+        for contact in ways["contacts"][:SHOWN]:
+            start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
+            yield f"  ({start}) to ({end}): {contact['tree']} first at {contact['first_upper']:.3g} of the way"
+
+
+def _regime(names: list[str]) -> Iterator[str]:
+    if names:
+        listed = ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
+        told = f"Procedure 1 claims nothing about trees with (gamma/d)^2 < alpha/b: {len(names)}, {listed}"
+        yield from textwrap.wrap(told, WIDTH)
+
+
+def _questions(questions: dict[str, int]) -> Iterator[str]:
+    asked, line = questions["asked"], questions["line"]
+    share = f" ({100 * line / asked:.2f} %)" if asked else ""
+    yield f"{asked:,} questions, one for each step and tree: a line answers {line:,} of them{share} without Δ"
+    if questions["outside_height"]:
+        yield f"  {questions['outside_height']:,} more are outside the modelled height and have no answer"
+
+
+def _stops(stops: list[dict[str, Any]]) -> Iterator[str]:
+    phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
+    for stop in phantoms[:SHOWN]:
+        x, y, z = stop["tried"]
+        yield f"  at ({x:.3f}, {y:.3f}, {z:.3f}), {stop['gap']:.2f} from touching: {', '.join(stop['trees'])}"
+    if len(phantoms) > SHOWN:
+        yield f"  and {len(phantoms) - SHOWN:,} more"

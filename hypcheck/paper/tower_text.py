@@ -1,0 +1,155 @@
+"""The result of `simulate tower` in words and columns."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+WIDTH = 100
+SHOWN = 6
+"""First contacts that are told one by one; the JSON has more."""
+
+
+_TURNS = {
+    "executed": "a turn asks the procedure in place, ignores the answer, and a step ahead follows",
+    "free": "a turn asks nothing",
+}
+
+
+def tower_lines(result: dict[str, Any]) -> Iterator[str]:
+    """Line by line."""
+    yield from _assumed(result["assumptions"], result["seed"])
+    yield ""
+    yield from _flown(result["flights"])
+    table = result["table_5"]
+    if table is not None:
+        yield ""
+        yield from _table(table, result["assumptions"]["distance"])
+        if table["ways"] is not None:
+            yield ""
+            yield "On the ways between the positions of these runs:"
+            yield from _ways(table["ways"])
+    yield ""
+    yield from textwrap.wrap(result["statement"], WIDTH)
+
+
+def _assumed(told: dict[str, Any], seed: int) -> Iterator[str]:
+    yield f"{told['scene']}, seed {seed}"
+    yield f"  tower alpha = {told['alpha']:g}, gamma = {told['gamma']:g}; {_height(told['height'])}"
+    yield (
+        f"  body b = {told['b']:g}, d = {told['d']:g}; rotors b_s = {told['b_s']:g}, d_s = {told['d_s']:g}, "
+        f"l = {told['l']:g}, g1 = heading {told['g1_from_heading']:+g} degrees"
+    )
+    turns = 1 - told["straight"] - told["vertical"]
+    ahead = "ahead or back, half each" if told["backward"] else "ahead"
+    yield f"  draws: straight {told['straight']:g} ({ahead}), up or down {told['vertical']:g}, turns {turns:g}"
+    yield f"  turns within {told['largest_turn']:g} degrees: {_TURNS[told['turn']]}"
+    yield f"  a refused movement turns by {told['refused_turn']:g} degrees, left or right"
+    yield f"  {_start(told['start'])}"
+
+
+def _height(span: Sequence[float] | None) -> str:
+    if span is None:
+        return "no end of its height is modelled"
+    return f"its height from {span[0]:g} to {span[1]:g}, beyond which an up or down is drawn again"
+
+
+def _start(start: dict[str, Any]) -> str:
+    radius, margin, (low, high) = start["radius"], start["margin"], start["z"]
+    disc = f"of radius {radius:g}" if margin is None else f"that ends {margin:g} before the wall"
+    at = f"z = {low:g}" if low == high else f"z uniform from {low:g} to {high:g}"
+    return f"flights begin at {at}, uniform over the disc {disc}, heading anywhere"
+
+
+def _flown(flights: dict[str, Any]) -> Iterator[str]:
+    paths = flights["paths"]
+    yield (
+        f"{len(paths)} flights of {len(paths[0]['positions'])} positions, steps of {flights['step']:g} "
+        f"({flights['speed']:g} m/s for {flights['time']:g} s)"
+    )
+    for number, path in enumerate(paths, start=1):
+        least, most = min(path["discriminant"]), max(path["discriminant"])
+        yield (
+            f"  {number}: {path['executions']} executions, {path['touching']} with Δ ≤ 0, "
+            f"{path['refused']} movements refused, {path['outside_height']} draws outside the modelled height; "
+            f"Δ from {least:.3g} to {most:.3g}"
+        )
+    if flights["ways"] is not None:
+        yield from _ways(flights["ways"])
+
+
+def _table(table: dict[str, Any], distance: float) -> Iterator[str]:
+    yield f"Table 5: executions with Δ ≤ 0, percent; means of {table['runs']:,} runs of {distance:g} m"
+    yield "  (± standard error; below: printed, and ours less printed in standard errors of the difference)"
+    yield "       v (m/s)" + "".join(f"{speed:>14}" for speed in table["v"])
+    rows = zip(
+        table["t"],
+        table["percent"],
+        table["standard_error"],
+        table["printed"],
+        table["difference_in_standard_errors"],
+        strict=True,
+    )
+    for row in rows:
+        yield from _row(*row)
+    other = table["second_row_read_as_0.25"]
+    yield "  the second row, if its t is a misprint for 0.25:"
+    difference = other["difference_in_standard_errors"]
+    yield from _row(other["t"], other["percent"], other["standard_error"], table["printed"][1], difference)
+    yield (
+        f"  root mean square difference of the 18 figures: {table['root_mean_square_difference']:.2f} as printed, "
+        f"{other['root_mean_square_difference']:.2f} with t = 0.25 in the second row"
+    )
+    executions, refused, outside = (
+        _between(table[name], other[name]) for name in ("executions", "refused", "outside_height")
+    )
+    yield f"  a run: {executions} executions, {refused} movements refused, {outside} draws outside the modelled height"
+
+
+def _between(rows: Sequence[Sequence[float]], other: Sequence[float]) -> str:
+    values = [value for row in (*rows, other) for value in row]
+    return f"{min(values):,.0f} to {max(values):,.0f}"
+
+
+def _row(
+    time: float,
+    percents: Sequence[float],
+    errors: Sequence[float | None],
+    printed: Sequence[float],
+    differences: Sequence[float | None],
+) -> Iterator[str]:
+    ours = "".join(f"{_with_error(percent, error):>14}" for percent, error in zip(percents, errors, strict=True))
+    yield f"  t = {time:4g} s  {ours}"
+    yield "  printed     " + "".join(f"{figure:>14.4f}" for figure in printed)
+    told = ("–" if each is None else f"{each:+.1f}" for each in differences)
+    yield "  difference  " + "".join(f"{each:>14}" for each in told)
+
+
+def _with_error(percent: float, error: float | None) -> str:
+    return f"{percent:.2f}" if error is None else f"{percent:.2f} ± {error:.2f}"
+
+
+def _ways(ways: dict[str, Any]) -> Iterator[str]:
+    for name in ("vertical", "horizontal"):
+        moves, touching, begun = ways[name], ways[f"{name}_touching"], ways[f"{name}_begun"]
+        yield (
+            f"  {moves:,} accepted {name} moves: {touching:,} touch{_share(touching, moves)}, "
+            f"{begun:,} from their beginning and {touching - begun:,} on the way"
+        )
+    yield from _contacts(ways["contacts"])
+    turns, touching = ways["turns"], ways["turns_touching"]
+    yield f"  {turns:,} turns in place: {touching:,} sweep a rotor through contact{_share(touching, turns)}"
+    yield (
+        f"  at the ends of moves the procedure was wrong {ways['wrongly_accepted'] + ways['wrongly_refused']:,} times"
+    )
+
+
+def _contacts(contacts: list[dict[str, Any]]) -> Iterator[str]:
+    for contact in contacts[:SHOWN]:
+        start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
+        yield (f"    ({start}) to ({end}): rotor {contact['rotor']} first at {contact['first_upper']:.3g} of the way")
+
+
+def _share(part: int, whole: int) -> str:
+    return f" ({100 * part / whole:.3f} %)" if whole else ""

@@ -1,0 +1,1 @@
+"""Files of `hypcheck simulate`: the JSON, and pictures drawn from it alone."""

@@ -1,0 +1,174 @@
+"""`hypcheck simulate`: text, JSON by its schema, files, and one sentence about what cannot be."""
+
+from __future__ import annotations
+
+import builtins
+import json
+import subprocess
+import sys
+from importlib import resources
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.report.json_schema import violations
+from hypcheck.scene.reading import shipped_text
+
+SHORT = shipped_text("tower").replace("distance = 500.0", "distance = 3.0")
+FOREST = ("simulate", "forest", "--seed", "3")
+
+
+def schema(name):
+    file = resources.files("hypcheck.paper").joinpath("schemas", f"simulate-{name}-1.0.0.json")
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
+def run(capsys, *arguments):
+    code = main([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+@pytest.fixture
+def tower(tmp_path):
+    path = tmp_path / "short.toml"
+    path.write_text(SHORT)
+    return ("simulate", "tower", "--scene", str(path), "--workers", "1")
+
+
+@pytest.mark.parametrize(
+    "more", [(), ("--continuous",), ("--table", "5", "--runs", "3"), ("--table", "5", "--runs", "1", "--continuous")]
+)
+def test_the_towers_json_is_what_its_schema_says(capsys, tower, more):
+    code, out, err = run(capsys, *tower, "--format", "json", *more)
+    assert (code, err) == (0, "")
+    assert violations(json.loads(out), schema("tower"), closed=True) == []
+    assert (json.loads(out)["table_5"] is None) == ("--table" not in more)
+
+
+@pytest.mark.parametrize("more", [("--steps", 40), ("--continuous",), ("--steps", 0)])
+def test_the_forests_json_is_what_its_schema_says(capsys, more):
+    code, out, err = run(capsys, *FOREST, "--format", "json", *more)
+    assert (code, err) == (0, "")
+    assert violations(json.loads(out), schema("forest"), closed=True) == []
+
+
+def test_the_towers_text_says_what_the_table_cannot_tell_and_all_that_is_assumed(capsys, tower):
+    _, out, _ = run(capsys, *tower, "--table", "5", "--runs", "2", "--continuous")
+    assert "The unstated parameters are not identified by the table" in out
+    assert "printed            13.9532       13.9029" in out
+    assert "  the second row, if its t is a misprint for 0.25:" in out
+    assert "ahead or back, half each" in out
+    assert "l = 0.135, g1 = heading +45 degrees" in out
+    assert "accepted vertical moves" in out
+    assert max(map(len, out.splitlines())) <= 120
+
+
+def test_the_statement_stands_by_the_flights_too(capsys, tower):
+    assert "not identified by the table" in run(capsys, *tower)[1]
+
+
+def test_the_simplest_reading_can_be_chosen(capsys):
+    code, out, _ = run(capsys, "simulate", "tower", "--scene", "tower-simplest")
+    assert code == 0
+    assert "no end of its height is modelled" in out
+    assert "a turn asks nothing" in out
+    assert "straight 0.25 (ahead)" in out
+
+
+def test_the_forests_text_tells_of_phantoms_and_lines(capsys):
+    _, out, _ = run(capsys, *FOREST, "--continuous")
+    assert "64 trees (40 of type 1, 24 of type 2)" in out
+    assert "without Δ" in out
+    assert "phantoms, contact with nothing: 5 in float32, 0 in float64, 0 in float32 where the line is asked" in out
+    assert "from touching: birch 18" in out
+    assert "made steps: 3 touch a tree on the way" in out
+
+
+def test_trees_outside_the_regime_and_heights_are_told(capsys, tmp_path):
+    path = tmp_path / "odd.toml"
+    text = shipped_text("forest").replace("alpha = 0.61, gamma = 28.0", "alpha = 0.61, gamma = 0.9", 1)
+    path.write_text(text.replace("height = [-0.9, 5.0]", "height = [-0.9, -0.5]", 2))
+    code, out, _ = run(capsys, "simulate", "forest", "--scene", path, "--steps", 20)
+    assert code == 0
+    assert "claims nothing about trees with (gamma/d)^2 < alpha/b: 1, oak 1" in out
+    assert "40 more are outside the modelled height and have no answer" in out
+
+
+def test_files_are_written_and_told_on_standard_error(capsys, tower, tmp_path):
+    out = tmp_path / "new" / "folder"
+    code, said, told = run(capsys, *tower, "--table", "5", "--runs", "2", "--out", out, "--format", "json")
+    assert code == 0
+    names = ["simulate-tower.json", "tower-flights.svg", "tower-table-5.svg"]
+    assert told.splitlines() == [f"wrote {out / name}" for name in names]
+    assert json.loads((out / names[0]).read_text()) == json.loads(said)
+    for name in names[1:]:
+        root = ElementTree.fromstring((out / name).read_bytes())  # noqa: S314 - just written
+        assert root.tag.endswith("svg")
+    run(capsys, *tower, "--out", out)
+    assert not (out / "tower-table-5.svg").exists()  # it would show another run
+
+
+def test_without_matplotlib_all_but_the_pictures_is_written(capsys, tmp_path, monkeypatch):
+    imported = builtins.__import__
+
+    def without(name, *arguments, **options):
+        if name.partition(".")[0] == "matplotlib":
+            raise ImportError(f"No module named {name!r}")
+        return imported(name, *arguments, **options)
+
+    (tmp_path / "forest-walk.svg").write_text("of another run")
+    monkeypatch.setattr(builtins, "__import__", without)
+    code, out, err = run(capsys, *FOREST, "--steps", 10, "--out", tmp_path)
+    assert code == 0
+    assert "64 trees" in out
+    assert err.splitlines()[0] == f"wrote {tmp_path / 'simulate-forest.json'}"
+    assert "no pictures: matplotlib cannot be imported" in err
+    assert "hypcheck[report]" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["simulate-forest.json"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("tower", "--runs", 5), "--runs is of the table; it needs --table 5"),
+        (("tower", "--table", "4"), "'4'"),
+        (("tower", "--table", "5", "--runs", 0), "0 is not in the range"),
+        (("tower", "--speed", "nan"), "--speed is nan; it must be a number from 1e-6 to 1e6"),
+        (("tower", "--time", "-1"), "--time is -1.0; it must be"),
+        (("tower", "--scene", "forest"), "has 64 hyperboloids; a tower is one alone"),
+        (("forest", "--scene", "tower"), "has no [walk]"),
+        (("forest", "--scene", "nowhere.toml"), "there is no such file"),
+        (("forest", "--steps", -1), "-1 is not in the range"),
+        (("forest", "--show-scene", "--scene", "x.toml"), "'x.toml' is no shipped scene; there are forest, tower"),
+        (
+            ("forest", "--steps", 1, "--out", "/dev/null/x"),
+            "--out /dev/null/x: nothing can be written into it: not a directory",
+        ),
+    ],
+)
+def test_bad_input_is_one_sentence(capsys, arguments, message):
+    code, _, err = run(capsys, "simulate", *arguments)
+    assert code == 2
+    assert message in err
+    assert "Traceback" not in err
+
+
+def test_a_shipped_scene_can_be_printed_and_used(capsys, tmp_path):
+    _, out, _ = run(capsys, "simulate", "tower", "--show-scene")
+    assert out == shipped_text("tower")
+    (tmp_path / "mine.toml").write_text(out)
+    assert run(capsys, "simulate", "tower", "--scene", tmp_path / "mine.toml")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "heavy"),
+    [(["--help"], {"numpy", "matplotlib", "sympy"}), (["--steps", "5"], {"matplotlib", "sympy", "fcl"})],
+)
+def test_nothing_is_loaded_that_a_run_does_not_use(arguments, heavy):
+    code = (
+        f"import sys; from hypcheck.cli.main import main; main(['simulate', 'forest', *{arguments!r}]);"
+        f"sys.exit(bool({heavy!r} & set(sys.modules)))"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
