@@ -76,6 +76,7 @@ def test_every_setting_reaches_the_run(project):
         "domain": {"regimes": ["c2>=a"], "ratio": [1e-3, 1e3], "magnitude": [1e-6, "inf"], "settings": []},
         "limits": {"startup_timeout": 5.0, "timeout": 2.5, "restarts": 3, "memory": 512 << 20},
         "workers": None,
+        "cluster": None,
     }
 
 

@@ -27,17 +27,19 @@ class Pipe:
 
     def __init__(self, data: bytes, random: Random) -> None:
         self.incoming = bytearray()
-        self.sending = False
+        self.sending, self.sent = False, 0
         self.recent = self.stderr = ()
         self._parts, self._random = data.split(seeds.SEPARATOR)[::-1], random
         self._said = self._parts.pop()
 
     def mark(self) -> None:
         """A question begins."""
+        self.sent = 0
 
     def send(self, parts) -> None:
         """Take a question; what it is does not matter."""
-        head, *_ = [bytes(part) for part in parts]
+        head, *rows = [bytes(part) for part in parts]
+        self.sent += len(head) + sum(map(len, rows))
         reply = self._parts.pop() if self._parts else b""
         self._said += marked(reply, head) if self._random.random() < 0.9 else reply
 
