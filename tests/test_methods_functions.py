@@ -226,8 +226,8 @@ def test_what_takes_too_long_to_load_is_not_started(tmp_path):
 def test_a_function_is_timed_and_a_fault_is_told():
     some = rows(1000, lucky=True)
     with open_implementation(function("right"), LIMITS) as it:
-        once, often = it.time(some, 1), it.time(some, 200)
-        assert 0 < once < often
+        # the least of five, for whatever else the machine does may fall on any one of them
+        assert 0 < min(it.time(some, 1) for _ in range(5)) < it.time(some, 200)
         with pytest.raises(InputError, match="0 rows cannot be timed 1 times"):
             it.time(some[:0], 1)
         with pytest.raises(InputError, match="cannot be asked by scene"):
