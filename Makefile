@@ -6,10 +6,10 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep attack soak kernels test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack soak kernels test lint cases check-cases paper mutants format clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
 	$(BIN)/hypcheck verify --out $(OUT)
@@ -19,6 +19,11 @@ bench: $(VENV)/ready ## error against run time of every method (under 5 minutes)
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
 	$(BIN)/hypcheck verify --out reports/reference --count 33000 --roots 20000 --meshes 20000
+
+reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minutes); reports in reports/reference/bench/
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,peers]'
+	$(BIN)/hypcheck bench --out reports/reference/bench
+	$(BIN)/hypcheck report reports/reference/bench --format overview --out reports/reference/bench/README.md
 
 test: lint check-cases ## lint, format, strict types, import layers and every test
 	$(BIN)/python -m pytest -n auto --dist worksteal

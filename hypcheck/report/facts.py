@@ -12,14 +12,6 @@ from hypcheck.report.measured import NEAREST, Measured, measured, workloads
 from hypcheck.report.text import counted, figure, listed
 
 
-def facts(record: Record) -> Iterator[str]:
-    """All of them; each kind has nothing to say where the record has none of its lines."""
-    yield from oracle_facts(record)
-    yield from paper_facts(record)
-    yield from method_facts(record)
-    yield from benchmark_facts(record)
-
-
 def oracle_facts(record: Record) -> Iterator[str]:
     """One line for the oracles that were asked, one for those that could not be."""
     totals = oracle_totals(record)
@@ -66,10 +58,14 @@ def method_facts(record: Record) -> Iterator[str]:
         )
 
 
-def benchmark_facts(record: Record) -> Iterator[str]:
-    """What claims and targets came to, what other shapes cost, where errors end and where they do not."""
+def claim_facts(record: Record) -> Iterator[str]:
+    """What the paper's claims of cost came to."""
     for line in record.of("cost"):
         yield f"claim {line['verdict']}, {line['scene']}: {line['claim']}"
+
+
+def benchmark_facts(record: Record) -> Iterator[str]:
+    """What targets came to, what other shapes cost, where errors end and where they do not."""
     kernels = record.of("kernel")
     if kernels:
         missed = [str(line["name"]) for line in kernels if not line["met"]]

@@ -21,7 +21,7 @@ from hypcheck.report.changes import (
 from hypcheck.report.choice import EVERYWHERE, POSITION, choice
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import timing_totals, under_test
-from hypcheck.report.facts import benchmark_facts, method_facts, oracle_facts, paper_facts
+from hypcheck.report.facts import benchmark_facts, claim_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.text import counted, figure, listed
 from hypcheck.report.verdict import failures, verdict
 from hypcheck.visible import shortened, visible
@@ -63,6 +63,7 @@ def summary_lines(
         *_under_test(record),
         *method_facts(record),
         *_timings(record),
+        *claim_facts(record),
         *benchmark_facts(record),
     ]
     reports = list(_reports(written))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypcheck.cli.main import main
 from hypcheck.report import overview
-from hypcheck.report.facts import facts
+from hypcheck.report.facts import benchmark_facts, claim_facts
 from hypcheck.report.write import Around
 from tests import report_samples as samples
 from tests.report.bench_lines import bench_record
@@ -13,7 +13,7 @@ from tests.report.test_benchmark import REFUSED
 
 def test_a_verification():
     text = overview.render(samples.record(), Around(["map.svg"])).decode()
-    assert text.startswith(f"# hypcheck verify\n\n**{samples.HELD}**\n\n## What it shows\n")
+    assert text.startswith(f"# hypcheck verify\n\n**{samples.HELD}**\n\n## Pictures\n")
     assert "- Equations of the paper: 1 of 2 hold; misprint: (12)." in text
     assert "](map.svg)" in text
     assert "](" not in overview.render(samples.record()).decode()
@@ -23,8 +23,9 @@ def test_a_benchmark():
     text = overview.render(bench_record(), Around(["front.svg", "pareto.svg", "errors.svg"])).decode()
     order = [
         "## Which method to use when",
-        "## What it shows",
         "](front.svg)",
+        "## What it shows",
+        "## The paper's claims of cost",
         "](pareto.svg)",
         "](errors.svg)",
         "## The run",
@@ -34,7 +35,7 @@ def test_a_benchmark():
 
 
 def test_what_a_benchmark_shows():
-    found = list(facts(bench_record()))
+    found = [*claim_facts(bench_record()), *benchmark_facts(bench_record())]
     assert "claim holds, the tower: Procedure 2.b costs less than 2.a (§ 4)" in found
     assert "targets of the kernels: 2 of 2 met" in found
     # Of the ratios 0.1, 0.5, 1 of d/b 162, 90 and 0 of 200 are false contacts.

@@ -5,23 +5,33 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from hypcheck.record import Record
-from hypcheck.report.content import choosing, failed, maps, run
-from hypcheck.report.content.blocks import Section, bullets
+from hypcheck.report.content import choosing, failed, maps, run, targets
+from hypcheck.report.content.blocks import Code, Section, bullets
 from hypcheck.report.content.errors import ERRORS, FRONT, PARETO
 from hypcheck.report.content.report import Content, title
-from hypcheck.report.facts import facts
+from hypcheck.report.facts import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import verdict
+
+_REST = (
+    "All reports of this run, with every table, plot and measurement, are made from its record by ",
+    Code("hypcheck report record.jsonl --out FOLDER"),
+    ".",
+)
 
 
 def overview(record: Record, beside: Collection[str]) -> Content:
     """The content of the page; `beside` are the names of the files beside it, whose pictures it shows."""
-    shows = bullets([f"{sentence[:1].upper()}{sentence[1:]}." for sentence in facts(record)])
+    parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
+    shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
     pictures = tuple(figures for figures in (maps.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
         *failed.sections(record),
         *choosing.sections(record),
+        *([Section("Pictures", pictures[:1])] if pictures else []),
         *([Section("What it shows", (shows,))] if shows.items else []),
-        *([Section("Pictures", pictures)] if pictures else []),
+        *targets.told(record),
+        *([Section("More pictures", pictures[1:])] if pictures[1:] else []),
         *run.sections(record),
+        Section("The rest", (bullets([_REST]),)),
     ]
     return Content(title(record), verdict(record), tuple(sections))

@@ -10,10 +10,12 @@ from hypcheck.report.content.blocks import (
     Cell,
     Code,
     Column,
+    Item,
     Paragraph,
     Section,
     Strong,
     Table,
+    bullets,
     number,
     prose,
     table,
@@ -37,7 +39,7 @@ def baseline(record: Record) -> Iterator[Section]:
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of the others."""
     if record.of("cost"):
-        yield Section("The paper's claims of cost", tuple(_claims(record.of("cost"))))
+        yield Section("The paper's claims of cost", tuple(_claims(record)))
     if record.of("kernel"):
         yield Section("The kernels' targets", (_kernels(record.of("kernel")),))
 
@@ -66,31 +68,45 @@ def _baseline(lines: list[Line]) -> Table:
     return table("against the baseline", columns, rows)
 
 
-def _claims(lines: list[Line]) -> Iterator[Block]:
-    columns: tuple[Column | str, ...] = ("claim", "scene", "verdict", "what was measured")
-    rows = [
-        (
-            Cell(line["claim"]),
-            Cell(line["scene"]),
-            Cell(Strong(line["verdict"]), tone=_TONES.get(line["verdict"], "")),
-            Cell(line["says"]),
-        )
-        for line in lines
+def claims(record: Record) -> dict[str, list[Line]]:
+    """The claims of cost with their lines, one for each scene."""
+    found: dict[str, list[Line]] = {}
+    for line in record.of("cost"):
+        found.setdefault(line["claim"], []).append(line)
+    return found
+
+
+def told(record: Record) -> Iterator[Section]:
+    """The claims with what was measured of them, without the table of what was compared."""
+    items = [
+        Item(claim, tuple((Strong(line["verdict"]), f", {line['scene']}. {line['says']}") for line in lines))
+        for claim, lines in claims(record).items()
     ]
-    yield table("claims of cost", columns, rows)
-    columns = ("claim", "compared", *map(number, ("ratio", "ns")), "operations")
-    compared = [
-        (
-            Cell(line["claim"]),
+    if items:
+        yield Section("The paper's claims of cost", (bullets(items),))
+
+
+def _claims(record: Record) -> Iterator[Block]:
+    for claim, lines in claims(record).items():
+        yield Paragraph(Strong(claim))
+        rows = [
+            (Cell(line["scene"]), Cell(Strong(line["verdict"]), tone=_TONES.get(line["verdict"], "")), line["says"])
+            for line in lines
+        ]
+        yield table("what was measured of a claim", ("scene", "verdict", "what was measured"), rows)
+        columns: tuple[Column | str, ...] = ("scene", "compared", *map(number, ("ratio", "ns")), "operations")
+        yield table("what was compared", columns, [row for line in lines for row in _compared(line)])
+
+
+def _compared(line: Line) -> Iterator[tuple[Cell, ...]]:
+    for each in line["compared"]:
+        yield (
+            Cell(line["scene"]),
             Cell(each["name"]),
             Cell("–") if each["ratio"] is None else _interval(each["ratio"], each["ratio_ci95"]),
             Cell("–") if each["median_ns"] is None else Cell(figure(each["median_ns"]), each["median_ns"]),
             Cell(_operations(each["operations"])),
         )
-        for line in lines
-        for each in line["compared"]
-    ]
-    yield table("what was compared", columns, compared)
 
 
 def _operations(counts: Mapping[str, int] | None) -> str:
