@@ -65,7 +65,7 @@ def _divisions(_plan: BenchPlan, claim: Claim, found: Ratios, _noise: float) -> 
 
 
 def _roots(_plan: BenchPlan, claim: Claim, found: Ratios, noise: float) -> tuple[str, str]:
-    others = ", ".join(f"{name} {_told(ratio)}" for name, ratio in found.items() if name != PRINTED)
+    others = "; ".join(f"{name}: {_told(ratio)}" for name, ratio in found.items() if name != PRINTED)
     counted = claim.operations.get(TRIGONOMETRIC)
     functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
     return dearer(found[TRIGONOMETRIC], noise), (

@@ -169,15 +169,18 @@ def _interval(each: Measured, workload: str, mode: str) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class Price:
-    """The fastest method that was never wrong, the fastest that was, and the ratio of their times in a batch."""
+    """The fastest method that was never wrong, the fastest that was, and the ratios of their times by workload."""
 
     never: Measured
     fastest: Measured
-    ratio: float
+    ratios: tuple[tuple[str, float], ...]
 
 
 def price(record: Record) -> Price | None:
-    """What it costs never to be wrong, on the first timed workload; None where not both were timed there."""
+    """What it costs never to be wrong in a batch, the fastest being those of the first timed workload.
+
+    None where not both were timed there.
+    """
     timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
     ranked = sorted(
         ((ratio, each) for each in measured(record) for name in timed[:1] if (ratio := each.ratio(name)) is not None),
@@ -187,7 +190,8 @@ def price(record: Record) -> Price | None:
     fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line["kind"] != "bounding"), None)
     if never is None or fastest is None:
         return None
-    return Price(never[1], fastest[1], never[0] / fastest[0])
+    pairs = [(name, never[1].ratio(name), fastest[1].ratio(name)) for name in timed]
+    return Price(never[1], fastest[1], tuple((name, mine / other) for name, mine, other in pairs if mine and other))
 
 
 def beaten(record: Record) -> list[tuple[Measured, Measured]]:

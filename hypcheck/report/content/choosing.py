@@ -58,13 +58,30 @@ def _in_short(record: Record) -> Iterator[Text]:
     """What it costs never to be wrong."""
     found = price(record)
     if found is not None:
-        distance = found.fastest.reliable_above
+        known, distance = workloads(record), found.fastest.reliable_above
         errs = (
             f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
         )
+        times = listed([f"{figure(ratio)} times ({known[name]['title']})" for name, ratio in found.ratios])
         fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
-        times = f"{figure(found.ratio)} times the time of "
-        yield ("What it costs never to be wrong: ", Code(found.never.name), " takes ", times, fastest, ".")
+        lead = "What it costs never to be wrong: in a batch "
+        yield (lead, Code(found.never.name), f" takes {times} as long as ", fastest, ".")
+
+
+def named(record: Record) -> Iterator[Section]:
+    """What the methods are that are advised, in a section."""
+    found = {each.use.name: each.use for each in choice(record).advice}
+    if found:
+        items: list[Text] = [
+            (
+                Code(name),
+                f", {each.tier}: {each.line['title']}",
+                f"; {note}" if (note := each.line["note"]) else "",
+                ".",
+            )
+            for name, each in found.items()
+        ]
+        yield Section("What these methods are", (bullets(items),), level=3)
 
 
 def _table(advice: tuple[Advice, ...]) -> Block:

@@ -27,6 +27,7 @@ def overview(record: Record, beside: Collection[str]) -> Content:
     sections = [
         *failed.sections(record),
         *choosing.sections(record),
+        *choosing.named(record),
         *([Section("Pictures", pictures[:1])] if pictures else []),
         *([Section("What it shows", (shows,))] if shows.items else []),
         *targets.told(record),

@@ -1,0 +1,71 @@
+"""The committed benchmark is whole, of these methods, and its reports and pictures are what its record says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.record import SCHEMA, read
+from hypcheck.report import markdown, overview
+from hypcheck.report.write import REPORTS, Around
+from hypcheck.version import VERSION
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "reports" / "reference" / "bench"
+PICTURES = ("errors", "front", "pareto")
+AROUND = Around([REPORTS[name].file for name in PICTURES])
+
+
+@pytest.fixture(scope="module")
+def record():
+    return read(FOLDER / "record.jsonl")
+
+
+def test_it_is_a_whole_run_of_this_version_that_held_within_five_minutes(record):
+    assert record.header["hypcheck"] == VERSION
+    assert record.header["schema"].partition(".")[0] == SCHEMA.partition(".")[0]
+    assert (record.header["options"]["command"], record.header["options"]["quick"]) == ("bench", False)
+    assert record.footer["exit_code"] == 0
+    assert record.footer["seconds"] < 300
+
+
+def test_every_method_was_there_and_judged(record):
+    named = {line["method"] for line in record.of("method")}
+    assert named == set(contenders(BenchPlan()))
+    assert {line["method"] for line in record.of("accuracy")} == named
+    assert not record.of("absent")
+
+
+def test_the_pages_are_those_of_the_record(record):
+    assert (FOLDER / "README.md").read_bytes() == overview.render(record, AROUND)
+    assert (FOLDER / "report.md").read_bytes() == markdown.render(record, AROUND)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_the_pictures_say_what_the_record_does(record, name):
+    """Their words, tooltips among them; where these stand is for each version of matplotlib to say."""
+    fresh, committed = REPORTS[name].render(record), (FOLDER / REPORTS[name].file).read_bytes()
+    assert words(fresh) == words(committed)
+    assert len(words(committed)) > 50
+
+
+def words(picture):
+    """All titles and descriptions of a picture, in order."""
+    tags = ("title", "desc")
+    return [each.text for each in ElementTree.fromstring(picture).iter() if each.tag.rpartition("}")[2] in tags]  # noqa: S314
+
+
+def test_the_readme_shows_its_picture():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "](reports/reference/bench/front.svg)" in text
+    assert "](reports/reference/bench/README.md)" in text
+
+
+def test_all_of_it_is_small():
+    assert sum(REPORTS[name].file in {path.name for path in FOLDER.iterdir()} for name in PICTURES) == len(PICTURES)
+    kept = [FOLDER / name for name in ("record.jsonl", "README.md", "report.md", *(REPORTS[p].file for p in PICTURES))]
+    assert sum(path.stat().st_size for path in kept) < 3_000_000
