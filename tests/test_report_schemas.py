@@ -65,6 +65,8 @@ OF_A_BENCHMARK = {
     "bounding",
     "cost",
     "kernel",
+    "forest",
+    "scene",
     "comparison",
     "absent",
     "compiler",

@@ -59,6 +59,9 @@ class BenchPlan:
     from `rounds` rounds in each of `processes` fresh processes. `baseline` is a record to be held to: a method may be
     `max_slowdown` times slower against the reference than it was there.
 
+    `kernel`, `forest` and `scenes` measure one thing and nothing else: the fast path against its targets, a walker's
+    step among many trees, what these scenes do without.
+
     What is made on the way goes into `folder`, `compiled` among it: the library of methods in C, where there is one.
     `missing` is what methods may need and is not here, and `foreign` what the SPECs are (contenders/foreign.py).
     """
@@ -75,6 +78,8 @@ class BenchPlan:
     baseline: Path | None = None
     max_slowdown: float = 1.1
     kernel: bool = False
+    forest: bool = False
+    scenes: tuple[str, ...] = ()
     folder: Path = Path()
     compiled: Path | None = None
     foreign: tuple[Any, ...] = ()
@@ -84,8 +89,11 @@ class BenchPlan:
     def __post_init__(self) -> None:
         if self.max_slowdown < 1:
             raise InputError(f"--max-slowdown is {self.max_slowdown:g}; it must be 1 or more, as in 1.10 for 10 %")
-        if self.kernel and (self.specs or self.methods or self.workloads or self.baseline):
-            raise InputError("--kernel measures the fast path and nothing else; it goes with no other choice")
+        alone = [name for name, given in (("--kernel", self.kernel), ("--forest", self.forest)) if given]
+        alone += ["--scene"] if self.scenes else []
+        if alone and (len(alone) > 1 or self.specs or self.methods or self.workloads or self.baseline):
+            what = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}[alone[0]]
+            raise InputError(f"{alone[0]} measures {what} and nothing else; it goes with no other choice")
 
     @property
     def options(self) -> dict[str, Any]:

@@ -7,7 +7,19 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from hypcheck.bench import accuracy, convergence, costs, kernel, memory, places, shapes, speed, stability
+from hypcheck.bench import (
+    accuracy,
+    convergence,
+    costs,
+    forest,
+    kernel,
+    memory,
+    places,
+    scenes,
+    shapes,
+    speed,
+    stability,
+)
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
 from hypcheck.bench.baseline import Baseline, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
@@ -79,6 +91,10 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
     if plan.kernel:
         return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
+    if plan.forest:
+        return (Stage("forest", forest.steps(plan.quick), lambda advance: _forest(plan, recorder, outcome, advance)),)
+    if plan.scenes:
+        return (_scenes(plan, plan.scenes, recorder, outcome),)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
     plan = met(prepared(plan, recorder), recorder, outcome.not_started)
@@ -95,7 +111,23 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
         Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
         Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
         Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
+        *([] if plan.methods or plan.workloads else [_scenes(plan, scenes.of_a_whole_run(), recorder, outcome)]),
     )
+
+
+def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
+    forest.run(recorder, advance, plan.seed, quick=plan.quick)
+    for line in recorder.lines:
+        if line["type"] == "forest" and line["exact"] and line["wrong"]:
+            outcome.wrong.append(f"{line['method']} promises to be exact and is not, among {line['trees']:,} trees")
+
+
+def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: BenchOutcome) -> Stage:
+    def measure(advance: Advance) -> None:
+        outcome.wrong.extend(scenes.run(plans, recorder, advance, plan.folder, quick=plan.quick))
+
+    plans = scenes.plans_of(names)
+    return Stage("scenes", len(plans), measure)
 
 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:

@@ -73,7 +73,7 @@ def line(found: Saved) -> dict[str, Any]:
 
 
 def _saved(stages: Stages, library: ctypes.CDLL, printed: InC) -> Saved:
-    rows = _rows(stages)
+    rows = rows_of(stages)
     sizes, centre = np.array(stages.setting.sizes), [np.ascontiguousarray(column) for column in rows[:, 4:].T]
     answers = np.zeros(len(rows), dtype=np.int8)
     places = [each.ctypes.data_as(ctypes.c_void_p) for each in (sizes, *centre, answers)]
@@ -88,9 +88,9 @@ def _saved(stages: Stages, library: ctypes.CDLL, printed: InC) -> Saved:
     return Saved(stages, len(rows), own.median_ns, other.median_ns, ratio)
 
 
-def _rows(stages: Stages) -> Rows:
-    """The sample's centres in random order."""
+def rows_of(stages: Stages, times: int = TIMES) -> Rows:
+    """The sample's centres so many times over, in random order."""
     x, y, z = centres(stages.setting)
-    order = np.random.Generator(np.random.PCG64(1)).permutation(np.tile(np.arange(len(x)), TIMES))
+    order = np.random.Generator(np.random.PCG64(1)).permutation(np.tile(np.arange(len(x)), times))
     sizes = [np.full(len(order), size) for size in stages.setting.sizes]
     return np.ascontiguousarray(np.column_stack([*sizes, x[order], y[order], z[order]]))

@@ -24,6 +24,10 @@ from hypcheck.cli.recording import Part, record_and_report
 @click.option("--baseline", type=click.Path(path_type=Path), help="A record of an earlier run to be held to.")
 @click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
+@click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
+@click.option(
+    "--scene", multiple=True, metavar="SCENE", help="Measure what this scene saves, and nothing else; any number."
+)
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
@@ -58,6 +62,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         baseline=options["baseline"],
         max_slowdown=options["max_slowdown"],
         kernel=options["kernel"],
+        forest=options["forest"],
+        scenes=options["scene"],
     )
     outcome = run.BenchOutcome()
     with TemporaryDirectory(prefix="hypcheck-bench-") as folder:

@@ -5,7 +5,7 @@ Numbers that must come back exactly are hexadecimal strings; infinity is the str
 
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
-1.3.0 adds the progress that a gating run has made when it is interrupted.
+1.3.0 adds the progress that a gating run has made when it is interrupted, and of a benchmark scenes and forests.
 """
 
 from __future__ import annotations

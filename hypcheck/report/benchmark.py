@@ -12,6 +12,9 @@ from hypcheck.report.text import classify_command, counted, figure, from_hex, li
 
 SUBJECT = "measurement"
 
+ALONE = ("kernel", "forest", "scene")
+"""Types of lines that a run can have without comparing methods on rows."""
+
 SLOWER, INCONCLUSIVE = "slower", "inconclusive"
 """Kinds of failures of speed: for certain, and as far as the noise lets tell."""
 
@@ -24,8 +27,22 @@ def failures(record: Record) -> Iterator[Failure]:
     for line in record.of("refused"):
         group = f"{line['workload']}, {line['mode']}"
         yield Failure(SUBJECT, line["method"], group, "refused", f"{line['method']} is not timed: {line['reason']}")
+    yield from _of_scenes(record)
     held = [*_compared(record), *_targets(record), *_claims(record)]
     yield from sorted(held, key=lambda each: each.kind != SLOWER)
+
+
+def _of_scenes(record: Record) -> Iterator[Failure]:
+    """Wrong answers about a forest from what is exact, and about a scene from its kernel."""
+    for line in record.of("forest"):
+        if line["exact"] and line["wrong"]:
+            wrong = f"of {counted(line['asked'], 'step')} {line['wrong']:,} wrong"
+            said = f"{line['method']} promises to be exact, but {wrong}"
+            yield Failure(SUBJECT, line["method"], f"{line['trees']:,} trees", "wrong", said)
+    for line in record.of("scene"):
+        if line["wrong"]:
+            said = f"the kernel of the scene answers {line['wrong']:,} of {counted(line['rows'], 'row')} wrongly"
+            yield Failure(SUBJECT, line["scene"], "scene", "wrong", said)
 
 
 def _broken(each: Measured) -> Iterator[Failure]:
@@ -80,6 +97,12 @@ def _claims(record: Record) -> Iterator[Failure]:
 
 def clauses(record: Record) -> Iterator[str]:
     """What a benchmark in which nothing failed has shown."""
+    yield from _methods(record)
+    yield from _alone(record)
+
+
+def _methods(record: Record) -> Iterator[str]:
+    """What was compared on rows."""
     found = [each for each in measured(record) if each.asked or each.speed]
     if not found:
         return
@@ -93,3 +116,17 @@ def clauses(record: Record) -> Iterator[str]:
     if compared:
         slower = sum(line["verdict"] == "slower" for line in compared)
         yield f"{counted(len(compared), 'ratio')} held to the baseline's, {slower:,} of them slower than allowed"
+
+
+def _alone(record: Record) -> Iterator[str]:
+    """What was measured without comparing methods on rows."""
+    targets = record.of("kernel")
+    if targets:
+        met = sum(bool(line["met"]) for line in targets)
+        yield f"{met:,} of {counted(len(targets), 'target')} of the kernels met"
+    forests = record.of("forest")
+    if forests:
+        trees = {line["trees"] for line in forests}
+        yield f"a walker's step timed in {counted(len(trees), 'forest')} of up to {max(trees):,} trees"
+    if record.of("scene"):
+        yield f"{counted(len(record.of('scene')), 'scene')} timed against Table 2"

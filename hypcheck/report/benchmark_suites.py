@@ -21,6 +21,7 @@ def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[Suit
     yield Suite("bench.answers", tuple(_answers(record, found)))
     yield Suite("bench.times", tuple(_times(record, found)))
     yield Suite("bench.baseline", tuple(_comparison(line, found) for line in record.of("comparison")))
+    yield Suite("bench.scenes", tuple(_scenes(record, found)))
     yield Suite("bench.kernels", tuple(_kernel(line) for line in record.of("kernel")))
 
 
@@ -39,6 +40,16 @@ def _times(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
         yield Case(_name(line), output=(said,))
     for line in record.of("refused"):
         yield Case(_name(line), _trouble(failed, "refused", line["method"], _group(line)))
+
+
+def _scenes(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
+    for line in record.of("scene"):
+        said = f"{figure(line['ratio'])} times Table 2's time, {line['wrong']:,} wrong"
+        yield Case(line["scene"], _trouble(failed, "wrong", line["scene"], "scene"), (said,))
+    for line in record.of("forest"):
+        group = f"{line['trees']:,} trees"
+        said = f"{figure(line['step_ns'])} ns a step, {line['wrong']:,} wrong"
+        yield Case(f"{line['method']}, {group}", _trouble(failed, "wrong", line["method"], group), (said,))
 
 
 def _comparison(line: Line, failed: Sequence[Failure]) -> Case:

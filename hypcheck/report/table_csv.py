@@ -140,6 +140,23 @@ def _kernel(line: Line) -> Iterator[Measurement]:
     yield (line["name"], "", line["target"], "measured", line["measured"], *_ends(line["ci95"]))
 
 
+def _forest(line: Line) -> Iterator[Measurement]:
+    detail = f"{line['trees']} trees"
+    yield (line["method"], "", detail, "step_ns", line["step_ns"], *_ends(line["ci95_ns"]))
+    yield (line["method"], "", detail, "ratio", line["ratio"], *_ends(line["ratio_ci95"]))
+    for name in ("build_s", "asked", "wrong"):
+        yield _plain(line["method"], "", detail, name, line[name])
+
+
+def _scene(line: Line) -> Iterator[Measurement]:
+    for name, share in line["shares"].items():
+        yield _plain("kernel", line["scene"], name, "share", share)
+    for name in ("kernel_ns", "printed_ns", "certified_ns", "rows", "wrong"):
+        yield _plain("kernel", line["scene"], "", name, line[name])
+    for name in ("ratio", "certified_ratio"):
+        yield ("kernel", line["scene"], "", name, line[name], *_ends(line[f"{name}_ci95"]))
+
+
 def _comparison(line: Line) -> Iterator[Measurement]:
     yield (line["method"], line["workload"], line["mode"], "change", line["change"], *_ends(line["ci95"]))
     for name in ("before", "after", "allowed"):
@@ -166,6 +183,8 @@ MEASUREMENTS: dict[str, Callable[[Line], Iterable[Measurement]]] = {
     "bounding": _bounding,
     "cost": _cost,
     "kernel": _kernel,
+    "forest": _forest,
+    "scene": _scene,
     "comparison": _comparison,
 }
 """What is measured in each type of line; the others measure nothing."""

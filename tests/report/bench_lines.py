@@ -183,6 +183,44 @@ def kernel(name, measured_value, met):
     }
 
 
+def forest(name, trees, ns):
+    return {
+        "type": "forest",
+        "method": name,
+        "title": f"what {name} is",
+        "exact": name == "hypcheck.Scene",
+        "trees": trees,
+        "triangles": None if name == "hypcheck.Scene" else 128,
+        "asked": 256,
+        "wrong": 0,
+        "build_s": trees / 1e6,
+        "step_ns": ns,
+        "ci95_ns": [ns - 10, ns + 10],
+        "ratio": ns / 1200,
+        "ratio_ci95": [ns / 1300, ns / 1100],
+    }
+
+
+def scene(name, ratio):
+    return {
+        "type": "scene",
+        "scene": name,
+        "question": "interior",
+        "precision": "float64",
+        "settings": 2,
+        "rows": 131_072,
+        "wrong": 0,
+        "shares": {"always": 0.0, "thresholds": 0.0, "lines": 0.96, "discriminant": 0.04, "search": 0.0},
+        "kernel_ns": ratio,
+        "printed_ns": 1.0,
+        "certified_ns": 2.0,
+        "ratio": ratio,
+        "ratio_ci95": [ratio - 0.1, ratio + 0.1],
+        "certified_ratio": ratio / 2,
+        "certified_ratio_ci95": [ratio / 2 - 0.1, ratio / 2 + 0.1],
+    }
+
+
 def comparison(name, after, verdict):
     return {
         "type": "comparison",
@@ -240,6 +278,12 @@ def lines():
         cost("only additions and products (§ 1)", "does not hold"),
         kernel("certified, batch", 0.9, met=True),
         kernel("rows, batch", 0.8, met=True),
+        *(
+            forest(name, trees, ns)
+            for name, ns in (("hypcheck.Scene", 1200.0), ("fcl-meshes", 2400.0))
+            for trees in (10, 10**6)
+        ),
+        scene("cooling tower", 0.6),
         comparison("fast", 0.98, "same"),
         comparison("foreign-adapter", 1.02, "inconclusive"),
     ]

@@ -35,6 +35,9 @@ Indices = NDArray[np.int64]
 NOTHING_SAID = 2
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
+YES = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}
+"""The position that is answered 1, by the question."""
+
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
 _OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT)
 """What counts more when hyperboloids say different things; 0 is nothing said by those that are near."""
@@ -104,7 +107,10 @@ class Scene:
                     break
                 found = max(found, _RANK[said])
         answer = _OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR
-        return answer if self.model.question == "position" else int(self._answers(np.array([answer], np.int8))[0])
+        question = self.model.question
+        if question == "position":
+            return answer
+        return CANNOT_SAY if answer == NOTHING_SAID else int(answer == YES[question])
 
     def _near(self, x: float, y: float, z: float) -> Sequence[int]:
         height = self.model.region.z
@@ -150,8 +156,7 @@ class Scene:
         question = self.model.question
         if question == "position":
             return positions
-        yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
-        return np.where(positions == NOTHING_SAID, CANNOT_SAY, positions == yes).astype(np.int8)
+        return np.where(positions == NOTHING_SAID, CANNOT_SAY, positions == YES[question]).astype(np.int8)
 
     def _body(self, index: int) -> Body:
         """A hyperboloid's numbers without arrays; each is kept once it was asked."""

@@ -23,6 +23,7 @@ PLOTS = {
     "places": "places:plots",
     "convergence": "convergence:plots",
     "bounding": "bounding:plots",
+    "forest": "forest:plots",
 }
 
 

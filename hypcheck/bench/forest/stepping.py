@@ -1,0 +1,92 @@
+"""What a step costs against the number of trees: lines "forest" of the record, all answers judged before the clock."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator
+from time import perf_counter, perf_counter_ns
+from typing import Any
+
+from hypcheck.bench.forest.contenders import OURS, Clear, Walker, answers, here
+from hypcheck.bench.forest.growth import Forest, Point, forest_of, walk
+from hypcheck.bench.rounds import Clocked, Entry, Samples, measure
+from hypcheck.bench.statistics import estimate, ratios
+from hypcheck.kernel.world.scene import Scene
+from hypcheck.methods.engines import FCL
+from hypcheck.record import Recorder
+
+TREES, QUICK_TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000), (10, 100, 1_000, 10_000)
+STEPS = 256
+ROUNDS, QUICK_ROUNDS = 11, 5
+
+
+def run(recorder: Recorder, advance: Callable[[int], object], seed: int, *, quick: bool) -> None:
+    """Add a line for each forest and each of those that are asked; a quick run has forests up to 10⁴ trees."""
+    for trees in QUICK_TREES if quick else TREES:
+        for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
+            recorder.add("forest", **line)
+        advance(1)
+    if (trouble := FCL.trouble()) is not None:
+        recorder.add("absent", what=FCL.title, reason=trouble)
+
+
+def steps(quick: bool) -> int:
+    """How often `run` advances."""
+    return len(QUICK_TREES if quick else TREES)
+
+
+def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[dict[str, Any]]:
+    centres = walk(Scene(forest.model), forest, STEPS, seed)
+    truth = [int(forest.clear(centre)) for centre in centres]
+    made = {name: _made(each, forest) for name, each in here().items()}
+    wrong = {
+        name: sum(said != true for said, true in zip(answers(clear, centres), truth, strict=True))
+        for name, (clear, _) in made.items()
+    }
+    entries = [Entry(name, STEPS, _steps(clear, centres)) for name, (clear, _) in made.items()]
+    *_, (_, samples) = measure(entries, rounds)
+    ours = samples[0]
+    for each in samples:
+        built_s = made[each.name][1]
+        yield _line(each, ours, here()[each.name], len(forest.places), built_s, wrong[each.name])
+
+
+def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
+    """What answers, and the seconds it took to build; the list of trees is there before."""
+    forest.model  # noqa: B018 - a property that is made once
+    gc.collect()
+    started = perf_counter()
+    clear = walker.make(forest)
+    return clear, perf_counter() - started
+
+
+def _steps(clear: Clear, centres: list[Point]) -> Clocked:
+    def work(repeat: int) -> tuple[int, int]:
+        total = 0
+        started = perf_counter_ns()
+        for _ in range(repeat):
+            total = 0
+            for x, y, z in centres:
+                total += clear(x, y, z)
+        return perf_counter_ns() - started, total
+
+    return work
+
+
+def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> dict[str, Any]:
+    step = estimate([each.samples_ns])
+    ratio = estimate(ratios([each.samples_ns], [ours.samples_ns]))
+    return {
+        "method": each.name,
+        "title": walker.title,
+        "exact": each.name == OURS,
+        "trees": trees,
+        "triangles": walker.triangles,
+        "asked": STEPS,
+        "wrong": wrong,
+        "build_s": built_s,
+        "step_ns": step.median,
+        "ci95_ns": [step.low, step.high],
+        "ratio": ratio.median,
+        "ratio_ci95": [ratio.low, ratio.high],
+    }

@@ -1,0 +1,81 @@
+"""What scenes save by leaving out, and what a walker's step costs in a forest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hypcheck.record import Line, Record
+from hypcheck.report.content.blocks import (
+    Cell,
+    Code,
+    Column,
+    Figures,
+    Paragraph,
+    Section,
+    Table,
+    bullets,
+    count,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.text import figure, with_interval
+
+_FOREST = prose(
+    "A walker's step from Python, one call each, on the same way through the same trees; *building* is from a list of"
+    " trees to the first answer. *Wrong* answers are counted against rational arithmetic about every tree."
+)
+_SCENES = prose(
+    "Centres spread evenly over each scene's region; the share that each stage of its kernel (`hypcheck emit`) decides,"
+    " and the kernel's time, in C, by that of Table 2 as printed, in C, and of the certified kernel of"
+    " `classify_scene`, in one thread: below 1 is faster."
+)
+_STAGES = ("always", "thresholds", "lines", "discriminant", "search")
+
+
+def sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of these."""
+    if record.of("scene"):
+        yield Section("What scenes leave out", (Paragraph(_SCENES), _scenes(record.of("scene"))))
+    lines = record.of("forest")
+    if lines:
+        titles = {line["method"]: line["title"] for line in lines}
+        who = bullets([(Code(name), f": {title}") for name, title in titles.items()])
+        yield Section("A step in a forest", (Paragraph(_FOREST), Figures("forest"), _forest(lines), who))
+
+
+def _forest(lines: list[Line]) -> Table:
+    numbers = map(number, ("trees", "ns a step", "by hypcheck.Scene's", "building, s", "steps", "wrong"))
+    columns: tuple[Column | str, ...] = ("asked", *numbers)
+    rows = [
+        (
+            Cell(Code(line["method"])),
+            count(line["trees"]),
+            Cell(with_interval(line["step_ns"], line["ci95_ns"]), line["step_ns"]),
+            Cell(with_interval(line["ratio"], line["ratio_ci95"]), line["ratio"]),
+            Cell(figure(line["build_s"]), line["build_s"]),
+            count(line["asked"]),
+            count(line["wrong"], bad=bool(line["exact"])),
+        )
+        for line in lines
+    ]
+    return table("a step in a forest", columns, rows)
+
+
+def _scenes(lines: list[Line]) -> Table:
+    numbers = map(number, (*(f"{stage}, %" for stage in _STAGES), "ns", "by Table 2", "by certified", "wrong"))
+    columns: tuple[Column | str, ...] = ("scene", "question", number("pairs of sizes"), *numbers)
+    rows = [
+        (
+            Cell(line["scene"]),
+            Cell(line["question"]),
+            count(line["settings"]),
+            *(Cell(figure(100 * line["shares"][stage]), line["shares"][stage]) for stage in _STAGES),
+            Cell(figure(line["kernel_ns"]), line["kernel_ns"]),
+            Cell(with_interval(line["ratio"], line["ratio_ci95"]), line["ratio"]),
+            Cell(with_interval(line["certified_ratio"], line["certified_ratio_ci95"]), line["certified_ratio"]),
+            count(line["wrong"], bad=True),
+        )
+        for line in lines
+    ]
+    return table("what scenes leave out", columns, rows)

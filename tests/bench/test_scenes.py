@@ -1,0 +1,148 @@
+"""Scenes and forests in bench: who answers wrongly is found, and the lines are those of the record's schema."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from importlib import resources
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hypcheck.bench import scenes
+from hypcheck.bench.forest import contenders, growth, stepping
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.cli.bench import bench
+from hypcheck.errors import InputError
+from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.kernel.world.scene import Scene
+from hypcheck.methods.engines import FCL
+from hypcheck.record import SCHEMA, read
+from hypcheck.report.json_schema import violations
+from tests.specialise.scenes import HILLS, PLAIN
+
+DEFINITIONS = json.loads(
+    resources.files("hypcheck.report").joinpath("schemas", f"record-{SCHEMA}.json").read_text(encoding="utf-8")
+)
+COMPILER = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
+
+
+def ended(folder, *options):
+    """The exit code, the record and the report of a run."""
+    result = CliRunner().invoke(bench, ["--out", str(folder), "--quick", *options], standalone_mode=False)
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    record = read(folder / "record.jsonl")
+    return record.footer["exit_code"], record, (folder / "report.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """Few trees, few steps, few rows."""
+    monkeypatch.setattr(stepping, "QUICK_TREES", (10, 200))
+    monkeypatch.setattr(stepping, "STEPS", 48)
+    monkeypatch.setattr(stepping, "QUICK_ROUNDS", 2)
+    monkeypatch.setattr(scenes, "QUICK_ROUNDS", 2)
+    monkeypatch.setattr(scenes, "ROWS", 4096)
+
+
+def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
+    code, record, report = ended(tmp_path, "--forest")
+    assert code == 0
+    lines = record.of("forest")
+    assert {line["trees"] for line in lines} == {10, 200}
+    for line in lines:
+        assert not violations(line, DEFINITIONS["$defs"]["forest"], DEFINITIONS)
+        assert line["step_ns"] > 0
+    assert all(line["wrong"] == 0 and line["ratio"] == 1 for line in lines if line["method"] == contenders.OURS)
+    assert "A step in a forest" in report
+    assert "a walker's step timed in 2 forests of up to 200 trees" in report
+    if FCL.trouble() is None:
+        assert {line["method"] for line in lines} == set(contenders.WALKERS)
+
+
+def test_a_way_through_the_forest_touches_trees_and_is_judged_without_the_grid():
+    forest = growth.forest_of(300, 5)
+    scene = Scene(forest.model)
+    way = growth.walk(scene, forest, 400, 5)
+    truth = [int(forest.clear(centre)) for centre in way]
+    assert 0 < truth.count(0) < 200
+    assert [scene.position(*centre) for centre in way] == truth
+    assert len({growth.KINDS[kind] for kind in forest.kinds.tolist()}) == len(growth.KINDS)
+
+
+@pytest.mark.skipif(FCL.trouble() is not None, reason="there is no FCL")
+@pytest.mark.parametrize("name", [name for name in contenders.WALKERS if name != contenders.OURS])
+def test_fcl_is_asked_the_same_question(name):
+    """Away from contact a mesh and a cylinder answer as the truth does."""
+    forest = growth.forest_of(50, 2)
+    clear = contenders.WALKERS[name].make(forest)
+    for place in forest.places[:20].tolist():
+        assert clear(place[0] + 0.45, place[1], 0.0) == int(forest.clear((place[0] + 0.45, place[1], 0.0)))
+    draw = np.random.default_rng(1)
+    centres = [(x, y, 0.0) for x, y in (forest.side * draw.random((100, 2))).tolist()]
+    # Inside a wide trunk no surface is near: a mesh is no wall there.
+    wrong = [centre for centre in centres if clear(*centre) != int(forest.clear(centre))]
+    assert len(wrong) <= 5
+
+
+def test_an_exact_walker_that_errs_fails_the_run(small, tmp_path, monkeypatch):
+    walkers = {contenders.OURS: contenders.Walker("says clear everywhere", None, lambda _forest: lambda _x, _y, _z: 1)}
+    monkeypatch.setattr(contenders, "WALKERS", walkers)
+    code, record, report = ended(tmp_path, "--forest")
+    assert code == 1
+    assert any(line["wrong"] for line in record.of("forest"))
+    assert "promises to be exact" in report
+
+
+@COMPILER
+def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_path):
+    code, record, report = ended(tmp_path, "--scene", "tower")
+    (line,) = record.of("scene")
+    assert code == 0
+    assert not violations(line, DEFINITIONS["$defs"]["scene"], DEFINITIONS)
+    assert (line["scene"], line["settings"], line["wrong"]) == ("cooling tower", 2, 0)
+    assert sum(line["shares"].values()) == pytest.approx(1)
+    assert min(line[name] for name in ("kernel_ns", "printed_ns", "certified_ns")) > 0
+    assert "What scenes leave out" in report
+
+
+def test_shares_of_a_scene_are_the_mean_of_its_pairs():
+    found = scenes.shares(plan_of(PLAIN).settings)
+    assert found == {"always": 0.0, "thresholds": 1.0, "lines": 0.0, "discriminant": 0.0, "search": 0.0}
+    assert sum(scenes.shares(plan_of(HILLS).settings).values()) == pytest.approx(1)
+
+
+@COMPILER
+def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatch):
+    right = scenes.emitted
+
+    def spoilt(plan, language, command):
+        text = right(plan, language, command)
+        start = text.index("intercept_1 = ") + len("intercept_1 = ")
+        end = text.index(";", start)
+        return text.replace(text[start:end], repr(float(text[start:end]) * 1.2))
+
+    monkeypatch.setattr(scenes, "emitted", spoilt)
+    code, _, report = ended(tmp_path, "--scene", "tower")
+    assert code == 1
+    assert "the kernel of the scene answers" in report
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"forest": True, "kernel": True}, "--kernel measures the fast path and nothing else"),
+        ({"forest": True, "methods": ("fast",)}, "--forest measures a walker's step and nothing else"),
+        ({"scenes": ("tower",), "specs": ("builtin:fast",)}, "--scene measures scenes and nothing else"),
+    ],
+)
+def test_what_is_measured_alone_goes_with_nothing(options, sentence):
+    with pytest.raises(InputError, match=sentence):
+        BenchPlan(**options)
+
+
+def test_a_scene_that_is_none_is_refused_before_anything_is_measured():
+    with pytest.raises(InputError, match="there is no such file"):
+        scenes.plans_of(("nowhere.toml",))
