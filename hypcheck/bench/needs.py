@@ -41,11 +41,17 @@ def met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPla
     return replace(plan, foreign=tuple(found))
 
 
+def note_absent(recorder: Recorder, what: str, reason: str) -> None:
+    """Record that something is not here, and why; once."""
+    if not any(line["type"] == "absent" and line["what"] == what for line in recorder.lines):
+        recorder.add("absent", what=what, reason=reason)
+
+
 def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     try:
         return _FINDERS[need](plan, recorder)
     except UnavailableError as error:
-        recorder.add("absent", what=need, reason=str(error))
+        note_absent(recorder, need, str(error))
         return replace(plan, missing=(*plan.missing, need))
 
 

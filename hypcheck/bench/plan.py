@@ -96,6 +96,11 @@ class BenchPlan:
             raise InputError(f"{alone[0]} measures {what} and nothing else; it goes with no other choice")
 
     @property
+    def whole(self) -> bool:
+        """Whether everything is measured that takes minutes: nothing was chosen, and there is time."""
+        return not (self.quick or self.specs or self.methods or self.workloads or self.baseline)
+
+    @property
     def options(self) -> dict[str, Any]:
         """The plan as the record's header shows it."""
         shown = {name: value for name, value in asdict(self).items() if name not in _FOUND_OUT}

@@ -30,6 +30,7 @@ from hypcheck.bench.workloads import scene_of
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Line, Recorder
+from hypcheck.scene.reading import shipped_scenes
 
 Advance = Callable[[int], object]
 
@@ -92,7 +93,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
     if plan.kernel:
         return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
-        return (Stage("forest", forest.steps(plan.quick), lambda advance: _forest(plan, recorder, outcome, advance)),)
+        return (_forest(plan, recorder, outcome),)
     if plan.scenes:
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     workloads = len(chosen_workloads(plan))
@@ -111,15 +112,19 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
         Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
         Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
         Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
-        *([] if plan.methods or plan.workloads else [_scenes(plan, scenes.of_a_whole_run(), recorder, outcome)]),
+        *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
     )
 
 
-def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
-    forest.run(recorder, advance, plan.seed, quick=plan.quick)
-    for line in recorder.lines:
-        if line["type"] == "forest" and line["exact"] and line["wrong"]:
-            outcome.wrong.append(f"{line['method']} promises to be exact and is not, among {line['trees']:,} trees")
+def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Stage:
+    def measure(advance: Advance) -> None:
+        forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
+        for line in recorder.lines:
+            if line["type"] == "forest" and line["exact"] and line["wrong"]:
+                outcome.wrong.append(f"{line['method']} promises to be exact and is not, among {line['trees']:,} trees")
+
+    sizes = forest.sizes(plan)
+    return Stage("forest", len(sizes), measure)
 
 
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: BenchOutcome) -> Stage:

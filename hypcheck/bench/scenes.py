@@ -14,6 +14,8 @@ from typing import Any, cast
 import numpy as np
 
 from hypcheck.bench.contenders.c_library import InC, compile_c, compiled, place_of
+from hypcheck.bench.contenders.c_tier import COMPILER
+from hypcheck.bench.needs import note_absent
 from hypcheck.bench.rounds import Clocked, Entry, Samples, clocked, measure
 from hypcheck.bench.scene import rows_of
 from hypcheck.bench.statistics import estimate, ratios
@@ -25,7 +27,7 @@ from hypcheck.kernel.specialise.plan import Plan, Stages, plan_of
 from hypcheck.kernel.specialise.sampling import COUNT
 from hypcheck.record import Recorder
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
-from hypcheck.scene.reading import read_scene, shipped_scenes
+from hypcheck.scene.reading import read_scene
 
 ROUNDS, QUICK_ROUNDS = 11, 5
 ROWS = 2**17
@@ -52,13 +54,7 @@ def run(plans: Sequence[Plan], recorder: Recorder, advance: Advance, folder: Pat
                 yield f"the kernel of the scene {plan.scene.name!r} answers {line['wrong']:,} rows wrongly"
             advance(1)
     except UnavailableError as error:
-        if not any(line["type"] == "absent" and line["reason"] == str(error) for line in recorder.lines):
-            recorder.add("absent", what="C compiler", reason=str(error))
-
-
-def of_a_whole_run() -> tuple[str, ...]:
-    """The scenes that a run measures which names none."""
-    return shipped_scenes()
+        note_absent(recorder, COMPILER, str(error))
 
 
 def _line(plan: Plan, methods: Path, folder: Path, rounds: int) -> dict[str, Any]:

@@ -14,7 +14,9 @@ from hypcheck.cli.recording import Part, record_and_report
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("reports/bench"), show_default=True)
-@click.option("--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes.")
+@click.option(
+    "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
+)
 @click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)

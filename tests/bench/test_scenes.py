@@ -40,7 +40,7 @@ def ended(folder, *options):
 @pytest.fixture
 def small(monkeypatch):
     """Few trees, few steps, few rows."""
-    monkeypatch.setattr(stepping, "QUICK_TREES", (10, 200))
+    monkeypatch.setattr(stepping, "TREES", (10, 200))
     monkeypatch.setattr(stepping, "STEPS", 48)
     monkeypatch.setattr(stepping, "QUICK_ROUNDS", 2)
     monkeypatch.setattr(scenes, "QUICK_ROUNDS", 2)
@@ -60,6 +60,14 @@ def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
     assert "a walker's step timed in 2 forests of up to 200 trees" in report
     if FCL.trouble() is None:
         assert {line["method"] for line in lines} == set(contenders.WALKERS)
+
+
+def test_only_a_whole_run_measures_scenes_and_forests_unasked():
+    whole = BenchPlan()
+    assert whole.whole
+    assert stepping.sizes(whole)[-1] == stepping.MOST < stepping.sizes(BenchPlan(forest=True))[-1]
+    chosen = [{"quick": True}, {"specs": ("builtin:fast",)}, {"methods": ("fast",)}, {"workloads": ("uniform",)}]
+    assert not any(BenchPlan(**each).whole for each in chosen)
 
 
 def test_a_way_through_the_forest_touches_trees_and_is_judged_without_the_grid():

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from hypcheck.bench.forest.stepping import run, steps
+from hypcheck.bench.forest.stepping import run, sizes
 
-__all__ = ["run", "steps"]
+__all__ = ["run", "sizes"]

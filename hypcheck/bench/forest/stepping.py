@@ -3,36 +3,44 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from time import perf_counter, perf_counter_ns
 from typing import Any
 
 from hypcheck.bench.forest.contenders import OURS, Clear, Walker, answers, here
 from hypcheck.bench.forest.growth import Forest, Point, forest_of, walk
+from hypcheck.bench.needs import note_absent
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.rounds import Clocked, Entry, Samples, measure
 from hypcheck.bench.statistics import estimate, ratios
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
 from hypcheck.record import Recorder
 
-TREES, QUICK_TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000), (10, 100, 1_000, 10_000)
+TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
+MOST, QUICK_MOST = 100_000, 10_000
+"""The largest forest of a run that measures all things, and of a quick one: FCL takes seconds to build the next."""
+
 STEPS = 256
 ROUNDS, QUICK_ROUNDS = 11, 5
 
+Advance = Callable[[int], object]
 
-def run(recorder: Recorder, advance: Callable[[int], object], seed: int, *, quick: bool) -> None:
-    """Add a line for each forest and each of those that are asked; a quick run has forests up to 10⁴ trees."""
-    for trees in QUICK_TREES if quick else TREES:
+
+def sizes(plan: BenchPlan) -> Sequence[int]:
+    """How many trees the run's forests have."""
+    most = QUICK_MOST if plan.quick else max(TREES) if plan.forest else MOST
+    return tuple(trees for trees in TREES if trees <= most)
+
+
+def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int], *, quick: bool) -> None:
+    """Add a line for each forest, which has so many trees, and each of those that are asked."""
+    for trees in forests:
         for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
             recorder.add("forest", **line)
         advance(1)
     if (trouble := FCL.trouble()) is not None:
-        recorder.add("absent", what=FCL.title, reason=trouble)
-
-
-def steps(quick: bool) -> int:
-    """How often `run` advances."""
-    return len(QUICK_TREES if quick else TREES)
+        note_absent(recorder, FCL.title, trouble)
 
 
 def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[dict[str, Any]]:
