@@ -111,11 +111,15 @@ def test_the_older_schema_is_part_of_the_newer():
     added = {"grid", "ratio", "ratios", "load", "span", "progress"}
     assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | added
     # Null and the sizes of a domain were added, and room for a fault of each of the six statuses.
-    alike = older["$defs"].keys() - {"limits", "description", "group"}
+    alike = older["$defs"].keys() - {"limits", "description", "group", "header", "implementation"}
     assert {name: RECORD["$defs"][name] for name in alike} == {name: older["$defs"][name] for name in alike}
     newer = RECORD["$defs"]["group"]["properties"]
     faults = newer["faults"] | {"maxItems": 5}
     assert newer | {"faults": faults} == older["$defs"]["group"]["properties"]
+    for kind, field in (("header", "files"), ("implementation", "finished")):
+        newer = dict(RECORD["$defs"][kind]["properties"])
+        del newer[field]
+        assert RECORD["$defs"][kind] | {"properties": newer} == older["$defs"][kind]
 
 
 @pytest.fixture(scope="module")

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
+from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
@@ -41,44 +43,57 @@ def record_and_report(
     options: Mapping[str, Any],
     parts: Callable[[Recorder], Sequence[Part]],
     exit_code: Callable[[], int],
+    files: Mapping[str, str] | None = None,
     carried: Sequence[Line] = (),
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `carried` are lines of a run that
-    is gone on with, whose record may be the one in `out`. Raises InputError where `out` cannot be written.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `files` are the sha256 of those
+    under test, by path; `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises
+    InputError where `out` cannot be written, or another run is writing there.
     """
-    from hypcheck.record import Recorder, read
+    from hypcheck.record import Recorder
     from hypcheck.record.growing import Growing
+    from hypcheck.record.owning import owning
     from hypcheck.record.reading import FILE, GROWING
-    from hypcheck.report.write import write_reports
 
-    growing, path = out / GROWING, out / FILE
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        stream = Growing(growing)
-    except OSError as error:
-        raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
-    with stream:
-        if not carried:
-            stream.empty()
-        recorder = Recorder(stream, options, carried)
+    growing = out / GROWING
+    with ExitStack() as stack:
+        try:
+            out.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(owning(out))
+            recorder = Recorder(stack.enter_context(Growing(growing)), options, files, carried)
+        except OSError as error:
+            raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
         try:
             _run(parts(recorder))
             record = recorder.close(exit_code())
         except BaseException as error:
-            if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
-                growing.unlink()
-                raise
-            growing.replace(path)
-            with suppress(HypcheckError, OSError):
-                record = read(path)
-                write_reports(record, out)
-                _tell(record, [])
+            _ended_early(error, growing, goes_on=recorder.goes_on)
             raise
-    growing.replace(path)
-    report(record, out)
+        growing.replace(out / FILE)
+        report(record, out)
     return record
+
+
+def _ended_early(error: BaseException, growing: Path, *, goes_on: bool) -> None:
+    """Keep what was finished, make reports of it, and tell where it is; of a run that proves nothing, leave nothing."""
+    from hypcheck.record import read
+    from hypcheck.record.reading import FILE
+    from hypcheck.report.write import write_reports
+
+    if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not goes_on):
+        growing.unlink()
+        return
+    out, path = growing.parent, growing.with_name(FILE)
+    growing.replace(path)
+    with suppress(HypcheckError, OSError):
+        record = read(path)
+        write_reports(record, out)
+        _tell(record, [])
+    then = f"with --resume {shlex.quote(str(out))} goes on" if goes_on else "begins anew"
+    with suppress(OSError):
+        click.echo(f"hypcheck: what was finished is in {visible(path)}; the same command {then}", err=True)
 
 
 def report(record: Record, out: Path) -> None:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 from click.core import ParameterSource
 
 from hypcheck.cli.options import FiniteRange, limits_of, with_limits
-from hypcheck.cli.recording import Part, record_and_report, report
+from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.resuming import folder_of, resumed
 from hypcheck.cli.settings import FILE, Settings
 from hypcheck.errors import InputError
-from hypcheck.tables.streams import same_file
-from hypcheck.visible import visible
-
-if TYPE_CHECKING:
-    from hypcheck.gate.resuming import Resumed
 
 OURS_ONLY = ("oracles", "judged", "roots", "meshes")
 """Options of a run without SPEC."""
@@ -41,8 +37,6 @@ GATE_ONLY = (
     "cluster",
 )
 """Options of a run with SPEC."""
-
-_REPORTS = ("summary.json", "junit.xml", "report.md")
 
 _COUNT = click.IntRange(1)
 
@@ -90,6 +84,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     settings = context.find_object(Settings)
     chosen = specs or (settings.specs if settings is not None else ())
     _refuse_others(context, OURS_ONLY if chosen else GATE_ONLY, chosen=chosen, given=specs)
+    if options["resume"] and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
+        options["out"] = folder_of(options["resume"])
     code = _gate(chosen, options) if chosen else _ourselves(options)
     context.exit(code)
 
@@ -132,10 +128,11 @@ def _ourselves(options: dict[str, Any]) -> int:
 
 def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
     from hypcheck.gate import run
+    from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.known_failures import update
     from hypcheck.gate.lines import GateOutcome
     from hypcheck.gate.plan import GatePlan
-    from hypcheck.gate.resuming import resume
+    from hypcheck.gate.resuming import Resumed
     from hypcheck.methods.description import parse_domain
 
     listed: Path | None = options["known_failures"]
@@ -160,47 +157,27 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         raise InputError(
             "--update needs --known-failures and a run of all families, or it would forget what it skipped"
         )
-    cases = run.size(plan)
-    steps = cases * len(specs)
+    cases, files = run.size(plan), fingerprints(plan.specs, plan.known_failures)
     shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
-    resumed = None
+    begun: Resumed | int = Resumed()
     if options["resume"] is not None:
-        resumed = resume(options["resume"], plan, shown, cases)
-        if resumed.exit_code is not None:
-            return _finished(resumed, options["out"])
-    progress = resumed.progress if resumed else None
-    outcome = progress.outcome.copy() if progress else GateOutcome()
+        begun = resumed(options["resume"], options["out"], plan, shown, files, cases)
+    if isinstance(begun, int):
+        return begun
+    outcome, state = GateOutcome(), begun.state
     record = record_and_report(
         options["out"],
         shown,
         lambda recorder: [
-            Part("gate", steps, lambda advance: run.run(plan, recorder, outcome, advance, progress), "cases")
+            Part("gate", cases * len(specs), lambda advance: run.run(plan, recorder, outcome, advance, state), "cases")
         ],
         lambda: outcome.exit_code,
-        carried=resumed.carried if resumed else (),
+        files=files,
+        carried=begun.carried,
     )
     if options["update"] and listed is not None:
         click.echo(update(listed, record))
     return outcome.exit_code
-
-
-def _finished(resumed: Resumed, out: Path) -> int:
-    """Say of a record that there is nothing to go on with; reports that its run had no time for are made."""
-    from hypcheck.record.reading import FILE, GROWING, read
-
-    file, path = resumed.file, out / FILE
-    click.echo(f"{visible(file)} is the record of a finished run, which ended with {resumed.exit_code}")
-    if same_file(str(file), str(out / GROWING)):
-        file.replace(path)
-    elif not same_file(str(file), str(path)) or all(map(_is_behind(path), (out / name for name in _REPORTS))):
-        return int(resumed.exit_code or 0)
-    report(read(path), out)
-    return int(resumed.exit_code or 0)
-
-
-def _is_behind(record: Path) -> Callable[[Path], bool]:
-    """Whether a report was written after the record."""
-    return lambda file: file.is_file() and file.stat().st_mtime_ns >= record.stat().st_mtime_ns
 
 
 def names_in(text: str | None) -> tuple[str, ...]:

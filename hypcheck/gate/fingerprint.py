@@ -6,13 +6,19 @@ import hashlib
 import os
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.machinery import PathFinder
 from pathlib import Path
 
 from hypcheck.methods.spec import is_file, parse_spec
 
 _BLOCK = 1 << 20
+
+
+def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
+    """The sha256 of the files that SPECs name, and of other files, by path; of those that are there."""
+    paths = [*(path for spec in specs for path in files_of(spec)), *(path for path in others if path is not None)]
+    return {str(path): sha256(path) for path in paths}
 
 
 def files_of(spec: str) -> list[Path]:

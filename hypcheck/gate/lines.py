@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -17,22 +17,33 @@ from hypcheck.gate.schedule import State
 from hypcheck.groups import Tally
 from hypcheck.judge import Status
 from hypcheck.methods.description import Description
-from hypcheck.record import Recorder
+from hypcheck.record import Line, Recorder
 
 FATAL = (Status.ERROR, Status.CRASH, Status.TIMEOUT, Status.PROTOCOL, Status.NONDETERMINISTIC, Status.NOT_RUN)
 
 
 @dataclass
 class GateOutcome:
-    """What decides how the run ends: reasons for the exit codes 5 and 1, and how many cases were judged at all."""
+    """What decides how a run ends: reasons for the exit codes 5 and 1, and how many cases were judged at all."""
 
     not_started: list[str] = field(default_factory=list)
     failed: list[str] = field(default_factory=list)
     judged: int = 0
 
-    def copy(self) -> GateOutcome:
-        """As it is now, whatever is added to it later."""
-        return GateOutcome(list(self.not_started), list(self.failed), self.judged)
+    def take(self, lines: Iterable[Line]) -> None:
+        """Learn it from the lines of the run, which say all of it."""
+        for line in lines:
+            if line["type"] == "group":
+                self.judged += line["asked"]
+                self.failed += [f"{line['method']} on {line['family']}: {status}" for status in line["failing"]]
+            elif line["type"] == "drift":
+                self.failed.append(line["sentence"])
+            elif not line["started"]:
+                self.not_started.append(line["trouble"])
+            else:
+                if line["broke_protocol_throughout"]:
+                    self.not_started.append(f"{line['spec']} broke the protocol throughout")
+                self.failed += line["troubles"]
 
     @property
     def exit_code(self) -> int:
@@ -52,7 +63,7 @@ class Lines:
     used: Description
     rules: Rules
 
-    def add(self, state: State, recorder: Recorder, outcome: GateOutcome, *, finished: bool) -> None:
+    def add(self, state: State, recorder: Recorder, *, finished: bool) -> None:
         """Record the state; where the run is not finished, open cases are judged as they were answered."""
         total = merged([replace(state.total, open=()), as_they_are(state.total.open, self.rules)])
         found = [self._group(family, tally) for family, tally in total.tallies.items()]
@@ -62,11 +73,7 @@ class Lines:
         if finished:
             for sentence in no_longer_failing(self.rules.known, total.excusing, {*total.tallies, *total.named}):
                 recorder.add("drift", sentence=f"{self.used.name}: {sentence}")
-                outcome.failed.append(sentence)
-        outcome.judged += sum(line["asked"] for line in found)
-        for line in found:
-            outcome.failed += [f"{self.used.name} on {line['family']}: {status}" for status in line["failing"]]
-        self._conclude(state, total, found, recorder, outcome)
+        self._conclude(state, total, found, recorder, finished=finished)
 
     def _group(self, family: str, tally: Tally) -> dict[str, Any]:
         wrong_fails = self.plan.fail_on == "wrong" or tally.dangerous > 0 or family == refusals.NAME
@@ -76,14 +83,9 @@ class Lines:
         return {**fields, "faults": groups.fault_lines(tally), "failing": failing}
 
     def _conclude(
-        self, state: State, total: Result, found: Sequence[dict[str, Any]], recorder: Recorder, outcome: GateOutcome
+        self, state: State, total: Result, found: Sequence[dict[str, Any]], recorder: Recorder, *, finished: bool
     ) -> None:
         """The line about the implementation as a whole."""
-        throughout = total.broke_protocol_throughout
-        troubles = list(self._troubles(total, found))
-        if throughout:
-            outcome.not_started.append(f"{self.spec} broke the protocol throughout")
-        outcome.failed += troubles
         recorder.add(
             "implementation",
             spec=self.spec,
@@ -93,8 +95,9 @@ class Lines:
             used=asdict(self.used),
             restarts=self.plan.limits.restarts - state.left.restarts,
             again=asdict(total.again),
-            broke_protocol_throughout=throughout,
-            troubles=troubles,
+            broke_protocol_throughout=total.broke_protocol_throughout,
+            troubles=list(self._troubles(total, found)),
+            **({} if finished else {"finished": False}),
         )
 
     def _troubles(self, total: Result, found: Sequence[dict[str, Any]]) -> Iterator[str]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hypcheck.errors import InputError
 from hypcheck.gate.cluster import check_address
+from hypcheck.gate.work import Opening
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.limits import Limits
@@ -61,6 +62,10 @@ class GatePlan:
     def crew(self, cases: int) -> int:
         """How many processes ask so many cases."""
         return self.workers or (usable_processors() if cases >= LARGE else 1)
+
+    def opening(self, number: int) -> Opening:
+        """How one of its implementations is opened."""
+        return Opening(self.specs[number], self.limits, self.precision, self.question, self.domain)
 
     @property
     def filtered(self) -> bool:

@@ -1,19 +1,15 @@
-"""How far a run has come, as a line of its record: kept while it goes on, and what `--resume` goes on from."""
+"""How far an implementation has been asked, as a line of the record: what `--resume` goes on from."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.gate.fingerprint import files_of, sha256
-from hypcheck.gate.lines import GateOutcome
-from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State
-from hypcheck.gate.work import Opening
 from hypcheck.record import Line, Recorder
 
 EVERY = 10.0
@@ -27,46 +23,31 @@ SHARE = 100
 class Progress:
     """What a line of progress says.
 
-    `number` is the place, from 0, of the implementation that is asked among those of the plan, and `declared` what it
-    says of itself; `files` are sha256 by path, `cases` those that it is asked in all. `outcome` is that of the
-    implementations before it, whose lines stand before this one. `state` is None where nothing was asked yet.
+    `number` is the place, from 0, of the implementation that is asked among those of the plan, `declared` what it says
+    of itself, and `cases` how many it is asked in all.
     """
 
     number: int
     declared: Mapping[str, Any]
-    files: Mapping[str, str]
     cases: int
-    outcome: GateOutcome
-    state: State | None = None
+    state: State
 
     @classmethod
     def of_line(cls, line: Line, name: str) -> Progress:
         """What the line of a record says. Raises InputError naming the record where it cannot be read."""
         try:
-            return cls(
-                line["number"],
-                line["declared"],
-                line["files"],
-                line["cases"],
-                GateOutcome(**line["outcome"]),
-                restored(line["state"]),
-            )
+            return cls(line["number"], line["declared"], line["cases"], restored(line["state"]))
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise InputError(f"{name}: its line of progress says nothing to go on from: {error!r}") from None
 
 
 class Keeper:
-    """Keeps in a record how far one implementation has come; `beginning` is its progress without a state."""
+    """Keeps in a record how far one implementation has been asked; `about` are the fields of the line but its state."""
 
-    def __init__(self, recorder: Recorder, beginning: Progress) -> None:
-        self._recorder = recorder
-        self._beginning = beginning
+    def __init__(self, recorder: Recorder, **about: Any) -> None:  # noqa: ANN401  whatever the line holds
+        self.recorder = recorder
+        self._about = about
         self._due = time.monotonic() + EVERY
-
-    def begin(self, state: State) -> None:
-        """Keep the lines of those before it, so that they are not asked again."""
-        if self._beginning.number:
-            self.keep(state)
 
     def offer(self, state: State) -> None:
         """Keep the state if it is time to."""
@@ -78,23 +59,4 @@ class Keeper:
 
     def keep(self, state: State) -> None:
         """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
-        found = self._beginning
-        self._recorder.keep(
-            number=found.number,
-            declared=found.declared,
-            files=found.files,
-            cases=found.cases,
-            outcome=asdict(found.outcome),
-            state=saved(state),
-        )
-
-
-def opening_of(plan: GatePlan, number: int) -> Opening:
-    """How an implementation of the plan is opened."""
-    return Opening(plan.specs[number], plan.limits, plan.precision, plan.question, plan.domain)
-
-
-def fingerprints(plan: GatePlan, number: int) -> dict[str, str]:
-    """The sha256 of the files that its SPEC names, and of the known failures; of those that can be read."""
-    paths = (*files_of(plan.specs[number]), *([plan.known_failures] if plan.known_failures else []))
-    return {str(path): sha256(path) for path in paths}
+        self.recorder.keep(**self._about, state=saved(state))

@@ -11,9 +11,9 @@ from typing import Any
 
 from hypcheck.errors import InputError
 from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.progress import Progress, fingerprints, opening_of
-from hypcheck.record import Line, plain, read
-from hypcheck.record.reading import interrupted_in
+from hypcheck.gate.progress import Progress
+from hypcheck.gate.schedule import State
+from hypcheck.record import Line, Record, plain
 from hypcheck.record.writing import PROGRESS, header
 
 FREE = ("workers", "cluster")
@@ -25,62 +25,77 @@ LIBRARIES = ("numpy", "mpmath", "sympy")
 
 @dataclass(frozen=True)
 class Resumed:
-    """What `file` holds of a run: lines to begin with, and the progress that is the last of them.
+    """What a record holds of a run: lines to begin with, and the state that the next implementation is in.
 
-    Without progress a run goes on from its beginning. `exit_code` is that of a finished run, None of others.
+    The lines are of implementations that were asked to their end, with the line of progress of the next one behind
+    them if there is one; otherwise the state is None, and it is asked from its beginning.
     """
 
-    file: Path
-    carried: tuple[Line, ...]
-    progress: Progress | None
-    exit_code: int | None = None
+    carried: tuple[Line, ...] = ()
+    state: State | None = None
 
 
-def resume(path: Path, plan: GatePlan, options: Mapping[str, Any], cases: int) -> Resumed:
-    """What is to be gone on with; `path` is a record, or the folder of a run. Nothing is changed.
+def require_same_run(
+    record: Record, file: Path, plan: GatePlan, options: Mapping[str, Any], files: Mapping[str, str]
+) -> None:
+    """Raise InputError, saying what differs, where the record in `file` is not one of a run of this kind.
 
-    Raises InputError where the record cannot be read, or options, versions, cases, the implementation or its files are
-    not those of its run, saying what differs; StartError where the implementation cannot be started.
+    `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
     """
-    file = interrupted_in(path)
-    record = read(file)
-    _require_same_run(record.header, header(options, datetime.now(timezone.utc)), file)
-    if record.footer is not None:
-        return Resumed(file, (), None, int(record.footer["exit_code"]))
-    place = max((place for place, line in enumerate(record.lines) if line["type"] == PROGRESS), default=None)
-    if place is None:
-        return Resumed(file, (), None)
-    progress = Progress.of_line(record.lines[place], str(file))
-    _require_same_implementation(progress, plan, cases, file)
-    return Resumed(file, record.lines[: place + 1], progress)
-
-
-def _require_same_run(before: Line, now: Line, file: Path) -> None:
-    parts = {"options": FREE, "versions": (), "machine": ("processor", "cores")}
+    before, now = record.header, header(options, datetime.now(timezone.utc), files)
+    if not {"specs", "max_abstained"} <= before["options"].keys():
+        command = "bench" if before["options"].get("command") == "bench" else "verify without SPEC"
+        raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")
     for name in ("schema", "hypcheck", "python"):
         _require_same(before.get(name), now[name], name, file)
-    for part, free in parts.items():
-        there, here = before.get(part), json.loads(json.dumps(plain(now[part])))
-        if not isinstance(there, dict):
-            raise InputError(f"{file} cannot be resumed: its header has no {part}")
+    for part, free in {"options": FREE, "versions": (), "machine": ("processor", "cores"), "files": ()}.items():
+        there, here = before.get(part) or {}, json.loads(json.dumps(plain(now[part])))
         for key in {**there, **here}:
             if key not in free and (part != "versions" or key in LIBRARIES):
-                title = f"--{key.replace('_', '-')}" if part == "options" and key != "specs" else key
-                _require_same(there.get(key), here.get(key), title, file)
+                _require_same(there.get(key), here.get(key), _title(part, key), file)
+    spoken = [line["spec"] for line in finished_part(record)[0] if line["type"] == "implementation"]
+    _require_same(spoken, list(plan.specs[: len(spoken)]), "those that were asked to their end", file)
 
 
-def _require_same_implementation(progress: Progress, plan: GatePlan, cases: int, file: Path) -> None:
-    if not 0 <= progress.number < len(plan.specs):
-        raise InputError(f"{file} cannot be resumed: its progress is of implementation {progress.number}")
-    _require_same(progress.cases, cases, "the number of cases", file)
-    files = fingerprints(plan, progress.number)
-    for path in {**progress.files, **files}:
-        _require_same(progress.files.get(path), files.get(path), f"the sha256 of {path}", file)
-    with opening_of(plan, progress.number).open() as implementation:
-        declared = plain(asdict(implementation.declared))
+def resume(record: Record, file: Path, plan: GatePlan, cases: int) -> Resumed:
+    """What the run of the plan goes on with, whose implementations are asked so many cases each.
+
+    Raises InputError where the implementation that was being asked says something else of itself, or the line of
+    progress cannot be read; StartError where it cannot be started.
+    """
+    carried, progress = finished_part(record)
+    if progress is None:
+        return Resumed(carried)
+    begun = Progress.of_line(progress, str(file))
+    _require_same(begun.cases, cases, "the number of cases", file)
+    with plan.opening(begun.number).open() as implementation:
+        declared = json.loads(json.dumps(plain(asdict(implementation.declared))))
     for key in declared:
-        title = f"the {key} that {plan.specs[progress.number]} declares"
-        _require_same(progress.declared.get(key), json.loads(json.dumps(declared[key])), title, file)
+        title = f"the {key} that {plan.specs[begun.number]} declares"
+        _require_same(begun.declared.get(key), declared[key], title, file)
+    return Resumed((*carried, progress), begun.state)
+
+
+def finished_part(record: Record) -> tuple[tuple[Line, ...], Line | None]:
+    """The lines of implementations that were asked to their end, and the progress of the next one if it is kept.
+
+    A record is written in order, so what stands before the last such implementation belongs to it and those before it.
+    Behind it may stand lines of one that was not asked to its end: all that counts of it is the progress.
+    """
+    ends = [
+        place
+        for place, line in enumerate(record.lines)
+        if line["type"] == "implementation" and line.get("finished", True)
+    ]
+    before = record.lines[: ends[-1] + 1] if ends else ()
+    kept = [line for line in record.of(PROGRESS) if line["number"] == len(ends)]
+    return tuple(line for line in before if line["type"] != PROGRESS), kept[-1] if kept else None
+
+
+def _title(part: str, key: str) -> str:
+    if part == "files":
+        return f"the sha256 of {key}"
+    return f"--{key.replace('_', '-')}" if part == "options" and key != "specs" else key
 
 
 def _require_same(before: object, now: object, what: str, file: Path) -> None:

@@ -17,7 +17,7 @@ from hypcheck.gate.cluster import connected
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines
 from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.progress import Keeper, Progress, fingerprints, opening_of
+from hypcheck.gate.progress import Keeper
 from hypcheck.gate.rules import Rules
 from hypcheck.gate.schedule import Crew, State, Step, states, steps
 from hypcheck.gate.work import Opening
@@ -26,7 +26,7 @@ from hypcheck.judge import Criterion
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
-from hypcheck.record import Recorder, plain
+from hypcheck.record import Recorder
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -44,34 +44,28 @@ def size(plan: GatePlan) -> int:
     return sum(map(len, _chunks(plan)))
 
 
-def run(
-    plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, progress: Progress | None = None
-) -> None:
-    """Gate every implementation of the plan; `advance` is told how many cases have been asked.
+def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, state: State | None = None) -> None:
+    """Gate the implementations of the plan; `advance` is told how many cases have been asked.
 
-    `progress` is what to go on from, which the recorder and the outcome have begun with. Interrupted, it records what
-    was finished. Raises NothingJudgedError where not one case was judged, which proves
-    nothing.
+    Those whose lines the recorder begins with are not asked again, and the next one goes on from `state`. Interrupted,
+    it records what was finished. Raises NothingJudgedError where not one case was judged, which proves nothing.
     """
     listed, cases = _known(plan), size(plan)
     keep_memory()
+    finished = sum(line["type"] == "implementation" for line in recorder.lines)
+    advance(finished * cases)
     with connected(plan.cluster) if plan.cluster else nullcontext() as client:
-        for number, spec in enumerate(plan.specs):
-            if progress is not None and number < progress.number:
-                advance(cases)
-                continue
-            opening, files = opening_of(plan, number), fingerprints(plan, number)
-            begun = progress.state if progress is not None and number == progress.number else None
+        for number in range(finished, len(plan.specs)):
             try:
-                with opening.open() as implementation:
-                    keeper = Keeper(
-                        recorder, Progress(number, plain(asdict(implementation.declared)), files, cases, outcome.copy())
-                    )
-                    _gate(implementation, opening, plan, listed, recorder, outcome, advance, keeper, begun, client)
+                with plan.opening(number).open() as implementation:
+                    keeper = Keeper(recorder, number=number, declared=asdict(implementation.declared), cases=cases)
+                    _gate(implementation, plan.opening(number), plan, listed, keeper, advance, state, client)
             except StartError as error:
+                spec = plan.specs[number]
                 recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
-                outcome.not_started.append(str(error))
                 advance(cases)
+            state = None
+    outcome.take(recorder.lines)
     if not outcome.judged and not outcome.not_started:
         raise NothingJudgedError(
             "no case was judged: every one lies outside the domain, or cannot be written in the declared precision"
@@ -98,10 +92,8 @@ def _gate(
     opening: Opening,
     plan: GatePlan,
     listed: tuple[KnownFailure, ...],
-    recorder: Recorder,
-    outcome: GateOutcome,
-    advance: Advance,
     keeper: Keeper,
+    advance: Advance,
     begun: State | None,
     client: Client | None,
 ) -> None:
@@ -115,17 +107,18 @@ def _gate(
     with ExitStack() as stack:
         crew = _crew(stack, implementation, opening, plan, rules, client)
         try:
-            keeper.begin(state)
             for step, after in states(asked, crew, begun):
                 state = after
                 advance(_cases_of(step))
                 keeper.offer(state)
+        except StartError:
+            raise
         except BaseException:
             with suppress(OSError):  # on a full disk, what was kept last is what is gone on from
                 keeper.keep(state)
-            lines.add(state, recorder, outcome, finished=False)
+            lines.add(state, keeper.recorder, finished=False)
             raise
-    lines.add(state, recorder, outcome, finished=True)
+    lines.add(state, keeper.recorder, finished=True)
 
 
 def _cases_of(step: Step) -> int:

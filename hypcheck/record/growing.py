@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 
 class Growing:
@@ -15,36 +16,36 @@ class Growing:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._file = path.open("ab")
+        self._beside = path.with_name(path.name + ".new")
+        self._file: BinaryIO | None = None
 
     def __enter__(self) -> Growing:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
-
-    def empty(self) -> None:
-        """Forget what stands there."""
-        self._file.truncate(0)
+        if self._file is not None:
+            self._file.close()
 
     def write(self, data: bytes) -> None:
         """Add to the end, so that it is there should this process end at once."""
+        if self._file is None:
+            raise ValueError("a record is renewed before anything is added to it")
         self._file.write(data)
         self._file.flush()
 
     def renew(self, data: bytes) -> None:
         """Let `data` take the place of all that stands there, when it is on the disk."""
-        beside = self._path.with_name(self._path.name + ".new")
         try:
-            with beside.open("wb") as file:
+            with self._beside.open("wb") as file:
                 file.write(data)
                 file.flush()
                 os.fsync(file.fileno())
         except OSError:
             with suppress(OSError):
-                beside.unlink()
+                self._beside.unlink()
             raise
-        with suppress(OSError):  # what could not be written of a line is written anew
-            self._file.close()
-        beside.replace(self._path)
+        if self._file is not None:
+            with suppress(OSError):  # what could not be written of a line is written anew
+                self._file.close()
+        self._beside.replace(self._path)
         self._file = self._path.open("ab")

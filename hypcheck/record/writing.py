@@ -5,7 +5,8 @@ Numbers that must come back exactly are hexadecimal strings; infinity is the str
 
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
-1.3.0 adds the progress that a gating run has made when it is interrupted, and of a benchmark scenes and forests.
+1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
+scenes and forests.
 """
 
 from __future__ import annotations
@@ -35,27 +36,34 @@ PROGRESS = "progress"
 class Recorder:
     """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    `carried` are lines of the record that is gone on with, which are there from the first moment on. Interrupts wait
-    while a line is written, so that none is ever written twice, or by half with another behind it.
+    `files` are the sha256, by path, of those under test. `carried` are lines of the record that is gone on with, which
+    are there from the first moment on. Interrupts wait while a line is written, so that none is ever written twice, or
+    by half with another behind it.
     """
 
-    def __init__(self, stream: TextIO | Growing, options: Mapping[str, Any], carried: Sequence[Line] = ()) -> None:
+    def __init__(
+        self,
+        stream: TextIO | Growing,
+        options: Mapping[str, Any],
+        files: Mapping[str, str] | None = None,
+        carried: Sequence[Line] = (),
+    ) -> None:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
         self._lines = [line for line in carried if line["type"] != PROGRESS]
         self._progress: Line | None = next((line for line in carried if line["type"] == PROGRESS), None)
         self._place = len(self._lines)
         self._check = 0
-        self._header = plain(header(options, self._started))
-        if carried:
+        self._header = plain(header(options, self._started, files))
+        if isinstance(stream, Growing):
             self._renew()
         else:
             self._write(self._header)
 
     @property
     def goes_on(self) -> bool:
-        """Whether a run could go on from what is recorded."""
-        return self._progress is not None
+        """Whether there is something of a gating run that it could go on from."""
+        return self._progress is not None or any(line["type"] == "implementation" for line in self._lines)
 
     @property
     def lines(self) -> tuple[Line, ...]:
@@ -108,9 +116,9 @@ class Recorder:
             self._check = check
 
 
-def header(options: Mapping[str, Any], started: datetime) -> Line:
-    """The first line: versions, machine and options."""
-    return {
+def header(options: Mapping[str, Any], started: datetime, files: Mapping[str, str] | None = None) -> Line:
+    """The first line: versions, machine and options, and the files under test if there are any to be known."""
+    line: Line = {
         "type": "header",
         "schema": SCHEMA,
         "hypcheck": VERSION,
@@ -125,6 +133,7 @@ def header(options: Mapping[str, Any], started: datetime) -> Line:
         },
         "options": dict(options),
     }
+    return line if files is None else {**line, "files": dict(files)}
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds

@@ -60,6 +60,16 @@ def wait_for(process, out, what, patience=60.0):
         time.sleep(0.002)
 
 
+def paused_bytes(out):
+    """The bytes of the record of a run that was killed within its second implementation."""
+    process = started(out)
+    wait_for(process, out, b'"number": 1')
+    time.sleep(0.05)
+    process.kill()
+    process.communicate()
+    return (out / GROWING).read_bytes()
+
+
 def came_to(out):
     """What a run came to: the lines of its record and its summary as they are written, but for times and workers."""
     assert not list(out.glob("*.part*"))

@@ -10,15 +10,31 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hypcheck.cli.main import main
+from hypcheck.gate.resuming import finished_part
 from hypcheck.record import read
-from hypcheck.record.reading import FILE, GROWING
+from hypcheck.record.reading import FILE
 from hypcheck.report.json_schema import violations
-from tests.gate.interrupted import CODE, came_to, ended, in_small_steps, started, wait_for, words
+from tests.gate.interrupted import (
+    CODE,
+    SPECS,
+    came_to,
+    ended,
+    in_small_steps,
+    paused_bytes,
+    started,
+    wait_for,
+    words,
+)
+from tests.records import resealed
 from tests.test_report_schemas import RECORD
 
 MOMENTS = int(os.environ.get("HYPCHECK_MOMENTS", "3"))
@@ -60,14 +76,7 @@ def whole(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def paused(tmp_path_factory):
-    """The bytes of the record of a run that was killed within its second implementation."""
-    out = tmp_path_factory.mktemp("paused")
-    process = started(out)
-    wait_for(process, out, b'"number": 1')
-    time.sleep(0.05)
-    process.kill()
-    process.communicate()
-    return (out / GROWING).read_bytes()
+    return paused_bytes(tmp_path_factory.mktemp("paused"))
 
 
 def interrupted(out, whole, dice, number, *more):
@@ -82,6 +91,9 @@ def interrupted(out, whole, dice, number, *more):
     said = "".join(process.communicate())
     assert process.returncode in (CODE, -number, 128 + number)
     assert "Traceback" not in said or number == signal.SIGINT  # Python itself may still be starting
+    if process.returncode > CODE and (out / FILE).exists():
+        goes_on = b'"progress"' in (out / FILE).read_bytes()
+        assert (f"the same command with --resume {out} goes on" if goes_on else "the same command ") in said
 
 
 @pytest.mark.parametrize("moment", range(MOMENTS))
@@ -90,9 +102,6 @@ def test_killed_at_any_moment(whole, tmp_path, moment, here):
     interrupted(tmp_path, whole, dice, SIGNALS[moment % 3], *["--workers", "2"][: 2 * (moment % 7 == 1)])
     resume = ["--resume", str(tmp_path)] if any(tmp_path.glob("record.jsonl*")) else []
     code, said = here(tmp_path, *resume, *["--workers", "2"][: 2 * (moment % 7 == 2)])
-    if "is empty" in said:  # it had not begun
-        assert code == 2
-        code, said = here(tmp_path)
     assert code == CODE, said
     assert came_to(tmp_path) == whole[0]
 
@@ -131,6 +140,30 @@ def test_a_record_cut_at_any_byte_goes_on_or_is_refused(paused, whole, tmp_path,
             assert code == CODE, said
             assert came_to(tmp_path / str(cut)) == whole[0]
         assert (tmp_path / "cut.jsonl").read_bytes() == paused[:cut]
+
+
+@given(st.data())
+def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_on(paused, data):
+    """Also of a finished record, and of one that was interrupted with lines of an unfinished implementation."""
+    lines = [
+        {name: value for name, value in json.loads(line).items() if name != "crc32"} for line in paused.splitlines()
+    ]
+    header, (*groups, first), progress = lines[0], lines[1:-1], lines[-1]
+    second = [{**line, "spec": SPECS[1]} for line in (*groups, first)]
+    behind = [*second[:-1], {**second[-1], "finished": False}]
+    footer = {"type": "footer", "lines": 7, "exit_code": 1, "seconds": 1.0}
+    form = data.draw(st.sampled_from([[progress], [progress, *behind], [*second, footer], [progress, *second]]))
+    content = resealed([header, *groups, first, *form])
+    start = len(resealed([header, *groups, first]))
+    cut = data.draw(st.integers(start, len(content) - 1))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / FILE
+        path.write_bytes(content[:cut])
+        record = read(path)
+        carried, kept = finished_part(record)
+    whole_second = len(record.lines) - len(record.of("progress")) >= 6 and form[-1].get("finished", True)
+    assert list(carried) == [*groups, first, *(second if whole_second else [])]
+    assert kept == (progress if record.of("progress") and not whole_second else None)
 
 
 @pytest.mark.parametrize("most", [3000, 12000])

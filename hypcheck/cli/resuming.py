@@ -1,0 +1,73 @@
+"""`--resume`: what the record of an interrupted run has to go on with, or that there is nothing left to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from hypcheck.cli.recording import report
+from hypcheck.errors import InputError
+from hypcheck.tables.route import STREAM
+from hypcheck.tables.streams import same_file
+from hypcheck.visible import visible
+
+if TYPE_CHECKING:
+    from hypcheck.gate.plan import GatePlan
+    from hypcheck.gate.resuming import Resumed
+
+_REPORTS = ("summary.json", "junit.xml", "report.md")
+
+
+def folder_of(path: Path) -> Path:
+    """Where a run goes on whose record or folder this is."""
+    return path if path.is_dir() else path.parent
+
+
+def resumed(
+    path: Path, out: Path, plan: GatePlan, options: Mapping[str, Any], files: Mapping[str, str], cases: int
+) -> Resumed | int:
+    """What the plan's run goes on with; of a finished run the code it ended with, which is told. Nothing is changed.
+
+    `path` is a record, or the folder of a run. Raises InputError where the record cannot be read, is being written, or
+    is not one of just this run, saying what differs.
+    """
+    from hypcheck.gate.resuming import require_same_run, resume
+    from hypcheck.record.owning import owning
+    from hypcheck.record.reading import GROWING, interrupted_in
+    from hypcheck.report.reading import read_checked
+
+    if str(path) == STREAM:
+        raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
+    file = interrupted_in(path)
+    if file.name == GROWING:
+        with owning(file.parent):
+            record = read_checked(file)
+    else:
+        record = read_checked(file)
+    require_same_run(record, file, plan, options, files)
+    if record.footer is None:
+        return resume(record, file, plan, cases)
+    code = int(record.footer["exit_code"])
+    click.echo(f"{visible(file)} is the record of a finished run, which ended with {code}")
+    _make_reports(file, out)
+    return code
+
+
+def _make_reports(file: Path, out: Path) -> None:
+    """Make the reports of a finished record in `out` that its run had no time for."""
+    from hypcheck.record.reading import FILE, GROWING, read
+
+    path = out / FILE
+    if same_file(str(file), str(out / GROWING)):
+        file.replace(path)
+    elif not same_file(str(file), str(path)) or all(map(_is_behind(path), (out / name for name in _REPORTS))):
+        return
+    report(read(path), out)
+
+
+def _is_behind(record: Path) -> Callable[[Path], bool]:
+    """Whether a report was written after the record."""
+    return lambda file: file.is_file() and file.stat().st_mtime_ns >= record.stat().st_mtime_ns
