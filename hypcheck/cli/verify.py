@@ -76,7 +76,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
     wrong by more than --tolerance units, 1 when one is or a case ended without an answer, 5 when it cannot be started.
 
-    A run with SPEC that was interrupted goes on with --resume RECORD (or the folder of its run) and the same options.
+    A run with SPEC that was interrupted or killed goes on with --resume RECORD (or the folder of its run, which --out
+    then is unless it is given) and the same options. A run without SPEC keeps what it finished, and begins anew.
 
     Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml. Options that are not
     given are those of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
