@@ -1,13 +1,14 @@
 """The kernel in numpy: the stages of the compiled one over chunks, with the arithmetic printed from the same programs.
 
-half planes of the scene     printed/chunks.py one_line, two_lines; scene_lines.py makes their constants
+half planes of the scene     printed/chunks.py plane and parallel_lines, in single precision; where these leave too
+                             many rows, two_lines; scene_lines.py makes their constants
 discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,9 @@ from hypcheck.kernel.answering import Columns, Sizes
 from hypcheck.kernel.printed import chunks
 from hypcheck.kernel.programs.certified import CONSTANTS
 from hypcheck.kernel.programs.lines import CAP
+from hypcheck.kernel.programs.parallel_lines import CAP as CAP_OF_SINGLES
 from hypcheck.kernel.question import POSITION_OF, Question
+from hypcheck.kernel.scene_lines import SceneLines
 from hypcheck.pairs import REFUSED, Pair
 from hypcheck.rows import Positions, Rows, invalid
 
@@ -25,7 +28,7 @@ CHUNK = 8192
 """Rows at a time: the buffers of one chunk stay in the cache, and the calls of ufuncs are few."""
 
 LINES_CHUNK = 1 << 15
-"""The same for the lines, which need fewer buffers."""
+"""The same for the lines, which need fewer buffers and smaller ones."""
 
 LINES_FROM = 1 << 14
 """Centres from which a scene's half planes are worth their making."""
@@ -34,13 +37,15 @@ TOO_MANY_LEFT = LINES_CHUNK // 100
 """Of a chunk, by one line a side: then it is two."""
 
 Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
 Mask = NDArray[np.bool_]
+Number = TypeVar("Number", np.float32, np.float64)
 
 
 def positions(rows: Rows) -> Positions:
     """The exact position of every row, int8 (n,), 127 for invalid ones; rows float64 (n, 7) as in rows.py."""
     result = np.empty(len(rows), dtype=np.int8)
-    buffers = Buffers(chunks.CERTIFIED_BUFFERS, min(CHUNK, len(rows)))
+    buffers = Buffers(chunks.CERTIFIED_BUFFERS, min(CHUNK, len(rows)), np.float64)
     for start in range(0, len(rows), CHUNK):
         part = rows[start : start + CHUNK]
         _certified(part, buffers, result[start : start + CHUNK])
@@ -50,9 +55,9 @@ def positions(rows: Rows) -> Positions:
 def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Positions:
     """The exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d; int8 (n,)."""
     result = np.empty(len(x), dtype=np.int8)
-    constants = scene_lines.constants_of(sizes, z) if len(x) >= LINES_FROM else None
+    lines = scene_lines.lines_of(sizes, z) if len(x) >= LINES_FROM else None
     with np.errstate(all="ignore"):
-        left = np.arange(len(x)) if constants is None else _by_lines(constants, x, y, z, result)
+        left = np.arange(len(x)) if lines is None else _by_lines(lines, (x, y, z), result)
     for start in range(0, len(left), CHUNK):
         rest = left[start : start + CHUNK]
         rows = np.empty((len(rest), 7))
@@ -86,41 +91,67 @@ def _answers(found: Positions, question: Question) -> tuple[Positions, int]:
     return yes, refused
 
 
-class Buffers:
+class Buffers(Generic[Number]):
     """Memory for the intermediate values of one chunk, used again for every chunk."""
 
-    def __init__(self, counts: tuple[int, int], rows: int) -> None:
-        self._numbers = [np.empty(rows) for _ in range(counts[0])]
+    def __init__(self, counts: tuple[int, int], rows: int, number: type[Number]) -> None:
+        self._numbers: list[NDArray[Number]] = [np.empty(rows, dtype=number) for _ in range(counts[0])]
         self._truths = [np.empty(rows, dtype=np.bool_) for _ in range(counts[1])]
         self._rows = rows
 
-    def of(self, rows: int) -> tuple[list[Floats], list[Mask]]:
+    def of(self, rows: int) -> tuple[list[NDArray[Number]], list[Mask]]:
         """Arrays for a chunk of so many rows."""
         if rows == self._rows:
             return self._numbers, self._truths
         return [each[:rows] for each in self._numbers], [each[:rows] for each in self._truths]
 
 
-def _by_lines(constants: dict[str, float], x: Floats, y: Floats, z: Floats, result: Positions) -> NDArray[np.intp]:
+def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Places:
     """Fill in what the scene's half planes prove, and return the places of the rest."""
-    left: list[NDArray[np.intp]] = []
-    stage: Callable[..., tuple[Floats, Mask, Mask, Mask]] = chunks.one_line
-    buffers = Buffers(chunks.ONE_LINE_BUFFERS, LINES_CHUNK)
-    for start in range(0, len(x), LINES_CHUNK):
-        part = slice(start, start + LINES_CHUNK)
-        numbers, truths = buffers.of(len(x[part]))
-        sums, exterior, interior, decided = stage(x[part], y[part], z[part], constants, numbers, truths)
-        within_cap = float(sums.max()) < CAP  # False for NaN
-        np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result[part])
-        if not (within_cap and decided.all()):
-            rest = np.flatnonzero(~decided) if within_cap else np.arange(len(sums))
+    numbers, truths = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
+    singles = Buffers((numbers, truths), LINES_CHUNK, np.float32)
+    doubles = Buffers(chunks.TWO_LINES_BUFFERS, LINES_CHUNK, np.float64)
+    left: list[Places] = []
+    few_left = True
+    for start in range(0, len(result), LINES_CHUNK):
+        x, y, z = (column[start : start + LINES_CHUNK] for column in columns)
+        answers, rest = result[start : start + LINES_CHUNK], None
+        if few_left and lines.parallel is not None:
+            rest = _by_parallel_lines(lines.parallel, (x, y, z), singles, answers)
+            few_left = rest is None or len(rest) <= TOO_MANY_LEFT
+        if rest is None:
+            rest = _by_two_lines(lines.two, (x, y, z), doubles, answers)
+        if len(rest):
             left.append(rest + start)
-            if len(rest) > TOO_MANY_LEFT and stage is chunks.one_line:
-                stage, buffers = chunks.two_lines, Buffers(chunks.TWO_LINES_BUFFERS, LINES_CHUNK)
     return np.concatenate(left) if left else np.empty(0, dtype=np.intp)
 
 
-def _certified(rows: Rows, buffers: Buffers, result: Positions) -> None:
+def _by_parallel_lines(
+    constants: dict[str, float], columns: Columns, buffers: Buffers[np.float32], result: Positions
+) -> Places | None:
+    """The same for one chunk, in single precision; None, and nothing is filled in, where a centre has no room in it."""
+    numbers, truths = buffers.of(len(result))
+    R, T = chunks.plane(*columns, numbers[: chunks.PLANE_BUFFERS[0]])
+    if not (T.max() <= constants["reach"] and R.max() < CAP_OF_SINGLES):  # so with NaN
+        return None
+    found = chunks.parallel_lines(R, T, constants, numbers[chunks.PLANE_BUFFERS[0] :], truths)
+    return _filled_in(*found, result)
+
+
+def _by_two_lines(
+    constants: dict[str, float], columns: Columns, buffers: Buffers[np.float64], result: Positions
+) -> Places:
+    sums, exterior, interior, decided = chunks.two_lines(*columns, constants, *buffers.of(len(result)))
+    rest = _filled_in(exterior, interior, decided, result)
+    return rest if sums.max() < CAP else np.arange(len(result))  # so with NaN
+
+
+def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Places:
+    np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
+    return np.empty(0, dtype=np.intp) if decided.all() else np.flatnonzero(~decided)
+
+
+def _certified(rows: Rows, buffers: Buffers[np.float64], result: Positions) -> None:
     """Fill in the positions of one chunk of rows."""
     alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
     with np.errstate(all="ignore"):

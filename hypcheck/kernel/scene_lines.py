@@ -20,10 +20,10 @@ from hypcheck.kernel.programs.lines import (
     LEAST_CONSTANT,
     LEAST_SIZE,
     LESS,
-    PLACES,
     SIDES,
 )
 from hypcheck.kernel.scalar import exact_position
+from hypcheck.kernel.scene_parallels import thresholds
 
 Floats = NDArray[np.float64]
 Sizes = tuple[float, float, float, float]
@@ -49,29 +49,39 @@ class Point:
     R: float
 
 
-def constants_of(sizes: Sizes, z: Floats) -> dict[str, float] | None:
-    """The inputs of the programs ONE_LINE and TWO_LINES but x, y, z, for valid sizes and heights like those of `z`.
+@dataclass(frozen=True, slots=True)
+class SceneLines:
+    """The inputs of the programs PARALLEL_LINES (None where single precision has no room) and TWO_LINES but centres."""
 
-    None where the sizes are beyond what the margins allow.
-    """
+    parallel: dict[str, float] | None
+    two: dict[str, float]
+
+
+def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
+    """Lines for valid sizes and heights like those of `z`; None where the sizes are beyond what the margins allow."""
     if not all(LEAST_SIZE < size < GREATEST_SIZE for size in sizes):
         return None
     heights = _heights(z)
     under = [_known_point(sizes, height, 1) for height in heights]
     above = [_known_point(sizes, height, -1) for height in heights]
-    found: dict[str, float] = {"reach": heights[2] ** 2 * LESS}
-    for place in PLACES:  # line 0 over all heights, 1 over the lower, 2 over the upper ones
-        first, last = (1 if place == 2 else 0), (1 if place == 1 else 2)
-        middle = heights[1] ** 2 if place == 0 else (heights[first] ** 2 + heights[last] ** 2) / 2
+    two: dict[str, float] = {"reach": heights[2] ** 2 * LESS}
+    for part in (1, 2):  # the lower and the upper heights
+        middle = (heights[part - 1] ** 2 + heights[part] ** 2) / 2
         made = {
-            "beyond": _beyond(sizes, middle),
-            "within": _within(sizes, middle),
-            "under": _chord("under", under[first], under[last]),
-            "above": _chord("above", above[first], above[last]),
+            "beyond": _beyond(sizes, _multiplier(sizes, middle, side=1)),
+            "within": _within(sizes, _multiplier(sizes, middle, side=-1)),
+            "under": _chord("under", under[part - 1], under[part]),
+            "above": _chord("above", above[part - 1], above[part]),
         }
         for side in SIDES:
-            found[f"K_{side}_{place}"], found[f"M_{side}_{place}"] = made[side] or PROVES_NOTHING[side]
-    return found
+            two[f"K_{side}_{part}"], two[f"M_{side}_{part}"] = made[side] or PROVES_NOTHING[side]
+    chords = {"under": _chord("under", under[0], under[2]), "above": _chord("above", above[0], above[2])}
+    parallel = {
+        "beyond": _beyond(sizes, _parallel_multiplier(sizes, chords["under"], heights[1], side=1)),
+        "within": _within(sizes, _parallel_multiplier(sizes, chords["above"], heights[1], side=-1)),
+        **chords,
+    }
+    return SceneLines(thresholds(parallel, heights[2] ** 2), two)
 
 
 def _heights(z: Floats) -> tuple[float, float, float]:
@@ -93,8 +103,9 @@ def _short(value: float, *, up: bool) -> float:
     return math.ldexp(math.ceil(whole) if up else math.floor(whole), exponent - 25)
 
 
-def _multiplier(A: float, B: float, Q: float, side: int) -> float:
+def _multiplier(sizes: Sizes, T: float, side: int) -> float:
     """About where (A+λ)(1+1/λ) + Q(A+λ)/(B−λ) is least (side 1), or with −μ for λ greatest (side −1)."""
+    A, B, Q = _ratios(sizes, T)
     low, high = 0.0, min(math.sqrt(A), B) if side > 0 else math.sqrt(A)
     for _ in range(20):
         middle = (low + high) / 2
@@ -105,6 +116,17 @@ def _multiplier(A: float, B: float, Q: float, side: int) -> float:
     return (low + high) / 2  # never 0
 
 
+def _parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: int) -> float:
+    """λ (side 1) or μ (side −1) of the tangent parallel to the chord; without a chord, of that at the height."""
+    if chord is not None:
+        A, B, Q_slope = _ratios(sizes, 1.0)
+        slope = chord[1] / (Q_slope * sizes[2] ** 2)  # (A+λ)/(B−λ), or (A−μ)/(B+μ)
+        at = side * (slope * B - A) / (1 + slope)
+        if 0 < at < (B if side > 0 else A):
+            return at
+    return _multiplier(sizes, height**2, side)
+
+
 def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
     alpha, gamma, b, d = sizes
     return (alpha / b) ** 2, (gamma / d) ** 2, T / (d * d)
@@ -113,7 +135,7 @@ def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
 def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
     """A point close to the edge at that height whose position is not exterior (side 1), or not interior (side −1)."""
     A, B, Q = _ratios(sizes, height**2)
-    at = side * _multiplier(A, B, Q, side)
+    at = side * _multiplier(sizes, height**2, side)
     edge = (A + at) * (1 + 1 / at) + Q * (A + at) / (B - at)
     if not edge < CAP:
         return None
@@ -124,13 +146,12 @@ def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
     return None
 
 
-def _beyond(sizes: Sizes, T: float) -> Line | None:
-    K, M, gap = scalars.tangent_beyond(*sizes, _multiplier(*_ratios(sizes, T), side=1))
+def _beyond(sizes: Sizes, lambda_: float) -> Line | None:
+    K, M, gap = scalars.tangent_beyond(*sizes, lambda_)
     return (K, M) if gap > 0 and K >= LEAST_CONSTANT and 0 <= M <= GREATEST_SLOPE else None
 
 
-def _within(sizes: Sizes, T: float) -> Line | None:
-    mu = _multiplier(*_ratios(sizes, T), side=-1)
+def _within(sizes: Sizes, mu: float) -> Line | None:
     if mu <= 1:
         return None
     K, M, across = scalars.tangent_within(*sizes, mu)

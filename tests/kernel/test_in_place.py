@@ -50,6 +50,22 @@ def test_a_buffer_is_used_again_once_its_value_was_read():
     assert printed.statements[3] == "np.subtract(n0, -2.0, n0)  # d = c - -2"
 
 
+def test_what_is_copied_is_rounded_to_the_buffers_first_and_left_as_it_is():
+    program = program_of("norm", ("x", "y", "k"), "xx = x * x\nyy = y * y\nr = xx + yy\np = r > k")
+    printed = in_place_statements(program, ("r", "p"), copied=("x", "y"))
+    assert (printed.numbers, printed.truths) == (2, 1)
+    x, y = np.random.default_rng(1).uniform(-1, 1, (2, 100))
+    before = x.copy(), y.copy()
+    names = {"x": x, "y": y, "k": 0.5, "t0": np.ones(100, bool)} | {
+        f"n{k}": np.full(100, np.float32(7)) for k in (0, 1)
+    }
+    exec("\n".join(printed.statements), {"np": np}, names)  # noqa: S102 - what was printed is to be run
+    of_x, of_y = x.astype(np.float32), y.astype(np.float32)
+    assert np.array_equal(names[printed.place["r"]], of_x * of_x + of_y * of_y)
+    assert np.array_equal(names[printed.place["p"]], names[printed.place["r"]] > 0.5)
+    assert np.array_equal((x, y), before)
+
+
 def test_a_selection_has_no_statement():
     with pytest.raises(ValueError, match="step y: there is no ufunc in place for select"):
         in_place_statements(program_of("choice", ("x",), "p = x > 0\ny = p ? x : 1"), ("y",))

@@ -16,7 +16,7 @@ from hypcheck.derivation.pencil import A, B, P, Q
 from hypcheck.derivation.program import cut, needed
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.derivation.symbolic import SYMBOLIC
-from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.kernel.programs import certified, lines, parallel_lines, single
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 from hypcheck.pairs import COLUMNS
 
@@ -131,6 +131,20 @@ def test_sides_of_a_line_carry_the_roundings_that_the_margins_allow(program, ste
     assert Fraction(lines.MARGIN) == 16 * U
     assert Fraction(lines.LESS) * (1 + 15 * U) <= 1 - 16 * U
     assert Fraction(lines.MORE) * (1 - 15 * U) >= 1 + 16 * U
+
+
+def test_thresholds_in_single_precision_are_moved_by_more_than_the_roundings():
+    """4 factors on R and on M T, the rounding of x, y, z included, and one more: 5, and MARGIN is three times that."""
+    plane, compared = parallel_lines.PLANE, parallel_lines.PARALLEL_LINES
+    u, of_inputs = Fraction(parallel_lines.U), 2
+    counts = relative_error_counts(plane, ["R", "T"]).counts
+    assert (counts["R"] + of_inputs, counts["T"] + of_inputs) == (4, 3)
+    for step in ("outer", "inner"):
+        after = relative_error_counts(compared, [step]).counts[step]
+        assert after == 2  # of which R has the difference's alone
+        assert gamma(max(counts["R"] + of_inputs + 1, counts["T"] + of_inputs + after), u) < 6 * u
+    assert Fraction(parallel_lines.MARGIN) == 16 * u
+    assert Fraction(parallel_lines.LESS) * (1 + 6 * u) < 1
 
 
 def test_integers_are_the_cubic_times_the_squares_of_b_and_d():

@@ -13,56 +13,64 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 
-ONE_LINE_BUFFERS = (4, 5)
-"""How many buffers of numbers and of truth values one_line needs."""
+PLANE_BUFFERS = (2, 0)
+"""How many buffers of numbers and of truth values plane needs."""
 
 
-def one_line(
+def plane(
     x: Floats,
     y: Floats,
     z: Floats,
-    constants: Mapping[str, float],
-    numbers: Sequence[Floats],
-    truths: Sequence[Mask],
-) -> tuple[Floats, Mask, Mask, Mask]:
-    """R_plus_T, exterior, interior, decided of the program "one-line"; they lie in the buffers."""
-    reach = constants["reach"]
-    K_beyond_0 = constants["K_beyond_0"]
-    M_beyond_0 = constants["M_beyond_0"]
-    K_within_0 = constants["K_within_0"]
-    M_within_0 = constants["M_within_0"]
-    K_under_0 = constants["K_under_0"]
-    M_under_0 = constants["M_under_0"]
-    K_above_0 = constants["K_above_0"]
-    M_above_0 = constants["M_above_0"]
-    n0, n1, n2, n3 = numbers
-    t0, t1, t2, t3, t4 = truths
-    np.multiply(x, x, n0)  # xx = x * x
-    np.multiply(y, y, n1)  # yy = y * y
+    numbers: Sequence[Singles],
+) -> tuple[Singles, Singles]:
+    """R, T of the program "plane"; they lie in the buffers."""
+    n0, n1 = numbers
+    np.copyto(n0, x, casting="same_kind")
+    np.multiply(n0, n0, n0)  # xx = x * x
+    np.copyto(n1, y, casting="same_kind")
+    np.multiply(n1, n1, n1)  # yy = y * y
     np.add(n0, n1, n1)  # R = xx + yy
-    np.multiply(z, z, n0)  # T = z * z
-    np.add(n1, n0, n2)  # R_plus_T = R + T
-    np.less_equal(n0, reach, t0)  # in_reach = T <= reach
-    np.multiply(M_beyond_0, n0, n3)  # rise_beyond_0 = M_beyond_0 * T
-    np.add(K_beyond_0, n3, n3)  # line_beyond_0 = K_beyond_0 + rise_beyond_0
-    np.greater(n1, n3, t1)  # exterior = R > line_beyond_0
-    np.multiply(M_within_0, n0, n3)  # rise_within_0 = M_within_0 * T
-    np.add(K_within_0, n3, n3)  # line_within_0 = K_within_0 + rise_within_0
-    np.less(n1, n3, t2)  # interior = R < line_within_0
-    np.multiply(M_under_0, n0, n3)  # rise_under_0 = M_under_0 * T
-    np.add(K_under_0, n3, n3)  # line_under_0 = K_under_0 + rise_under_0
-    np.less(n1, n3, t3)  # is_under = R < line_under_0
-    np.multiply(M_above_0, n0, n0)  # rise_above_0 = M_above_0 * T
-    np.add(K_above_0, n0, n0)  # line_above_0 = K_above_0 + rise_above_0
-    np.greater_equal(n1, n0, t4)  # is_above = R >= line_above_0
-    np.logical_and(t3, t4, t4)  # contact_in_reach = is_under and is_above
-    np.logical_and(t4, t0, t0)  # contact = contact_in_reach and in_reach
-    np.logical_or(t1, t2, t4)  # clear = exterior or interior
-    np.logical_or(t4, t0, t0)  # decided = clear or contact
-    return n2, t1, t2, t0
+    np.copyto(n0, z, casting="same_kind")
+    np.multiply(n0, n0, n0)  # T = z * z
+    return n1, n0
+
+
+PARALLEL_LINES_BUFFERS = (1, 4)
+"""How many buffers of numbers and of truth values parallel_lines needs."""
+
+
+def parallel_lines(
+    R: Singles,
+    T: Singles,
+    constants: Mapping[str, float],
+    numbers: Sequence[Singles],
+    truths: Sequence[Mask],
+) -> tuple[Mask, Mask, Mask]:
+    """exterior, interior, decided of the program "parallel-lines"; they lie in the buffers."""
+    M_outer = constants["M_outer"]
+    K_beyond = constants["K_beyond"]
+    K_under = constants["K_under"]
+    M_inner = constants["M_inner"]
+    K_within = constants["K_within"]
+    K_above = constants["K_above"]
+    (n0,) = numbers
+    t0, t1, t2, t3 = truths
+    np.multiply(M_outer, T, n0)  # rise_outer = M_outer * T
+    np.subtract(R, n0, n0)  # outer = R - rise_outer
+    np.greater(n0, K_beyond, t0)  # exterior = outer > K_beyond
+    np.less(n0, K_under, t1)  # is_under = outer < K_under
+    np.multiply(M_inner, T, n0)  # rise_inner = M_inner * T
+    np.subtract(R, n0, n0)  # inner = R - rise_inner
+    np.less(n0, K_within, t2)  # interior = inner < K_within
+    np.greater_equal(n0, K_above, t3)  # is_above = inner >= K_above
+    np.logical_and(t1, t3, t3)  # contact = is_under and is_above
+    np.logical_or(t0, t2, t1)  # clear = exterior or interior
+    np.logical_or(t1, t3, t3)  # decided = clear or contact
+    return t0, t2, t3
 
 
 TWO_LINES_BUFFERS = (4, 9)

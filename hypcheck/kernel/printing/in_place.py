@@ -44,12 +44,12 @@ class InPlace:
     place: dict[str, str]
 
 
-def in_place_statements(program: Program, wanted: tuple[str, ...]) -> InPlace:
+def in_place_statements(program: Program, wanted: tuple[str, ...], copied: tuple[str, ...] = ()) -> InPlace:
     """The needed part of the program as calls of ufuncs on arrays of one shape.
 
     The inputs are in scope under their own names, as arrays or floats, and are left as they are; a step that depends
-    on floats alone would still fill a buffer. Raises ValueError for a selection, and KeyError for a name that is not
-    there.
+    on floats alone would still fill a buffer. The inputs in `copied` are first put into a buffer, rounded to its type.
+    Raises ValueError for a selection, and KeyError for a name that is not there.
     """
     steps = needed(program, wanted)
     last_read = {name: index for index, step in enumerate(steps) for name in step.reads}
@@ -58,19 +58,24 @@ def in_place_statements(program: Program, wanted: tuple[str, ...]) -> InPlace:
     free: dict[str, list[str]] = {"n": [], "t": []}
     made = {"n": 0, "t": 0}
     lines = []
+
+    def buffer(name: str, letter: str) -> str:
+        if not free[letter]:
+            free[letter].append(f"{letter}{made[letter]}")
+            made[letter] += 1
+        place[name] = free[letter].pop()
+        return place[name]
+
     for index, step in enumerate(steps):
         kinds[step.name] = kind_of(step, kinds)
+        new = [name for name in dict.fromkeys(step.reads) if name in copied and name not in place]
+        lines += [f'np.copyto({buffer(name, "n")}, {name}, casting="same_kind")' for name in new]
         arguments = _arguments(step, place)
         for name in dict.fromkeys(step.reads):
             if last_read[name] == index and name not in wanted and name in place:
                 free[place[name][0]].append(place[name])
-        letter = "n" if kinds[step.name] == NUMBER else "t"
-        if free[letter]:
-            place[step.name] = free[letter].pop()
-        else:
-            place[step.name] = f"{letter}{made[letter]}"
-            made[letter] += 1
-        lines.append(f"{_ufunc(program, step)}({arguments}, {place[step.name]})  # {line_of(step)}")
+        target = buffer(step.name, "n" if kinds[step.name] == NUMBER else "t")
+        lines.append(f"{_ufunc(program, step)}({arguments}, {target})  # {line_of(step)}")
     return InPlace(tuple(lines), made["n"], made["t"], {name: place[name] for name in wanted})
 
 

@@ -5,14 +5,14 @@ python -m hypcheck.kernel.printing.modules
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from hypcheck.derivation.program import Program, needed
 from hypcheck.kernel.printing.in_place import in_place_statements
 from hypcheck.kernel.printing.python import python_statements
-from hypcheck.kernel.programs import certified, lines, single
-from hypcheck.pairs import COLUMNS
+from hypcheck.kernel.programs import certified, lines, parallel_lines, single
+from hypcheck.pairs import CENTER, COLUMNS
 
 FOLDER = Path(__file__).parents[1] / "printed"
 COMMAND = "python -m hypcheck.kernel.printing.modules"
@@ -35,41 +35,56 @@ def _chunks() -> str:
             "from numpy.typing import NDArray",
             "",
             "Floats = NDArray[np.float64]",
+            "Singles = NDArray[np.float32]",
             "Mask = NDArray[np.bool_]",
         ],
         [
-            _in_place("one_line", lines.ONE_LINE, wanted, ("x", "y", "z")),
-            _in_place("two_lines", lines.TWO_LINES, wanted, ("x", "y", "z")),
-            _in_place("certified", certified.CERTIFIED, wanted[1:], COLUMNS),
+            _in_place("plane", parallel_lines.PLANE, ("R", "T"), dict.fromkeys(CENTER, "Floats"), single=True),
+            _in_place(
+                "parallel_lines",
+                parallel_lines.PARALLEL_LINES,
+                wanted[1:],
+                {"R": "Singles", "T": "Singles"},
+                single=True,
+            ),
+            _in_place("two_lines", lines.TWO_LINES, wanted, dict.fromkeys(CENTER, "Floats")),
+            _in_place("certified", certified.CERTIFIED, wanted[1:], dict.fromkeys(COLUMNS, "Floats")),
         ],
     )
 
 
-def _in_place(name: str, program: Program, wanted: tuple[str, ...], arrays: tuple[str, ...]) -> list[str]:
-    printed = in_place_statements(program, wanted)
+def _in_place(
+    name: str, program: Program, wanted: tuple[str, ...], arrays: Mapping[str, str], *, single: bool = False
+) -> list[str]:
+    """The function of that name; `arrays` has the types of its inputs. Buffers are float32 where `single` is set."""
+    numbers = "Singles" if single else "Floats"
+    copied = tuple(each for each, kind in arrays.items() if kind != numbers)
+    printed = in_place_statements(program, wanted, copied)
     read = {each for step in needed(program, wanted) for each in step.reads}
     constants = [each for each in program.inputs if each not in arrays and each in read]
-    numbers = ", ".join(f"n{k}" for k in range(printed.numbers))
-    truths = ", ".join(f"t{k}" for k in range(printed.truths))
-    # Numbers before truth values: R_plus_T is the one number that is handed back.
+    counts = {"n": printed.numbers, "t": printed.truths}
+    buffers = {letter: [f"{letter}{k}" for k in range(count)] for letter, count in counts.items()}
     results = [printed.place[each] for each in wanted]
-    kinds = ["Floats" if place.startswith("n") else "Mask" for place in results]
+    kinds = [numbers if place.startswith("n") else "Mask" for place in results]
     upper = name.upper()
+    unpacked = {
+        letter: ", ".join(each) if len(each) > 1 else f"({each[0]},)" for letter, each in buffers.items() if each
+    }
     return [
         f"{upper}_BUFFERS = ({printed.numbers}, {printed.truths})",
         f'"""How many buffers of numbers and of truth values {name} needs."""',
         "",
         "",
         f"def {name}(",
-        *(f"{INDENT}{each}: Floats," for each in arrays),
-        f"{INDENT}constants: Mapping[str, float],",
-        f"{INDENT}numbers: Sequence[Floats],",
-        f"{INDENT}truths: Sequence[Mask],",
+        *(f"{INDENT}{each}: {kind}," for each, kind in arrays.items()),
+        *([f"{INDENT}constants: Mapping[str, float],"] if constants else []),
+        f"{INDENT}numbers: Sequence[{numbers}],",
+        *([f"{INDENT}truths: Sequence[Mask],"] if buffers["t"] else []),
         f") -> tuple[{', '.join(kinds)}]:",
         f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"; they lie in the buffers."""',
         *(f'{INDENT}{each} = constants["{each}"]' for each in constants),
-        f"{INDENT}{numbers} = numbers",
-        f"{INDENT}{truths} = truths",
+        f"{INDENT}{unpacked['n']} = numbers",
+        *([f"{INDENT}{unpacked['t']} = truths"] if buffers["t"] else []),
         *(f"{INDENT}{line}" for line in printed.statements),
         f"{INDENT}return {', '.join(results)}",
     ]
