@@ -33,7 +33,7 @@ _WORST_TRIED = 12
 _PIECE = 500
 
 TOLERABLE = 1e-3
-"""The share of wrong answers that "reliable above" allows."""
+"""The share of wrong or missing answers that "reliable above" allows."""
 
 
 NEAREST = 2.0**-75
@@ -159,7 +159,7 @@ def line(contender: Contender, answered: Answered, truth: Known) -> dict[str, An
         "wrong_side": mistakes[Mistake.WRONG_SIDE],
         "abstained": int((~said).sum()),
         "octaves": by_octave(octaves, wrong),
-        "reliable_above": reliable_above(octaves, wrong),
+        "reliable_above": reliable_above(octaves, wrong | ~said),
         "worst": _worst(contender, answered, truth, np.flatnonzero(wrong)),
     }
 
@@ -186,8 +186,8 @@ def by_octave(octaves: Floats, wrong: NDArray[np.bool_]) -> list[list[int | str]
 def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
     """The lowest 2^k from which on, of the rows that flip at any 2^(k + j) or farther, at most TOLERABLE are wrong.
 
-    0 where nothing is wrong, NEAREST where exact tangencies alone are, inf where even the farthest rows are wrong too
-    often or there is no other.
+    Missing answers are among the wrong: who never says anything would be reliable else. 0 where nothing is wrong,
+    NEAREST where exact tangencies alone are, inf where even the farthest rows are wrong too often or there is no other.
     """
     edges = np.unique(octaves[np.isfinite(octaves)])
     if not wrong.any():

@@ -14,6 +14,7 @@ from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.statistics import CONFIDENCE, ratios, resampled_medians
 from hypcheck.errors import InputError
 from hypcheck.record import Line, read
+from hypcheck.record.reading import file_of
 
 Key = tuple[str, str, str]
 """A method, a workload and a mode."""
@@ -53,7 +54,8 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
     """The plan's baseline, where it has one. Raises InputError where it is none for this run."""
     if plan.baseline is None:
         return None
-    record, path = read(plan.baseline), plan.baseline
+    path = file_of(plan.baseline)
+    record = read(path)
     options = record.header["options"]
     if options.get("command") != "bench":
         raise InputError(f"--baseline {path}: is a record of another command; it must be one of hypcheck bench")

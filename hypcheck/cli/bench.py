@@ -23,7 +23,7 @@ from hypcheck.cli.recording import Part, record_and_report
 @click.option("--processes", type=click.IntRange(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
 @click.option("--rounds", type=click.IntRange(1), help="Rounds in each process.  [default: 5; quick: 3]")
 @click.option("--workers", type=click.IntRange(1), help="Processes that judge.  [default: one a processor]")
-@click.option("--baseline", type=click.Path(path_type=Path), help="A record of an earlier run to be held to.")
+@click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to be held to.")
 @click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
@@ -67,6 +67,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         forest=options["forest"],
         scenes=options["scene"],
     )
+    _refuse_replacing(options["baseline"], options["out"])
     outcome = run.BenchOutcome()
     with TemporaryDirectory(prefix="hypcheck-bench-") as folder:
         here = replace(plan, folder=Path(folder))
@@ -79,6 +80,16 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     if outcome.exit_code == Exit.INCONCLUSIVE:
         click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)
     context.exit(outcome.exit_code)
+
+
+def _refuse_replacing(baseline: Path | None, out: Path) -> None:
+    """A run found slower would be the baseline of the next, which would find nothing."""
+    from hypcheck.errors import InputError
+    from hypcheck.record.reading import file_of
+    from hypcheck.tables.streams import same_file
+
+    if baseline is not None and same_file(str(file_of(baseline)), str(file_of(out))):
+        raise InputError(f"--baseline {baseline} is what --out {out} would replace; name another folder for --out")
 
 
 def _what_to_do(processes: int) -> str:

@@ -102,7 +102,7 @@ _COVERED = (
 def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Need, list[Measured]]]:
     position = [each for each in found if each.line["question"] == "position"]
     clear = [each for each in found if each.line["question"] in ("position", "exterior")]
-    exact = [each for each in position if each.exact and each.asked and not each.wrong]
+    exact = [each for each in position if each.never_wrong]
     yield Need("never a wrong answer"), exact
     yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
     floats = [each for each in position if not each.exact and each.line["kind"] in IN_FLOATS]
@@ -186,7 +186,7 @@ def price(record: Record) -> Price | None:
         ((ratio, each) for each in measured(record) for name in timed[:1] if (ratio := each.ratio(name)) is not None),
         key=lambda pair: pair[0],
     )
-    never = next((pair for pair in ranked if pair[1].exact and pair[1].asked and not pair[1].wrong), None)
+    never = next((pair for pair in ranked if pair[1].never_wrong), None)
     fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line["kind"] != "bounding"), None)
     if never is None or fastest is None:
         return None

@@ -54,8 +54,13 @@ class Measured:
         return sum(line["wrong"] for line in self.accuracy.values())
 
     @property
+    def never_wrong(self) -> bool:
+        """Whether it promises that, and kept it on every row it was asked about."""
+        return self.exact and self.asked > 0 and self.reliable_above == 0
+
+    @property
     def reliable_above(self) -> float:
-        """The flip distance above which at most 1 answer in 1000 is wrong, on every workload."""
+        """The flip distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
         return max((float(line["reliable_above"]) for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:

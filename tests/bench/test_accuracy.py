@@ -48,6 +48,12 @@ def test_what_is_not_said_is_not_wrong(contender, truth):
     answers[:7] = CANNOT_SAY
     found = line(contender, answered(truth, answers), truth)
     assert (found["wrong"], found["abstained"]) == (0, 7)
+    assert found["reliable_above"] > 0
+
+
+def test_who_never_says_anything_is_reliable_nowhere(contender, truth):
+    found = line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
+    assert (found["wrong"], found["reliable_above"]) == (0, INF)
 
 
 def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender, truth):

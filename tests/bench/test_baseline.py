@@ -6,10 +6,12 @@ import io
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from hypcheck.bench.baseline import Change, change_of, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
 from hypcheck.record import Recorder
 
@@ -136,6 +138,24 @@ def test_what_is_no_baseline_for_this_run_is_refused(tmp_path, options, message)
     plan = recorded(tmp_path / "record.jsonl", **options)
     with pytest.raises(InputError, match=message):
         read_baseline(plan)
+
+
+def test_the_folder_of_a_run_stands_for_its_record(tmp_path):
+    line = {"method": "mine", "workload": "uniform", "mode": "batch", "ratio": 2.0}
+    recorded(tmp_path / "record.jsonl", [line])
+    found = read_baseline(BenchPlan(quick=True, baseline=tmp_path))
+    assert list(found.speeds) == [("mine", "uniform", "batch")]
+
+
+def test_a_run_does_not_replace_its_baseline(tmp_path):
+    path = tmp_path / "record.jsonl"
+    recorded(path)
+    before = path.read_bytes()
+    for named in (path, tmp_path):
+        words = ["--quick", "--baseline", str(named), "--out", str(tmp_path)]
+        with pytest.raises(InputError, match=r"is what --out .* would replace"):
+            CliRunner().invoke(bench, words, standalone_mode=False, catch_exceptions=False)
+    assert path.read_bytes() == before
 
 
 def test_a_record_that_is_not_there_is_refused(tmp_path):
