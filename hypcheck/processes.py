@@ -73,19 +73,21 @@ def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers:
 
 @contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Interrupts from the keyboard wait, and the processes started meanwhile never get them.
+    """Interrupts wait, and the processes started meanwhile never get those from the keyboard.
 
-    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was.
+    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was. So
+    would one whose parent was interrupted before it had told it what to do.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
     resource_tracker.ensure_running()  # started with the first process, it would let interrupts through again
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    with interrupts_deferred():
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
