@@ -208,6 +208,8 @@ def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_as_they_
 BAD_DESCRIPTIONS = [
     ("gate 1.0 ready", "its first line is no description: the description is 'gate 1.0 ready'; it must be JSON"),
     ('{"protocol":1,"name":"x",', "it must be JSON"),
+    ('{"protocol":1,"name":"x","name":"y"}', "key 'name' stands twice; it must stand once"),
+    ('\ufeff{"protocol":1,"name":"x"}', "it must be JSON"),
     ("[1, 2]", r"the description is \[1, 2\]; it must be an object with protocol, name"),
     ('{"name":"x"}', "the description lacks protocol"),
     ('{"protocol":1}', "the description lacks name"),

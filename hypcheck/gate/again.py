@@ -25,6 +25,9 @@ ALONE = 32
 ODD, MOST_IN_ODD = 7, 4096
 """Rows of an odd question, and cases that are asked in such questions at most."""
 
+TWINS = 64
+"""Cases asked four times in one question, beside themselves and apart, for whoever keeps answers by their rows."""
+
 FULL = 4096 + 128 + 1
 """Rows of a full question at least, of who can be asked so many: cases are repeated, so that every thread, block and
 page of whoever divides a question has some."""
@@ -113,6 +116,7 @@ def _questions(
     order = np.random.Generator(np.random.Philox(seed)).permutation(np.flatnonzero(sample.moments < 0))
     odd = ALONE + min(MOST_IN_ODD, (len(order) - ALONE + 1) // 2) if len(order) > ALONE else ALONE
     yield order[:ALONE], 1
+    yield np.tile(np.repeat(order[:TWINS], 2), 2), None
     yield order[ALONE:odd], ODD
     full = order[odd:]
     if implementation.stands >= FULL and len(order):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -13,12 +12,13 @@ from hypcheck.methods.checks import shown
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.domain_reading import domain_of
 from hypcheck.methods.questions import PRECISIONS, QUESTIONS
-from hypcheck.tables.strict_json import object_of
+from hypcheck.tables.strict_json import object_of, strict_decoder
 from hypcheck.visible import visible
 
 PROTOCOL = 1
 LONGEST = 1 << 16
 """Bytes of a description."""
+_STRICT = strict_decoder()
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +69,10 @@ def _json(text: str | bytes, where: str) -> object:
     if len(text) > LONGEST:
         raise InputError(f"{where} is longer than {LONGEST} bytes")
     try:
-        return json.loads(text)
+        return _STRICT.decode(text if isinstance(text, str) else text.decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        why = visible(f"{error}", 120) if isinstance(error, json.JSONDecodeError) else "it cannot be read"
+        unreadable = isinstance(error, UnicodeError | RecursionError)
+        why = "it cannot be read" if unreadable else visible(f"{error}", 120)
         shown = text if isinstance(text, str) else text.decode("utf-8", "replace")
         raise InputError(f"{where} is '{visible(shown, 80)}'; it must be JSON ({why})") from None
 

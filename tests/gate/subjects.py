@@ -135,3 +135,22 @@ def kills_who_asks(rows):
         os.kill(os.getppid(), signal.SIGKILL)
         time.sleep(5)
     return too_clear(rows)
+
+
+_seen: set[bytes] = set()
+
+
+def forgets_what_comes_again(rows):
+    """Exact, but a row that came before, in this question or another one, is contact."""
+    answers = exact(rows)
+    for place, row in enumerate(rows):
+        if row.tobytes() in _seen:
+            answers[place] = 0
+        _seen.add(row.tobytes())
+    return answers
+
+
+def forgets_twins(rows):
+    """Exact, but a row that stands in its question already is contact."""
+    _seen.clear()
+    return forgets_what_comes_again(rows)

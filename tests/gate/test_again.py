@@ -37,6 +37,13 @@ def test_a_question_as_large_as_it_stands_is_asked_by_default(tmp_path, name, co
     assert FULL > 4096
 
 
+@pytest.mark.parametrize("name", ["forgets_what_comes_again", "forgets_twins"])
+def test_a_small_run_asks_the_same_row_again_too(tmp_path, name):
+    code, record = gate(tmp_path, name, "--families", "tower-body", "--count", "40")
+    assert code == 1
+    assert record.of("group")[0]["counts"]["nondeterministic"] > 0
+
+
 def test_one_case_in_a_hundred_is_asked_again_of_many(tmp_path):
     code, record = gate(tmp_path, "exact", "--families", "tower-body,ring", "--count", "20000")
     assert code == 0
