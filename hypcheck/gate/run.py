@@ -139,7 +139,7 @@ def _crew(
         return Here(implementation, rules)
     implementation.close()
     if client is None:
-        return stack.enter_context(Workers(count, opening, rules, implementation.declared))
+        return stack.enter_context(Workers(count, opening, rules, implementation))
     from hypcheck.gate.afar import Afar  # noqa: PLC0415 - loads dask.distributed, which no other run needs
 
     return stack.enter_context(Afar(client, opening, rules, implementation))

@@ -1,9 +1,14 @@
-"""Who performs the steps of a run: this process, or several, each of which holds an implementation of its own."""
+"""Who performs the steps of a run: this process, or several, each of which holds an implementation of its own.
+
+A process of ours that ends costs nothing: another one takes its task. Cases that go on ending whoever asks them end as
+crashes, and the run goes on.
+"""
 
 from __future__ import annotations
 
 import traceback
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing import connection, get_context
 from multiprocessing.connection import Connection
@@ -14,6 +19,7 @@ import numpy as np
 from hypcheck.errors import HypcheckError
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
+from hypcheck.gate.subject import Crashed
 from hypcheck.gate.work import Opening, Task, perform
 from hypcheck.methods.description import Description
 from hypcheck.methods.faults import StartError
@@ -25,7 +31,7 @@ AHEAD = 32
 """Tasks in hand for each process, so that none is idle while cases are asked again."""
 
 DEATHS = 3
-"""Processes of ours that one task may cost."""
+"""Processes of ours that one task may cost, and that may end one after the other before they have asked anything."""
 
 _KEPT = 24 << 20
 _PATIENCE = 5.0
@@ -55,7 +61,7 @@ class Here:
 
 
 class LostError(HypcheckError):
-    """Processes of ours ended, one after the other, over the same task."""
+    """Processes of ours ended, one after the other, before they had asked anything."""
 
     exit_code = 70
 
@@ -64,20 +70,24 @@ class LostError(HypcheckError):
 class _Worker:
     process: SpawnProcess
     line: Connection
+    ready: bool = False
     task: int | None = None
 
 
 class Workers:
     """Performs tasks in processes of our own; a context manager. Raises what a worker cannot begin with or ends with.
 
-    `declared` is what the implementation must say of itself in each of them.
+    The implementation must say of itself in each of them what it says here.
     """
 
-    def __init__(self, count: int, opening: Opening, rules: Rules, declared: Description) -> None:
+    def __init__(self, count: int, opening: Opening, rules: Rules, implementation: Implementation) -> None:
         self.ahead = AHEAD * count
-        self._what = opening, rules, declared
+        self._rules = rules
+        self._most = implementation.most
+        self._what = opening, rules, implementation.declared
         self._tasks: dict[int, tuple[Task, Allowance]] = {}
         self._deaths: dict[int, int] = {}
+        self._unborn = 0
         self._waiting: deque[int] = deque()
         self._done: dict[int, Performed] = {}
         self._workers: list[_Worker] = []
@@ -95,7 +105,8 @@ class Workers:
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is None:
             for worker in self._workers:
-                worker.line.send(None)
+                with suppress(OSError):  # it has ended
+                    worker.line.send(None)
             for worker in self._workers:
                 worker.process.join(_PATIENCE)
         self._kill()
@@ -119,7 +130,7 @@ class Workers:
 
     def _hand_out(self) -> None:
         for worker in self._workers:
-            if worker.task is None and self._waiting:
+            if worker.ready and worker.task is None and self._waiting:
                 worker.task = self._waiting.popleft()
                 try:
                     worker.line.send(self._tasks[worker.task])
@@ -134,22 +145,39 @@ class Workers:
             return
         if isinstance(said, BaseException):
             raise said
-        if worker.task is not None:
-            del self._tasks[worker.task]
-            self._done[worker.task] = said
+        if worker.task is None:
+            worker.ready, self._unborn = True, 0
+        else:
+            self._finish(worker.task, said)
             worker.task = None
+
+    def _finish(self, number: int, performed: Performed) -> None:
+        del self._tasks[number]
+        self._deaths.pop(number, None)
+        self._done[number] = performed
 
     def _replace(self, worker: _Worker) -> None:
         """Begin another process in place of one that has ended, which had no reason of its own to."""
         self._workers.remove(worker)
         worker.process.join()
-        if worker.task is not None:
-            self._deaths[worker.task] = self._deaths.get(worker.task, 0) + 1
-            if self._deaths[worker.task] == DEATHS:
+        if not worker.ready:
+            self._unborn += 1
+            if self._unborn == DEATHS:
                 last = f"the last with status {worker.process.exitcode}"
-                raise LostError(f"{DEATHS} processes of hypcheck ended over the same cases, {last}")
-            self._waiting.appendleft(worker.task)
+                raise LostError(f"{DEATHS} processes of hypcheck ended before they had asked anything, {last}")
+        elif worker.task is not None:
+            self._blame(worker.task, worker.process.exitcode)
         self._workers.append(self._begin())
+
+    def _blame(self, number: int, status: int | None) -> None:
+        """Let another process try a task that one ended with; where it has cost as many as it may, its cases crash."""
+        self._deaths[number] = self._deaths.get(number, 0) + 1
+        if self._deaths[number] < DEATHS:
+            self._waiting.appendleft(number)
+            return
+        task, allowance = self._tasks[number]
+        reason = f"{DEATHS} processes of hypcheck ended while they asked these cases, the last with status {status}"
+        self._finish(number, perform(task, Crashed(self._most, reason, allowance), self._rules, allowance))
 
     def _begin(self) -> _Worker:
         context = get_context("spawn")  # forking would copy locks, threads and open pipes
@@ -175,6 +203,7 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
     try:
         with opening.open() as implementation:
             require_same_description(implementation, declared)
+            line.send(None)
             while (task := line.recv()) is not None:
                 line.send(perform(task[0], implementation, rules, task[1]))
     except (EOFError, BrokenPipeError, ConnectionResetError):

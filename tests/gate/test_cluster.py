@@ -4,36 +4,29 @@ from __future__ import annotations
 
 import os
 import signal
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-from hypcheck.casebook.families import FAMILIES
 from hypcheck.errors import InputError
 from hypcheck.gate import chunks, schedule
-from hypcheck.gate.rules import Rules
-from hypcheck.gate.saved import saved, saved_result
-from hypcheck.gate.schedule import State, states, steps
+from hypcheck.gate.saved import saved
+from hypcheck.gate.schedule import State, states
 from hypcheck.gate.work import Opening
-from hypcheck.gate.workers import Here
-from hypcheck.judge import Criterion
 from hypcheck.methods.limits import Limits
 from tests.gate.clusters import Cluster
+from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, todo, without_culprit
 
 pytest.importorskip("distributed")
 
 from hypcheck.gate.afar import Afar
 from hypcheck.gate.cluster import connected
 
-KILLS = Opening("python:tests.gate.subjects:kills_who_asks", Limits())
-UNLUCKY = chunks.cases(chunks.Chunk("uniform", 1, 2500, 2501)).rows
-
 
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
     """Two workers, whom the unlucky row kills."""
-    started = Cluster(tmp_path_factory.mktemp("cluster"), {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()})
+    started = Cluster(tmp_path_factory.mktemp("cluster"), ENVIRONMENT)
     started.start_workers(2)
     yield started
     started.end()
@@ -50,21 +43,6 @@ def small(monkeypatch):
     """Chunks and rounds small enough that a test has many."""
     monkeypatch.setattr(chunks, "SIZE", 1024)
     monkeypatch.setattr(schedule, "ROUND", 3000)
-
-
-def todo(names, count):
-    return list(steps((chunk for name in names for chunk in chunks.chunks(FAMILIES[name], 1, count)), refuses=False))
-
-
-def rules_of(it):
-    used = it.description
-    return Rules(Criterion(used.question, used.precision, Fraction(8)), used.domain)
-
-
-def here(opening, some):
-    with opening.open() as it:
-        *_, (_, state) = states(some, Here(it, rules_of(it)), State(it.allowance))
-        return state
 
 
 def there(client, opening, some, after=lambda crew, number: None):
@@ -94,25 +72,10 @@ def test_killed_workers_cost_nothing(client):
 
 def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(client):
     some = todo(["uniform", "tower-body"], 4000)
-    (culprit,) = [step for step in some if _holds(step, "uniform", 2500)]
+    culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
-    expected = here(KILLS, [step for step in some if step != culprit]).total
-    tower = [saved_result(each)["tallies"]["tower-body"] for each in (found, expected)]
-    assert tower[0] == tower[1]
-    counts = dict(found.tallies["uniform"].counts)
-    assert counts.pop("crash") == len(culprit)
-    assert counts == expected.tallies["uniform"].counts
-    assert found.again == expected.again
-    fault = found.tallies["uniform"].faults[0]
-    assert fault.case == culprit.name(0)
-    assert "workers of the cluster ended, one after the other, while they had nothing but these cases" in fault.reason
-
-
-def _holds(step, family, index):
-    """Whether a step asks the generated row of that index."""
-    return (
-        isinstance(step, chunks.Chunk) and step.family == family and bool(step.seed) and step.start <= index < step.stop
-    )
+    reason = "workers of the cluster ended, one after the other, while they had nothing but these cases"
+    require_one_crash(found, here(KILLS, others).total, culprit, reason)
 
 
 def _subject(folder: Path) -> tuple[Path, Opening]:

@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import json
-from fractions import Fraction
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from hypcheck import groups
-from hypcheck.casebook.families import FAMILIES
 from hypcheck.gate import chunks, schedule
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.results import Performed, Result, merged
-from hypcheck.gate.rules import Rules
 from hypcheck.gate.saved import restored, restored_result, saved, saved_result
-from hypcheck.gate.schedule import Again, State, states, steps
+from hypcheck.gate.schedule import Again, State, states
 from hypcheck.gate.work import Opening, perform
 from hypcheck.gate.workers import Here, Workers
-from hypcheck.judge import Criterion
 from hypcheck.methods.asking import ALONE
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance
+from tests.gate import killing
+from tests.gate.killing import todo
 
 RIGHT = Opening("builtin:table-2-float32", Limits())
 DIES = Opening("python:tests.gate.subjects:dies_on_the_axis", Limits(restarts=4))
@@ -61,13 +60,8 @@ def small(monkeypatch):
     monkeypatch.setattr(schedule, "ROUND", 3000)
 
 
-def todo(names, count):
-    return list(steps((chunk for name in names for chunk in chunks.chunks(FAMILIES[name], 1, count)), refuses=False))
-
-
 def rules_of(implementation):
-    used = implementation.description
-    return Rules(Criterion(used.question, used.precision, Fraction(8)), used.domain, KNOWN)
+    return replace(killing.rules_of(implementation), known=KNOWN)
 
 
 def last(some):
@@ -115,7 +109,7 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
         assert set(counts["tower-rotors"]) == {"not-run"}
         assert "4 restarts are used up" in expected.left.over
         assert saved(last(states(some, Shuffled(it, rules, 1), begun))) == saved(expected)
-        with Workers(2, DIES, rules, it.declared) as crew:
+        with Workers(2, DIES, rules, it) as crew:
             assert saved(last(states(some, crew, begun))) == saved(expected)
 
 
@@ -136,7 +130,7 @@ def test_a_process_of_ours_that_is_killed_costs_nothing():
         rules = rules_of(it)
         begun = State(it.allowance)
         expected = last(states(some, Here(it, rules), begun))
-        with Workers(2, RIGHT, rules, it.declared) as crew:
+        with Workers(2, RIGHT, rules, it) as crew:
             found = states(some, crew, begun)
             next(found)
             crew._workers[0].process.kill()
@@ -152,7 +146,7 @@ def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_pat
     with (
         fickle.open() as it,
         pytest.raises(StartError, match="describes itself otherwise"),
-        Workers(2, fickle, rules_of(it), it.declared) as crew,
+        Workers(2, fickle, rules_of(it), it) as crew,
     ):
         last(states(todo(["ring"], 10), crew, State(it.allowance)))
 

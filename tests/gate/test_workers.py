@@ -1,0 +1,47 @@
+"""Processes of ours may end: it costs nothing, or the cases that go on ending them, or the run where none begins."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from hypcheck.gate import chunks, schedule, workers
+from hypcheck.gate.schedule import State, states
+from hypcheck.gate.workers import LostError, Workers
+from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, todo, without_culprit
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Chunks and rounds small enough that a test has many."""
+    monkeypatch.setattr(chunks, "SIZE", 1024)
+    monkeypatch.setattr(schedule, "ROUND", 3000)
+
+
+def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(monkeypatch):
+    some = todo(["uniform", "tower-body"], 4000)
+    culprit, others = without_culprit(some)
+    expected = here(KILLS, others).total
+    for name, value in ENVIRONMENT.items():
+        monkeypatch.setenv(name, value)
+    with KILLS.open() as it, Workers(2, KILLS, rules_of(it), it) as crew:
+        *_, (_, state) = states(some, crew, State(it.allowance))
+    require_one_crash(state.total, expected, culprit, "3 processes of hypcheck ended while they asked these cases")
+    assert state.left == it.allowance
+
+
+def _ends_at_once(*_):
+    os._exit(9)
+
+
+def test_processes_that_cannot_begin_end_the_run(monkeypatch):
+    """Nothing is known of any case then, so that none may be called a crash."""
+    monkeypatch.setattr(workers, "_serve", _ends_at_once)
+    some = todo(["uniform"], 2000)
+    with (
+        KILLS.open() as it,
+        pytest.raises(LostError, match=r"3 processes of hypcheck ended before they had asked anything, .* status 9"),
+        Workers(2, KILLS, rules_of(it), it) as crew,
+    ):
+        list(states(some, crew, State(it.allowance)))
