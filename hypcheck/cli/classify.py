@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import click
 
+from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
 from hypcheck.pairs import CENTER, SIZES, Pair
 from hypcheck.tables.numbers import number_of_text
@@ -104,7 +107,13 @@ def answer_table(question: OneTable) -> None:
     """Write the answers about a table."""
     from hypcheck.classification.table import classify_table
 
-    classify_table(question.route, mark=question.mark)
+    classify_table(question.route, mark=question.mark, watch=_watch)
+
+
+@contextmanager
+def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
+    with watched(size, "classify", "rows") as pace:
+        yield pace.advance
 
 
 def pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -> Pair:

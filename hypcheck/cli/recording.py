@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -13,29 +12,25 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from hypcheck.cli.progress import watched
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
 from hypcheck.visible import visible
 
 if TYPE_CHECKING:
-    from click._termui_impl import ProgressBar
-
     from hypcheck.record import Line, Record, Recorder
-
-
-_SOONEST, _FIRST = 0.1, 0.002
-"""Seconds between two looks of a bar, and the part of it that must be done before it foretells anything."""
 
 
 class Part(NamedTuple):
     """A part of a run: its title for the progress bar, how many steps it has, and what does them.
 
-    `unit` is what its steps are, where many of them pass in a second.
+    `unit` is what its steps are, where many of them pass in a second. Of a run that is gone on with, some are `done`.
     """
 
     title: str
     steps: int
     run: Callable[[Callable[[int], object]], None]
     unit: str = ""
+    done: int = 0
 
 
 def record_and_report(
@@ -122,39 +117,7 @@ def _tell(record: Record, lines: Sequence[str]) -> None:
 
 def _run(parts: Sequence[Part]) -> None:
     """Every part in turn, under a progress bar where a person is watching."""
-    if not sys.stderr.isatty():
+    with watched(sum(part.steps for part in parts), "", done=sum(part.done for part in parts)) as pace:
         for part in parts:
-            part.run(lambda _: None)
-        return
-    steps = sum(part.steps for part in parts)
-    with click.progressbar(length=steps, file=sys.stderr, show_pos=False, item_show_func=lambda shown: shown) as bar:
-        for part in parts:
-            bar.label = f"{part.title:28}"
-            part.run(_Pace(bar, part.unit).advance if part.unit else bar.update)
-
-
-class _Pace:
-    """Moves a bar now and then, and shows beside it how many of a unit pass in a second."""
-
-    def __init__(self, bar: ProgressBar[Any], unit: str) -> None:
-        self._bar = bar
-        self._unit = unit
-        self._begun = self._shown = time.monotonic()
-        self._steps = self._waiting = 0
-
-    def advance(self, steps: int) -> None:
-        """Take note of steps that are done."""
-        self._waiting += steps
-        now, length = time.monotonic(), self._bar.length or 0
-        early = now < self._shown + _SOONEST or self._bar.pos + self._waiting < _FIRST * length
-        if early and self._bar.pos + self._waiting < length:
-            return
-        self._shown = now
-        self._steps += self._waiting
-        rate = self._steps / max(now - self._begun, 1e-9)
-        self._bar.update(self._waiting, f"{_per_second(rate)} {self._unit} a second")
-        self._waiting = 0
-
-
-def _per_second(rate: float) -> str:
-    return f"{rate / 1e6:.1f} million" if rate >= 1e6 else f"{rate:,.0f}"
+            pace.name(f"{part.title:28}", part.unit)
+            part.run(pace.advance)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
 
 if TYPE_CHECKING:
@@ -57,8 +56,8 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
     length = plan.count
     _make_ready("forest", out)
-    with _progress(length, "steps") as advance:
-        result = simulate_forest(plan, advance)
+    with watched(length, "steps") as pace:
+        result = simulate_forest(plan, pace.advance)
     _deliver(result, form, forest_lines(result), out)
 
 
@@ -102,8 +101,8 @@ def tower(
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     _make_ready("tower", out)
     count = min(workers or usable_processors(), len(moves))
-    with processes(count) as executor, _progress(sum(moves), "flights") as advance:
-        result = simulate_tower(plan, executor, advance)
+    with processes(count) as executor, watched(sum(moves), "flights") as pace:
+        result = simulate_tower(plan, executor, pace.advance)
     _deliver(result, form, tower_lines(result), out)
 
 
@@ -148,13 +147,3 @@ def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path 
         click.echo(line)
     for line in written:
         click.echo(line, err=True)
-
-
-@contextmanager
-def _progress(length: int, what: str) -> Iterator[Callable[[int], object]]:
-    """A bar where a person is watching and something takes time."""
-    if not length or not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    with click.progressbar(length=length, label=what, file=sys.stderr, show_pos=False) as bar:
-        yield bar.update

@@ -165,12 +165,18 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
         begun = resumed(options["resume"], options["out"], plan, shown, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, state = GateOutcome(), begun.state
+    outcome, state, done = GateOutcome(), begun.state, begun.done(cases)
     record = record_and_report(
         options["out"],
         shown,
         lambda recorder: [
-            Part("gate", cases * len(specs), lambda advance: run.run(plan, recorder, outcome, advance, state), "cases")
+            Part(
+                "gate",
+                cases * len(specs),
+                lambda advance: run.run(plan, recorder, outcome, advance, state),
+                "cases",
+                done,
+            )
         ],
         lambda: outcome.exit_code,
         files=files,

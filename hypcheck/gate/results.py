@@ -53,6 +53,12 @@ class Result:
     named: frozenset[str] = frozenset()
 
     @property
+    def cases(self) -> int:
+        """How many it speaks of: asked, skipped and open."""
+        counted = sum(sum(tally.counts.values()) for tally in self.tallies.values())
+        return counted + sum(len(each.indices) for each in self.open)
+
+    @property
     def broke_protocol_throughout(self) -> bool:
         """Whether no row was ever answered, and every one that was asked ended as PROTOCOL."""
         return self.outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}

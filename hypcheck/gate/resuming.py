@@ -34,6 +34,11 @@ class Resumed:
     carried: tuple[Line, ...] = ()
     state: State | None = None
 
+    def done(self, cases: int) -> int:
+        """How many cases were asked, where each implementation is asked so many."""
+        finished = [line for line in self.carried if line["type"] == "implementation"]
+        return len(finished) * cases + (self.state.total.cases if self.state else 0)
+
 
 def require_same_run(
     record: Record, file: Path, plan: GatePlan, options: Mapping[str, Any], files: Mapping[str, str]

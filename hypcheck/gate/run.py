@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, nullcontext, suppress
 from dataclasses import asdict
-from itertools import islice
 from typing import TYPE_CHECKING
 
 from hypcheck.casebook.families import select
@@ -47,13 +46,13 @@ def size(plan: GatePlan) -> int:
 def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, state: State | None = None) -> None:
     """Gate the implementations of the plan; `advance` is told how many cases have been asked.
 
-    Those whose lines the recorder begins with are not asked again, and the next one goes on from `state`. Interrupted,
-    it records what was finished. Raises NothingJudgedError where not one case was judged, which proves nothing.
+    Those whose lines the recorder begins with are not asked again, and the next one goes on from `state`; `advance`
+    is told of neither. Interrupted, it records what was finished. Raises NothingJudgedError where not one case was
+    judged, which proves nothing.
     """
     listed, cases = _known(plan), size(plan)
     keep_memory()
     finished = sum(line["type"] == "implementation" for line in recorder.lines)
-    advance(finished * cases)
     with connected(plan.cluster) if plan.cluster else nullcontext() as client:
         for number in range(finished, len(plan.specs)):
             try:
@@ -103,7 +102,6 @@ def _gate(
     lines = Lines(plan, opening.spec, implementation.declared, used, rules)
     state = begun = begun or State(implementation.allowance)
     asked = steps(_chunks(plan, used.domain), refuses=used.refuses)
-    advance(sum(map(_cases_of, islice(steps(_chunks(plan, used.domain), refuses=False), begun.done))))
     with ExitStack() as stack:
         crew = _crew(stack, implementation, opening, plan, rules, client)
         try:

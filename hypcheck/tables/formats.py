@@ -38,8 +38,8 @@ _FORMATS = {
 
 
 @contextmanager
-def opened(route: Route, *, mark: bool) -> Iterator[tuple[Table, Write]]:
-    """The table at one end of `route`, and what adds answers at the other.
+def opened(route: Route, *, mark: bool) -> Iterator[tuple[Reader, Table, Write]]:
+    """What is read at one end of `route`, the table in it, and what adds answers at the other.
 
     The output takes its place when the block ends well; after an error nothing of it is left. Raises InputError where
     either cannot be opened, NothingJudgedError (while its chunks are read) where the table has no rows.
@@ -49,4 +49,4 @@ def opened(route: Route, *, mark: bool) -> Iterator[tuple[Table, Write]]:
     with reading(route.source) as reader:
         table = _FORMATS[route.source_format].read(reader, mark=mark)
         with writing(route.target) as writer, _FORMATS[route.target_format].write(writer, table) as write:
-            yield table, write
+            yield reader, table, write

@@ -79,7 +79,7 @@ def _layout(reader: Reader) -> _Layout:
         if by_columns:
             raise InputError(f"{reader.name} is stored by columns, which a stream cannot be read in; use a file")
         return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, 0)
-    begin = reader.place()
+    begin = reader.taken
     _require_length(reader.name, size - begin, shape[0])
     return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, begin)
 

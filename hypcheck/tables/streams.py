@@ -25,32 +25,34 @@ class Reader:
     def __init__(self, file: BinaryIO, name: str) -> None:
         self._file = file
         self.name = name
+        self.taken = 0
+        """How many bytes have been read."""
 
     def read(self, size: int = -1) -> bytes:
         """Up to `size` bytes, fewer at the end alone. Raises InputError."""
         with _blamed("read", self.name):
-            return self._file.read(size)
+            data = self._file.read(size)
+        self.taken += len(data)
+        return data
 
     def read_at(self, offset: int, size: int) -> bytes:
         """`size` bytes from a place in a file (see `size`). Raises InputError."""
         with _blamed("read", self.name):
             self._file.seek(offset)
-            return self._file.read(size)
+        return self.read(size)
 
     def line(self, most: int) -> bytes:
         """The next line with its end, or the first `most` bytes of it; nothing at the end. Raises InputError."""
         with _blamed("read", self.name):
-            return self._file.readline(most)
+            data = self._file.readline(most)
+        self.taken += len(data)
+        return data
 
     def size(self) -> int | None:
         """The length of a regular file in bytes; None for a stream."""
         with _blamed("read", self.name):
             status = os.fstat(self._file.fileno())
         return status.st_size if stat.S_ISREG(status.st_mode) else None
-
-    def place(self) -> int:
-        """How many bytes of a regular file have been read."""
-        return self._file.tell()
 
 
 class Writer:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from itertools import accumulate
 
 import numpy as np
 import pytest
@@ -118,6 +119,8 @@ def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
     with RIGHT.open() as it:
         rules = rules_of(it)
         passed = [state for _, state in states(some, Here(it, rules), State(it.allowance))]
+        asked = [len(step) if isinstance(step, chunks.Chunk) else 0 for step in some]
+        assert [state.total.cases for state in passed] == list(accumulate(asked))
         for pause in (0, 3, len(some) - 2):
             read = restored(json.loads(json.dumps(saved(passed[pause]), allow_nan=False)))
             assert saved(read) == saved(passed[pause])
