@@ -12,8 +12,8 @@ from hypcheck.cli.main import main
 from tests.emission.building import COMMANDS, skip_without
 
 
-def emit(path, language, *options):
-    assert main(["emit", "--scene", "tower", "--language", language, "--output", str(path), *options]) == 0
+def emit(path, language, *options, scene="tower"):
+    assert main(["emit", "--scene", scene, "--language", language, "--output", str(path), *options]) == 0
 
 
 def gated(folder, spec):
@@ -23,11 +23,14 @@ def gated(folder, spec):
     return code, summary["implementations"][0]
 
 
-@pytest.mark.parametrize(("language", "precision"), [("c", "float64"), ("cpp", "float32"), ("rust", "float64")])
-def test_a_library_is_gated_as_it_is(language, precision, tmp_path, capsys):
+@pytest.mark.parametrize(
+    ("language", "precision", "scene"),
+    [("c", "float64", "forest"), ("cpp", "float32", "tower"), ("rust", "float64", "tower-simplest")],
+)
+def test_a_library_is_gated_as_it_is(language, precision, scene, tmp_path, capsys):
     skip_without(language)
     code, library = tmp_path / "kernel.source", tmp_path / "kernel.so"
-    emit(code, language, "--precision", precision)
+    emit(code, language, "--precision", precision, scene=scene)
     kind = {"c": ["-x", "c"], "cpp": ["-x", "c++"], "rust": []}[language]
     end = ["-lm"] if language == "c" else []
     subprocess.run([*COMMANDS[language], *kind, str(code), *end, "-o", str(library)], check=True)

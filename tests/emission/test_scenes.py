@@ -28,6 +28,7 @@ TOLERANCE = 8
 TOWER = read_scene("tower")
 ROTOR = TOWER.mover.parts[0]
 SCENES = {
+    "forest as shipped": read_scene("forest"),
     "forest, both types of trees, on hills": HILLS,
     "forest, both types of trees, on a plain": PLAIN,
     "body in the tower": replace(TOWER, question="position", mover=Mover(TOWER.mover.b, TOWER.mover.d)),
@@ -48,7 +49,7 @@ CHOSEN = [
     for place, scene in enumerate(SCENES)
     for number, (language, dialect) in enumerate(DIALECTS.items())
     for precision in (FORMATS[(place + number) % 2],)
-    if precision in dialect.numbers
+    if precision in dialect.numbers and (scene != "forest as shipped" or language == "c")  # 58 functions compile slowly
 ]
 RANDOM = range(0, 200, 1 if ALL else 12)
 

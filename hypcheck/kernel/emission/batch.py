@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from hypcheck.derivation.program import Program, needed
-from hypcheck.kernel.emission.body import answer, beyond_height
+from hypcheck.kernel.emission.body import answer, beyond_height, beyond_threshold
+from hypcheck.kernel.emission.costs import thresholds_asked
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
@@ -91,7 +92,8 @@ class _Batch:
         if stages.always is not None:
             rest = answer(stages.always, self._question)
         elif stages.thresholds is not None:
-            yield from self._entry(("R",))
+            if thresholds_asked(stages, self._question):
+                yield from self._entry(("R",))
             choices += self._thresholds()
             rest = answer(Position.CONTACT, self._question)
         elif stages.lines or self._question in ONE_SIDED:
@@ -152,11 +154,8 @@ class _Batch:
         return [(" | ".join(beyond) or "0", CANNOT_SAY)]
 
     def _thresholds(self) -> Iterator[tuple[str, int]]:
-        found = self._stages.thresholds
-        assert found is not None  # noqa: S101 - the caller has looked
-        yield f"R > {self._literal(found.outer)}", answer(Position.EXTERIOR, self._question)
-        if found.inner is not None:
-            yield f"R < {self._literal(found.inner)}", answer(Position.INTERIOR, self._question)
+        for position, threshold in thresholds_asked(self._stages, self._question):
+            yield beyond_threshold(position, self._literal(threshold)), answer(position, self._question)
 
     def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
         text = rest

@@ -9,7 +9,9 @@ from math import isfinite
 import numpy as np
 
 from hypcheck.derivation.program import Program, needed
+from hypcheck.kernel.emission.costs import needs_side, thresholds_asked
 from hypcheck.kernel.emission.dialects import Dialect
+from hypcheck.kernel.emission.header import notes
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.discriminant import Discriminant
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
@@ -32,7 +34,8 @@ def function(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
     read = set(re.findall(r"\w+", "\n".join(parts)))
     unused = (dialect.say("unused", name=name) for name in "xyz" if name not in read)
     lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
-    indented = [f"{INDENT}{line}" if line else "" for line in lines]
+    heads = [dialect.say("note", text=line) for line in notes(plan, stages)]
+    indented = [f"{INDENT}{line}" if line else "" for line in (*heads, *lines)]
     begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
 
@@ -47,6 +50,11 @@ def beyond_height(cut: Span, precision: str, literal: Callable[[float], str]) ->
     for sign, end in zip("<>", ends, strict=True):
         if isfinite(end):
             yield f"z {sign} {literal(end)}"
+
+
+def beyond_threshold(position: Position, threshold: str) -> str:
+    """The condition under which R is on this position's side of its threshold."""
+    return f"R {'>' if position is Position.EXTERIOR else '<'} {threshold}"
 
 
 class _Body:
@@ -71,18 +79,12 @@ class _Body:
             yield from self._stages_in_turn()
 
     def _thresholds(self) -> Iterator[str]:
-        found = self._stages.thresholds
-        assert found is not None  # noqa: S101 - the caller has looked
-        contact = answer(Position.CONTACT, self._question)
-        tests = [(f"R > {self._literal(found.outer)}", Position.EXTERIOR)]
-        if found.inner is not None:
-            tests.append((f"R < {self._literal(found.inner)}", Position.INTERIOR))
-        telling = [(test, position) for test, position in tests if answer(position, self._question) != contact]
-        if telling:
+        asked = thresholds_asked(self._stages, self._question)
+        if asked:
             yield from self._entry(("R",))
-        for test, position in telling:
-            yield self._return_if(test, position)
-        yield self._say("return", value=contact)
+        for position, threshold in asked:
+            yield self._return_if(beyond_threshold(position, self._literal(threshold)), position)
+        yield self._say("return", value=answer(Position.CONTACT, self._question))
 
     def _stages_in_turn(self) -> Iterator[str]:
         stages = self._stages
@@ -95,7 +97,7 @@ class _Body:
             yield self._return_if(line.holds, line.side)
         yield ""
         yield from self._too_far()
-        if self._question in ONE_SIDED or (stages.discriminant is not None and self._needs_side()):
+        if needs_side(stages, self._question):
             yield ""
             yield from self._centre()
         if stages.discriminant is not None:
@@ -123,22 +125,22 @@ class _Body:
             never = "outside" if self._question == "interior" else self._say("not", value="outside")
             yield self._say("return if", condition=never, value=0)
 
-    def _needs_side(self) -> bool:
-        delta = self._stages.discriminant
-        return self._question == "position" and delta is not None and delta.clear_where_positive
-
     def _discriminant(self) -> Iterator[str]:
         delta = self._stages.discriminant
         assert delta is not None  # noqa: S101 - the caller has looked
         yield self._note("the sign of three times the discriminant, where it is certain")
         yield from self._constants(delta.constants)
         yield from self._printed(delta.program, ("delta_3",))
-        near = self._within(delta)
         bound = self._literal(delta.bound)
-        yield self._return_if(self._say("and", left=near, right=f"delta_3 < -{bound}"), Position.CONTACT)
-        if delta.clear_where_positive:
-            certain = self._say("and", left=near, right=f"delta_3 > {bound}")
-            yield self._say("return if", condition=certain, value=self._clear())
+        near, below = self._within(delta), f"delta_3 < -{bound}"
+        if not delta.clear_where_positive:
+            yield self._return_if(self._say("and", left=near, right=below), Position.CONTACT)
+            return
+        above = self._say("return if", condition=f"delta_3 > {bound}", value=self._clear())
+        yield self._say("if", condition=near)
+        for part in (self._return_if(below, Position.CONTACT), above):
+            yield from (f"{INDENT}{line}" for line in part.splitlines())
+        yield from filter(None, [self._say("end if")])
 
     def _clear(self) -> str:
         """The answer about a clear spheroid, once `outside` is known where it matters."""

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from textwrap import wrap
 
-from hypcheck.derivation.counting import Operations, count
-from hypcheck.kernel.specialise.centre import CENTRE
+from hypcheck.kernel.emission.costs import operations_before, told
 from hypcheck.kernel.specialise.entry import AXIAL, RADIAL
 from hypcheck.kernel.specialise.plan import Plan, Stages
 from hypcheck.kernel.specialise.settings import Setting
@@ -19,6 +18,8 @@ from hypcheck.visible import visible
 
 WIDTH = 110
 LONGEST_NAME = 60
+FEW = 4
+"""Up to so many settings are told in the head; of more each is told at its own function."""
 
 
 def header(plan: Plan, command: Sequence[str], prefix: str) -> str:
@@ -43,9 +44,21 @@ def _paragraphs(plan: Plan, command: Sequence[str]) -> Iterator[str]:
         f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say. "
         "What is promised below is promised of centres in the region of their sizes, its border included."
     )
-    for number, stages in enumerate(plan.settings, start=1):
-        yield from _setting(number, stages)
+    if len(plan.settings) <= FEW:
+        for number, stages in enumerate(plan.settings, start=1):
+            yield f"{number}. {_setting(stages, plan.question)}"
+    else:
+        rounded = [operations_before(stages, plan.question).rounded for stages in plan.settings]
+        yield (
+            f"There are {len(plan.settings)} of these; each has a function, which says at its head where it holds and "
+            f"what it costs: {min(rounded)} to {max(rounded)} operations that round, a search not counted."
+        )
     yield _bound(plan)
+
+
+def notes(plan: Plan, stages: Stages) -> list[str]:
+    """What stands at the head of a setting's function: lines, none where the head of the kernel has told it."""
+    return [] if len(plan.settings) <= FEW else _wrapped(_setting(stages, plan.question))
 
 
 def safe(text: str) -> str:
@@ -60,13 +73,13 @@ def _asked(question: str) -> str:
     return f"1 if it is {question if question != 'contact' else 'in contact'}, else 0"
 
 
-def _setting(number: int, stages: Stages) -> Iterator[str]:
+def _setting(stages: Stages, question: str) -> str:
     setting = stages.setting
     alpha, gamma, b, d = setting.sizes
     uses = "; ".join(safe(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
-    yield (
-        f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} "
-        f"{outside(stages)} {_cost(stages)}"
+    return (
+        f"alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} "
+        f"{outside(stages)} {_cost(stages, question)}"
     )
 
 
@@ -98,28 +111,13 @@ def _span(span: Span) -> str:
     return f"= {span.low!r}" if span.fixed else f"from {span.low!r} to {span.high!r}"
 
 
-def _cost(stages: Stages) -> str:
+def _cost(stages: Stages, question: str) -> str:
     if stages.always is not None:
         return "Nothing is computed: all of the region has one answer."
     shares = ", ".join(f"{name} {share:.1%}" for name, share in stages.shares.items() if share)
-    operations = operations_before(stages)
-    return (
-        f"{operations.additions} additions, {operations.multiplications} multiplications, {operations.divisions} "
-        f"divisions and {operations.comparisons} comparisons at most before the search. Decided by: {shares} (of "
-        "centres spread evenly)."
-    )
-
-
-def operations_before(stages: Stages) -> Operations:
-    """The operations of all stages before the search; thresholds are two comparisons more than the entry."""
-    steps = [step for step in stages.entry.steps if step.operation != "abs"]
-    for line in stages.lines:
-        steps += line.program.steps
-    if stages.centre:
-        steps += CENTRE.steps
-    if stages.discriminant is not None:
-        steps += stages.discriminant.program.steps
-    return count(steps)
+    most = "at most before the search" if stages.search is not None else "in all"
+    operations = told(operations_before(stages, question))
+    return f"{operations} {most}. Decided by: {shares} (of centres spread evenly)."
 
 
 def _bound(plan: Plan) -> str:

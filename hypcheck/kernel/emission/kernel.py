@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,6 +9,7 @@ from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.batch import OPEN, many
 from hypcheck.kernel.emission.body import function
+from hypcheck.kernel.emission.describing import described
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.filling import filled, template
 from hypcheck.kernel.emission.header import header, safe
@@ -39,14 +39,15 @@ def emitted(plan: Plan, language: str, command: Sequence[str]) -> str:
         "header": header(plan, command, COMMENTS[language]),
         "number": number,
         "search": _search(plan, dialect, extension) if _searches(plan) else "",
-        "settings": "\n\n".join([*_settings(plan, dialect), *functions]),
+        "imports": "\n".join(["import math"] * _searches(plan) + ["from collections.abc import Iterable"]),
+        "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
         "many": "\n\n".join(many(plan, stages, place, dialect) for place, stages in _numbered(plan))
         if language in BY_BLOCK
         else "",
         "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
-        "description": _quoted(description(plan, language), language),
+        "description": described(description(plan, language), language),
     }
     return filled(template(f"kernel.{extension}.tmpl"), parts).strip("\n") + "\n"
 
@@ -83,14 +84,14 @@ def _settings(plan: Plan, dialect: Dialect) -> list[str]:
     for place, stages in _numbered(plan):
         if stages.search is not None:
             values = ((name, dialect.literal(stages.search.constants[name], plan.format.name)) for name in SETTING)
-            fields = ", ".join(dialect.say("field", name=name, value=value) for name, value in values)
-            found.append(dialect.say("setting", place=place, values=fields))
+            fields = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in values)
+            found.append(dialect.say("setting", place=place, values=f"\n    {fields},\n"))
     return found
 
 
 def _choices(plan: Plan, dialect: Dialect) -> list[str]:
     return [
-        dialect.say("choose", place=place, sizes=", ".join(repr(size) for size in stages.setting.sizes))
+        dialect.say("choose", place=place, sizes=", ".join(map(repr, stages.setting.sizes)), of=stages.setting.sizes)
         for place, stages in _numbered(plan)
     ]
 
@@ -117,14 +118,4 @@ def _search(plan: Plan, dialect: Dialect, extension: str) -> str:
         "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),
         "geometric_steps": str(GEOMETRIC_STEPS),
     }
-    return filled(template(f"search.{extension}.tmpl"), parts)
-
-
-def _quoted(value: dict[str, Any], language: str) -> str:
-    """The description as the language holds it: a text of JSON, or an object of its own."""
-    text = json.dumps(value)
-    if language == "javascript":
-        return text
-    if language == "python":
-        return repr(value)
-    return json.dumps(text)  # C, C++ and Rust escape quotation marks and backslashes alike
+    return filled(template(f"search.{extension}.tmpl"), parts) + "\n"

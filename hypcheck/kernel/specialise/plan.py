@@ -197,7 +197,7 @@ def _at_one_height(
             f"the height is {found.height!r}: position depends on x² + y² alone and is monotone in it",
         )
     ]
-    if found.inner is None:
+    if found.inner is None and question != "exterior":
         omitted.append(Omission("the interior threshold", "at this height not even a centre on the axis is interior"))
     omitted += _one_sided(question)
     return Stages(
