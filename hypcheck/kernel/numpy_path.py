@@ -148,7 +148,7 @@ def _by_two_lines(
 
 def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Places:
     np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
-    return np.empty(0, dtype=np.intp) if decided.all() else np.flatnonzero(~decided)
+    return np.flatnonzero(np.logical_not(decided, out=decided))
 
 
 def _certified(rows: Rows, buffers: Buffers[np.float64], result: Positions) -> None:

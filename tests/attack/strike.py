@@ -39,14 +39,15 @@ def strike(subjects: Iterable[Subject], all_batches: Iterable[Batch]) -> Iterato
         rows = each.rows if isinstance(each, Scene) else each
         truth = batch.positions(rows)
         for subject in everyone:
-            found = _asked(subject, each)
-            yield stratum, subject.name, len(rows), rows[found != truth]
+            some = slice(None, None, subject.every)
+            found = _asked(subject, each, some)
+            yield stratum, subject.name, len(found), rows[some][found != truth[some]]
 
 
-def _asked(subject: Subject, each: np.ndarray | Scene) -> np.ndarray:
+def _asked(subject: Subject, each: np.ndarray | Scene, some: slice) -> np.ndarray:
     if isinstance(each, Scene):
-        return subject.scene(each.sizes, each.x, each.y, each.z)
-    return subject.rows(each)
+        return subject.scene(each.sizes, *(column[some] for column in (each.x, each.y, each.z)))
+    return subject.rows(each[some])
 
 
 def tally(struck: Iterable[tuple[str, str, int, np.ndarray]]) -> tuple[Counter, Counter, list[np.ndarray]]:

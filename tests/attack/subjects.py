@@ -1,4 +1,4 @@
-"""What is attacked: each kernel at each instruction set, asked for rows and for scenes."""
+"""What is attacked: each kernel at each instruction set, asked for rows, scenes and every question; and pairs."""
 
 from __future__ import annotations
 
@@ -12,15 +12,21 @@ import numpy as np
 
 from hypcheck.kernel import numpy_path
 from hypcheck.kernel.choice import LEVELS, compiled
+from hypcheck.kernel.question import NUMBER_OF, POSITION_OF
+from hypcheck.kernel.scalar import exact_position
 
 
 @dataclass(frozen=True)
 class Subject:
-    """`rows(rows)` and `scene(sizes, x, y, z)` answer positions."""
+    """`rows(rows)` and `scene(sizes, x, y, z)` answer positions; only each `every`-th row is asked.
+
+    A position that another question does not agree with is answered 99.
+    """
 
     name: str
     rows: Callable
     scene: Callable
+    every: int = 1
 
 
 def of_library(path: Path, name: str, level: str | None = None) -> Subject | None:
@@ -35,18 +41,37 @@ def of_library(path: Path, name: str, level: str | None = None) -> Subject | Non
 
     def rows(values: np.ndarray) -> np.ndarray:
         assert chosen()
-        values, answers = np.ascontiguousarray(values), np.full(len(values), 99, np.int8)
-        library.hypcheck_classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
-        return answers
+        values, count = np.ascontiguousarray(values), ctypes.c_size_t(len(values))
+
+        def ask(question: str) -> np.ndarray:
+            answers = np.full(len(values), 99, np.int8)
+            library.hypcheck_ask(NUMBER_OF[question], count, pointer(values), pointer(answers))
+            return answers
+
+        return _agreed(ask)
 
     def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
         assert chosen()
-        answers, four = np.full(len(columns[0]), 99, np.int8), np.array(sizes)
+        four, count = np.array(sizes), ctypes.c_size_t(len(columns[0]))
         pointers = [pointer(column) for column in columns]
-        library.hypcheck_classify_scene(pointer(four), ctypes.c_size_t(len(answers)), *pointers, pointer(answers))
-        return answers
+
+        def ask(question: str) -> np.ndarray:
+            answers = np.full(len(columns[0]), 99, np.int8)
+            library.hypcheck_ask_scene(NUMBER_OF[question], pointer(four), count, *pointers, pointer(answers))
+            return answers
+
+        return _agreed(ask)
 
     return Subject(name, rows, scene) if chosen() else None
+
+
+def _agreed(ask: Callable[[str], np.ndarray]) -> np.ndarray:
+    positions = ask("position")
+    wrong = np.zeros(len(positions), dtype=bool)
+    for question, position in POSITION_OF.items():
+        wrong |= ask(question) != (positions == position)
+    positions[wrong] = 99
+    return positions
 
 
 def _numpy_scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
@@ -54,12 +79,29 @@ def _numpy_scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
         return numpy_path.positions_of_scene(sizes, *columns)
 
 
+def one_by_one(position: Callable[..., int], name: str, every: int) -> Subject:
+    """A function of one pair."""
+
+    def rows(values: np.ndarray) -> np.ndarray:
+        return np.array([position(*row) for row in values.tolist()], dtype=np.int8)
+
+    def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
+        centres = zip(*(column.tolist() for column in columns), strict=True)
+        return np.array([position(*sizes, *centre) for centre in centres], dtype=np.int8)
+
+    return Subject(name, rows, scene, every)
+
+
 def subjects() -> list[Subject]:
-    """The compiled kernel at every level of this machine, and numpy."""
-    found = [Subject("numpy", numpy_path.positions, _numpy_scene)]
+    """The compiled kernel at every level of this machine, numpy, and the functions of one pair."""
+    found = [
+        Subject("numpy", numpy_path.positions, _numpy_scene),
+        one_by_one(exact_position, "pair, Python", every=16),
+    ]
     try:
-        path = Path(str(compiled().__file__))
+        module = compiled()
     except ImportError:
         return found
-    libraries = (of_library(path, level, level) for level in LEVELS)
-    return found + [subject for subject in libraries if subject is not None]
+    libraries = (of_library(Path(str(module.__file__)), level, level) for level in LEVELS)
+    found += [subject for subject in libraries if subject is not None]
+    return [*found, one_by_one(module.position, "pair, C", every=1)]

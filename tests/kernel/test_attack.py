@@ -7,6 +7,7 @@ import ctypes
 import numpy as np
 import pytest
 
+from hypcheck.kernel.choice import LEVELS
 from hypcheck.kernel.core import generate
 from hypcheck.truth import batch
 from tests.attack.places import Scene, near_contact, scenes
@@ -47,7 +48,7 @@ def test_no_build_is_wrong_anywhere(options, struck, tmp_path):
 
 
 SABOTAGE = {
-    "bounds a hundredth": {name: generate.CONSTANTS[name] / 100 for name in ("u_4", "u_8", "u_12", "u_16", "u_48")},
+    "bounds a hundredth": {name: generate.CONSTANTS[name] / 100 for name in ("u_4", "u_8", "u_12", "u_16", "u_1536")},
     "margins reversed": {"more": generate.CONSTANTS["less"], "less": generate.CONSTANTS["more"]},
 }
 
@@ -96,7 +97,8 @@ def test_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path):
     scene = next(scenes(random, 1, 5000))
     truth, truth_of_scene = batch.positions(rows), batch.positions(scene.rows)
     control = shared_library(tmp_path, MODES, "-frounding-math")
-    for subject in subjects()[1:]:
+    written_in_c = [subject for subject in subjects() if subject.name in (*LEVELS, "pair, C")]
+    for subject in written_in_c:
         found, of_scene = _under(control, (mode, flush), subject, rows, scene)
         assert (found == truth).all()
         assert (of_scene == truth_of_scene).all()

@@ -25,7 +25,7 @@ COMMAND = "python -m hypcheck.kernel.core.generate"
 
 CONSTANTS = {
     **certified.CONSTANTS,
-    "u_48": single.CONSTANTS["u_48"],
+    "u_1536": single.CONSTANTS["u_1536"],
     "more": lines.MORE,
     "less": lines.LESS,
     "cap": lines.CAP,

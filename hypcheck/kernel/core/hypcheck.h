@@ -122,7 +122,7 @@ int hypcheck_use_level(const char *name);
 #define HC_tiny 3.054936363499605e-151 /* 0x1.0000000000000p-500 */
 #define HC_least 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
 #define HC_greatest 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
-#define HC_u_48 1.065815120079687e-14 /* 0x1.8000180000000p-47 */
+#define HC_u_1536 3.4106083842549983e-13 /* 0x1.8000180000000p-42 */
 #define HC_more 1.000000000000007 /* 0x1.0000000000020p+0 */
 #define HC_less 0.9999999999999929 /* 0x1.fffffffffffc0p-1 */
 #define HC_cap 2.5822498780869086e+120 /* 0x1.0000000000000p+400 */
@@ -467,7 +467,7 @@ static int hc_valid(const double row[7]) {
 /* A cheaper bound for the common case, c² > a > 1; 2 where it cannot say. */
 static int hc_single(const double row[7]) {
     const double alpha = row[0], gamma = row[1], b = row[2], d = row[3], x = row[4], y = row[5], z = row[6];
-    const double u_8 = HC_u_8, u_12 = HC_u_12, u_48 = HC_u_48;
+    const double u_8 = HC_u_8, u_12 = HC_u_12, u_1536 = HC_u_1536;
     /* printed from the program "single" */
     const double alpha_over_b = alpha / b;
     const double A = alpha_over_b * alpha_over_b;
@@ -513,21 +513,9 @@ static int hc_single(const double row[7]) {
     const double BP_plus_AQ = BP + AQ;
     const double sizes_1 = A_plus_B + AB;
     const double M1 = sizes_1 + BP_plus_AQ;
-    const double M2_M2 = M2 * M2;
-    const double M1_3 = 3.0 * M1;
-    const double H1 = M2_M2 + M1_3;
-    const double M2_M1 = M2 * M1;
-    const double AB_9 = 9.0 * AB;
-    const double H2 = M2_M1 + AB_9;
-    const double M1_M1 = M1 * M1;
-    const double M2_AB = M2 * AB;
-    const double M2_AB_3 = 3.0 * M2_AB;
-    const double H3 = M1_M1 + M2_AB_3;
-    const double H1_H3 = H1 * H3;
-    const double H1_H3_4 = 4.0 * H1_H3;
-    const double H2_H2 = H2 * H2;
-    const double M_delta = H1_H3_4 + H2_H2;
-    const double E = u_48 * M_delta;
+    const double product = M2 * M1;
+    const double product_squared = product * product;
+    const double E = u_1536 * product_squared;
     const double e1 = u_12 * M1;
     const double e2 = u_8 * M2;
     const double BB = B * B;

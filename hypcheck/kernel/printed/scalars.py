@@ -18,7 +18,7 @@ def single(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z
     """A, B, BB, c1, e1, c2, e2, delta_3, E of the program "single"."""
     u_8 = 1.776358533466145e-15  # 0x1.0000100000000p-49
     u_12 = 2.6645378001992175e-15  # 0x1.8000180000000p-49
-    u_48 = 1.065815120079687e-14  # 0x1.8000180000000p-47
+    u_1536 = 3.4106083842549983e-13  # 0x1.8000180000000p-42
     alpha_over_b = alpha / b
     A = alpha_over_b * alpha_over_b
     gamma_over_d = gamma / d
@@ -63,21 +63,9 @@ def single(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z
     BP_plus_AQ = BP + AQ
     sizes_1 = A_plus_B + AB
     M1 = sizes_1 + BP_plus_AQ
-    M2_M2 = M2 * M2
-    M1_3 = 3.0 * M1
-    H1 = M2_M2 + M1_3
-    M2_M1 = M2 * M1
-    AB_9 = 9.0 * AB
-    H2 = M2_M1 + AB_9
-    M1_M1 = M1 * M1
-    M2_AB = M2 * AB
-    M2_AB_3 = 3.0 * M2_AB
-    H3 = M1_M1 + M2_AB_3
-    H1_H3 = H1 * H3
-    H1_H3_4 = 4.0 * H1_H3
-    H2_H2 = H2 * H2
-    M_delta = H1_H3_4 + H2_H2
-    E = u_48 * M_delta
+    product = M2 * M1
+    product_squared = product * product
+    E = u_1536 * product_squared
     e1 = u_12 * M1
     e2 = u_8 * M2
     BB = B * B

@@ -3,8 +3,9 @@
 It is `certified` with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed
 value is off by at most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2,
 11 for c1 and 42 for 3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second
-order, for the rounding of M and for squares that underflow. What it leaves open, or what lies outside c² > a > 1, goes
-to the integers.
+order, for the rounding of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1,
+H2 = M2 M1 + 9 AB and H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term.
+What it leaves open, or what lies outside c² > a > 1, goes to the integers.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from hypcheck.derivation.listing import program_of
 from hypcheck.kernel.programs.certified import SLACK, U
 from hypcheck.pairs import COLUMNS
 
-CONSTANTS = {"u_8": 8 * U * SLACK, "u_12": 12 * U * SLACK, "u_48": 48 * U * SLACK}
+CONSTANTS = {"u_8": 8 * U * SLACK, "u_12": 12 * U * SLACK, "u_1536": 48 * 32 * U * SLACK}
 
 SINGLE = program_of(
     "single",
@@ -29,21 +30,9 @@ SINGLE = program_of(
     BP_plus_AQ = BP + AQ
     sizes_1 = A_plus_B + AB
     M1 = sizes_1 + BP_plus_AQ
-    M2_M2 = M2 * M2
-    M1_3 = 3 * M1
-    H1 = M2_M2 + M1_3
-    M2_M1 = M2 * M1
-    AB_9 = 9 * AB
-    H2 = M2_M1 + AB_9
-    M1_M1 = M1 * M1
-    M2_AB = M2 * AB
-    M2_AB_3 = 3 * M2_AB
-    H3 = M1_M1 + M2_AB_3
-    H1_H3 = H1 * H3
-    H1_H3_4 = 4 * H1_H3
-    H2_H2 = H2 * H2
-    M_delta = H1_H3_4 + H2_H2
-    E = u_48 * M_delta
+    product = M2 * M1
+    product_squared = product * product
+    E = u_1536 * product_squared
     e1 = u_12 * M1
     e2 = u_8 * M2
     BB = B * B

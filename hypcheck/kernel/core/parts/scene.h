@@ -3,7 +3,7 @@
 /* A cheaper bound for the common case, c² > a > 1; 2 where it cannot say. */
 static int hc_single(const double row[7]) {
     const double alpha = row[0], gamma = row[1], b = row[2], d = row[3], x = row[4], y = row[5], z = row[6];
-    const double u_8 = HC_u_8, u_12 = HC_u_12, u_48 = HC_u_48;
+    const double u_8 = HC_u_8, u_12 = HC_u_12, u_1536 = HC_u_1536;
     /* printed from the program "single" */
     @SINGLE@
     /* end of the program "single" */
