@@ -47,16 +47,28 @@ def test_the_pages_are_those_of_the_record(record):
 
 @pytest.mark.parametrize("name", PICTURES)
 def test_the_pictures_say_what_the_record_does(record, name):
-    """Their words, tooltips among them; where these stand is for each version of matplotlib to say."""
+    """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
     fresh, committed = REPORTS[name].render(record), (FOLDER / REPORTS[name].file).read_bytes()
-    assert words(fresh) == words(committed)
-    assert len(words(committed)) > 50
+    assert said(fresh) == said(committed)
+    methods = {line["method"] for line in record.of("method")}
+    assert lettered(fresh) - methods == lettered(committed) - methods  # a point is named where there is room for it
+    assert len(said(committed)) > 50
+    assert len(lettered(committed)) > 20
+
+
+def said(picture):
+    """All titles, descriptions and tooltips of a picture, in order."""
+    return [text for tag, text in words(picture) if tag in ("title", "desc")]
+
+
+def lettered(picture):
+    """What can be read in it: names of axes, marks, points and curves."""
+    return {text for tag, text in words(picture) if tag == "text"}
 
 
 def words(picture):
-    """All titles and descriptions of a picture, in order."""
-    tags = ("title", "desc")
-    return [each.text for each in ElementTree.fromstring(picture).iter() if each.tag.rpartition("}")[2] in tags]  # noqa: S314
+    elements = ElementTree.fromstring(picture).iter()  # noqa: S314
+    return [(each.tag.rpartition("}")[2], "".join(each.itertext()).strip()) for each in elements]
 
 
 def test_the_readme_shows_its_picture():

@@ -152,7 +152,7 @@ def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
 def _versions() -> dict[str, str]:
     """The versions of the libraries a run can use, read from their metadata: asking the modules would load them."""
     found = {}
-    for name in ("numpy", "sympy", "mpmath", "python-fcl", "click", "matplotlib"):
+    for name in ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib"):
         with suppress(PackageNotFoundError):
             found[name] = version(name)
     return found

@@ -70,8 +70,9 @@ def _compared(record: Record) -> Iterator[Failure]:
         if line["verdict"] in (SLOWER, INCONCLUSIVE) and line.get("gates", True):
             words = "is slower than the baseline allows" if line["verdict"] == SLOWER else "was too noisy to compare"
             change = with_interval(line["change"], line["ci95"])
-            message = f"{line['method']} {words}: {change} times its former ratio, allowed {figure(line['allowed'])}"
-            yield Failure(SUBJECT, line["method"], f"{line['workload']}, {line['mode']}", line["verdict"], message)
+            where, allowed = f"{line['workload']}, {line['mode']}", figure(line["allowed"])
+            message = f"{line['method']} {words} ({where}): {change} times its former ratio, allowed {allowed}"
+            yield Failure(SUBJECT, line["method"], where, line["verdict"], message)
 
 
 def _targets(record: Record) -> Iterator[Failure]:

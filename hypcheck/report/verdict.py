@@ -169,7 +169,8 @@ def verdict(record: Record) -> Verdict:
     reason = reason or MEANINGS.get(code, "no line of the record says why")
     if code == INCONCLUSIVE:
         open_ = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
-        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. A quieter machine or more rounds would tell.")
+        what_helps = "A quieter machine or more --processes would tell."
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. {what_helps}")
     return Verdict(False, f"FAILED with exit code {code}: {reason}.")
 
 
