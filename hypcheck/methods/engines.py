@@ -91,7 +91,7 @@ def _coal_trouble() -> str | None:
     try:
         import coal  # noqa: F401, PLC0415
     except ImportError as error:
-        return f"coal cannot be imported ({error}); hypcheck[peers] brings it"
+        return f"coal cannot be imported ({error}); pip install 'hypcheck[peers]' brings it"
     return None
 
 

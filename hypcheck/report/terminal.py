@@ -58,6 +58,7 @@ def summary_lines(
         *_failures(record),
         *([] if against is None else _changes(record, against)),
         *_advice(record),
+        *_absent(record),
         *oracle_facts(record),
         *paper_facts(record),
         *_under_test(record),
@@ -124,6 +125,11 @@ def _advice(record: Record) -> Iterator[str]:
         where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
         asked = "" if each.need.asked == POSITION else f", {each.need.asked}"
         yield f"{each.need.what}{where}{asked}: {each.use.name}, {figure(ratio)} times the reference's time"
+
+
+def _absent(record: Record) -> Iterator[str]:
+    """What was left out because something is not there, and what would bring it."""
+    yield from (f"left out: {line['reason']}" for line in record.of("absent"))
 
 
 def _reports(written: Sequence[Written]) -> Iterator[str]:

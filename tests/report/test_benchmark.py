@@ -64,8 +64,10 @@ def test_errors_of_those_that_promise_nothing_fail_nothing():
         (
             lines("comparison", verdict="inconclusive"),
             4,
-            "INCONCLUSIVE, exit code 4: 1 comparison too noisy to tell. "
-            "A quieter machine or more --processes would tell.",
+            (
+                "INCONCLUSIVE, exit code 4: 1 comparison too noisy to tell. "
+                "A quieter machine or more --processes would tell."
+            ),
         ),
         ([*bench_lines.lines(), REFUSED], 1, "FAILED with exit code 1: 1 failed measurement."),
         (lines("comparison", verdict="slower"), 0, "CONTRADICTORY: the record ends with exit code 0, but holds"),
@@ -114,6 +116,11 @@ def test_what_failed_is_named_everywhere():
     assert text.index("## What failed") < text.index("## Against the baseline") < text.index("## Which method")
     assert "✗ numpy-roots is not timed" in terminal.render(record).decode()
     assert [each["kind"] for each in json.loads(summary.render(record))["failures"]] == ["refused", "slower"]
+
+
+def test_what_was_left_out_is_told_with_what_brings_it():
+    text = terminal.render(bench_record(bench_lines.lines())).decode()
+    assert "left out: coal cannot be imported; pip install 'hypcheck[peers]' brings it\n" in text
 
 
 def test_as_test_suites():
