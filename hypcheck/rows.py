@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -18,8 +20,10 @@ CANNOT_SAY = 2
 def as_rows(values: ArrayLike) -> Rows:
     """`values` as a float64 array (n, 7); contiguous float64 input is not copied.
 
-    Raises InputError where the shape or the type cannot be that; the values themselves are not looked at.
+    Raises InputError where the shape or the type cannot be that, or where values are masked; the values themselves are
+    not looked at.
     """
+    require_unmasked("the rows are", values)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
@@ -30,6 +34,13 @@ def as_rows(values: ArrayLike) -> Rows:
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
         raise InputError(f"the rows have shape {rows.shape}; it must be (n, 7): {', '.join(COLUMNS)}")
     return rows
+
+
+def require_unmasked(subject: str, values: object) -> None:
+    """Raise InputError for an array with masked values: without their mask they would be answered like others."""
+    ma = sys.modules.get("numpy.ma")  # where nobody has imported it, nothing is masked, and that takes a while
+    if ma is not None and isinstance(values, ma.MaskedArray) and (count := int(ma.getmaskarray(values).sum())):
+        raise InputError(f"{subject} masked in {count} places; fill these, with nan or a number")
 
 
 def invalid(rows: Rows) -> NDArray[np.bool_]:

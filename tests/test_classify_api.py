@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 
 import numpy as np
@@ -84,18 +85,22 @@ def test_the_first_bad_center_is_named_and_nothing_is_written(value):
 
 
 @pytest.mark.parametrize(
-    "out", [np.empty(2, np.int8), np.empty(3, np.int16), np.empty((3, 1), np.int8), [0, 0, 0], "readonly"]
+    ("out", "found"),
+    [
+        (np.empty(2, np.int8), r"an array of int8 and of shape \(2,\)"),
+        (np.empty(3, np.int16), r"an array of int16 and of shape \(3,\)"),
+        (np.empty((3, 1), np.int8), r"an array of int8 and of shape \(3, 1\)"),
+        ([0, 0, 0], "of type list"),
+        (np.broadcast_to(np.int8(0), 3), "read-only"),
+    ],
 )
-def test_an_out_that_does_not_fit_is_refused(out):
-    if isinstance(out, str):
-        out = np.empty(3, np.int8)
-        out.flags.writeable = False
+def test_an_out_that_does_not_fit_is_refused(out, found):
     for call in (
         lambda: hypcheck.classify(ROWS, out=out),
         lambda: hypcheck.classify(ROWS, out=out, on_invalid="flag"),
         lambda: hypcheck.classify_scene((1, 2, 1, 1), [1, 2, 3], 0, 0, out=out),
     ):
-        with pytest.raises(InputError, match=r"out must be a writable int8 array of shape \(3,\)"):
+        with pytest.raises(InputError, match=rf"out is {found}; it must be a writable int8 array of shape \(3,\)"):
             call()
 
 
@@ -122,7 +127,43 @@ def test_a_scene_that_is_none_is_refused(sizes, center, sentence):
             hypcheck.classify_scene(sizes, *center)
 
 
+def test_what_is_masked_is_refused_and_a_mask_of_nothing_is_none():
+    masked = np.ma.masked_array(ROWS, mask=False)
+    assert hypcheck.classify(masked).tolist() == [1, 0, -1]
+    masked[1, 2] = np.ma.masked
+    with pytest.raises(InputError, match="the rows are masked in 1 places; fill these, with nan or a number"):
+        hypcheck.classify(masked)
+    with pytest.raises(InputError, match="y: masked in 1 places"):
+        hypcheck.classify_scene((1, 2, 1, 1), 1, masked[1], 3)
+
+
+@pytest.mark.parametrize("shape", [(7,), (0,), (3, 6), (7, 3), (1, 2, 7)])
+def test_rows_of_another_shape_are_refused(shape):
+    with pytest.raises(InputError, match=rf"the rows have shape {re.escape(str(shape))}; it must be \(n, 7\)"):
+        hypcheck.classify(np.ones(shape))
+
+
+def test_no_rows_have_no_positions():
+    assert hypcheck.classify(np.empty((0, 7))).tolist() == []
+    assert hypcheck.classify_scene((1, 2, 1, 1), [], [], []).tolist() == []
+    assert hypcheck.classify_scene((1, 2, 1, 1), [], 0, 0, on_invalid="flag").tolist() == []
+
+
+@pytest.mark.parametrize("unit", [5e-324, 1e-300, 1e-160, 1e300])
+def test_positions_at_the_ends_of_float64_are_exact(unit):
+    """Spheres beside a hyperboloid of waist α: clear at 3 α, tangent at 2 α."""
+    rows = np.array([[1, 1, 1, 1, 3, 0, 0], [1, 1, 1, 1, 2, 0, 0]]) * unit
+    assert hypcheck.classify(rows).tolist() == [1, 0]
+    many = np.resize(rows[:, 4], 20_000)
+    found = hypcheck.classify_scene(tuple(rows[0, :4].tolist()), many, 0, 0)
+    assert found.tolist() == [1, 0] * 10_000
+
+
 def test_an_unknown_mode_is_refused():
+    with pytest.raises(InputError, match="on_invalid is None; it must be 'raise' or 'flag'"):
+        hypcheck.classify(ROWS, on_invalid=None)
+    with pytest.raises(InputError, match="on_invalid is array"):
+        hypcheck.classify(ROWS, on_invalid=np.ones(2))
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
         hypcheck.classify(ROWS, on_invalid="ignore")
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):

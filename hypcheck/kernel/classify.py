@@ -12,7 +12,7 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.answering import kernel
 from hypcheck.kernel.question import Question, require_known
 from hypcheck.pairs import CENTER, SIZES, trouble_with
-from hypcheck.rows import Positions, as_rows, require_valid
+from hypcheck.rows import Positions, as_rows, require_unmasked, require_valid
 
 
 def classify(
@@ -77,7 +77,7 @@ def classify_scene(
 
 def _required(question: str, threads: int | None, on_invalid: str) -> int | None:
     """The number of threads, when all three make sense."""
-    if on_invalid not in ("raise", "flag"):
+    if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
     require_known(question)
     if threads is None:
@@ -92,6 +92,7 @@ def _required(question: str, threads: int | None, on_invalid: str) -> int | None
 
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    require_unmasked(f"{name}:", values)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
@@ -126,11 +127,18 @@ def _require_finite(*columns: NDArray[np.float64]) -> None:
             raise InputError(f"row {index}: {trouble}")
 
 
-def _require_fitting(out: Positions | None, count: int) -> None:
+def _require_fitting(out: object, count: int) -> None:
     if out is None:
         return
-    if not isinstance(out, np.ndarray) or out.dtype != np.int8 or out.shape != (count,) or not out.flags.writeable:
-        raise InputError(f"out must be a writable int8 array of shape ({count},)")
+    if not isinstance(out, np.ndarray):
+        found = f"of type {type(out).__name__}"
+    elif out.dtype != np.int8 or out.shape != (count,):
+        found = f"an array of {out.dtype} and of shape {out.shape}"
+    elif not out.flags.writeable:
+        found = "read-only"
+    else:
+        return
+    raise InputError(f"out is {found}; it must be a writable int8 array of shape ({count},)")
 
 
 def _into(out: Positions | None, result: Positions) -> Positions:
