@@ -34,6 +34,7 @@ SUMMARY = schema(f"summary-{summary.SCHEMA}.json")
 
 
 PARTS = {
+    "scene_times",
     "count",
     "counts",
     "error",
@@ -108,7 +109,7 @@ def test_every_line_of_a_benchmark_fits():
 
 def test_the_older_schema_is_part_of_the_newer():
     older = schema("record-1.0.0.json")
-    added = {"grid", "ratio", "ratios", "load", "span", "progress"}
+    added = {"grid", "ratio", "ratios", "load", "span", "progress", "scene_times"}
     assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | added
     # Null and the sizes of a domain were added, and room for a fault of each of the six statuses.
     alike = older["$defs"].keys() - {"limits", "description", "group", "header", "implementation"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.bench.contenders.c_library import InC, bodies, compile_c, compiled
-from hypcheck.bench.rounds import Entry, clocked, measure
+from hypcheck.bench.contenders.c_library import InC, compiled, place_of
+from hypcheck.bench.rounds import Entry, Samples, clocked, measure
+from hypcheck.bench.scene_kernel import SceneKernel, built
 from hypcheck.bench.statistics import Estimate, estimate, ratios
-from hypcheck.kernel.emission.kernel import emitted
+from hypcheck.kernel.emission.telling import PRINTED
 from hypcheck.kernel.specialise.plan import Plan, Stages
 from hypcheck.kernel.specialise.sampling import centres
-from hypcheck.methods.method import Answers
 from hypcheck.rows import Rows
 
 ROUNDS = 11
@@ -25,36 +24,60 @@ TIMES = 16
 
 
 @dataclass(frozen=True)
-class Saved:
+class Times:
     """Nanoseconds a centre, and how long the kernel takes for each of Table 2's."""
 
-    stages: Stages
-    rows: int
     kernel_ns: float
     printed_ns: float
     ratio: Estimate
 
+    @classmethod
+    def of(cls, own: Samples, other: Samples) -> Times:
+        """From the samples of both."""
+        return cls(own.median_ns, other.median_ns, estimate(ratios([own.samples_ns], [other.samples_ns])))
+
     @property
     def says(self) -> str:
-        """The measurement in a sentence."""
+        """The measurement in a sentence's part."""
         times = 1 / self.ratio.median
         how = f"{times:.2f} times as fast as" if times >= 1 else f"{self.ratio.median:.2f} times as slow as"
         return (
-            f"{self.kernel_ns:.2f} ns a centre in C, {how} Table 2 as printed in C ({self.printed_ns:.2f} ns); "
+            f"{self.kernel_ns:.2f} ns a centre, {how} Table 2 as printed ({self.printed_ns:.2f} ns); "
             f"ratio {self.ratio.median:.3f}, 95 % interval {self.ratio.low:.3f} to {self.ratio.high:.3f}"
         )
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """The measurement for programs."""
+        return {
+            "kernel_ns": self.kernel_ns,
+            "printed_ns": self.printed_ns,
+            "ratio": self.ratio.median,
+            "ratio_ci95": [self.ratio.low, self.ratio.high],
+        }
+
+
+@dataclass(frozen=True)
+class Saved:
+    """What one setting's kernel saves: by one call for many centres, and by a call for each."""
+
+    stages: Stages
+    rows: int
+    batch: Times
+    single: Times
+
+    @property
+    def says(self) -> str:
+        """The measurement in sentences."""
+        return f"In C, many by a call: {self.batch.says}. A call each: {self.single.says}."
 
 
 def saved(plan: Plan, folder: Path) -> Iterator[Saved]:
     """Each setting of the plan, measured in turn. Raises UnavailableError where there is no C compiler."""
     methods, _ = compiled(folder)
-    code, kernel = folder / "kernel.c", folder / "kernel.so"
-    code.write_text(emitted(plan, "c", ["hypcheck", "emit"]), encoding="utf-8")
-    compile_c(code, kernel)
-    library = ctypes.CDLL(str(kernel))
-    place = [body.name for body in bodies()].index(f"table-2-{plan.format.name}") + 1
+    kernel, printed = built(plan, folder / "scene"), InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
     for stages in plan.settings:
-        yield _saved(stages, library, InC(methods, place))
+        yield _saved(stages, kernel, printed)
 
 
 def line(found: Saved) -> dict[str, Any]:
@@ -64,28 +87,22 @@ def line(found: Saved) -> dict[str, Any]:
         "uses": list(found.stages.setting.uses),
         "rows": found.rows,
         "shares": found.stages.shares,
-        "kernel_ns": found.kernel_ns,
-        "printed_ns": found.printed_ns,
-        "ratio": found.ratio.median,
-        "ratio_ci95": [found.ratio.low, found.ratio.high],
+        "batch": found.batch.fields,
+        "single": found.single.fields,
         "says": found.says,
     }
 
 
-def _saved(stages: Stages, library: ctypes.CDLL, printed: InC) -> Saved:
+def _saved(stages: Stages, kernel: SceneKernel, printed: InC) -> Saved:
     rows = rows_of(stages)
-    sizes, centre = np.array(stages.setting.sizes), [np.ascontiguousarray(column) for column in rows[:, 4:].T]
-    answers = np.zeros(len(rows), dtype=np.int8)
-    places = [each.ctypes.data_as(ctypes.c_void_p) for each in (sizes, *centre, answers)]
-
-    def work() -> Answers:
-        library.hypcheck_classify_scene(places[0], ctypes.c_size_t(len(rows)), *places[1:])
-        return answers
-
-    entries = [Entry("kernel", len(rows), clocked(work)), Entry("printed", len(rows), printed.batch(rows).run)]
-    *_, (_, (own, other)) = measure(entries, ROUNDS)
-    ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
-    return Saved(stages, len(rows), own.median_ns, other.median_ns, ratio)
+    entries = [
+        Entry("kernel", len(rows), clocked(kernel.batch([rows]))),
+        Entry("printed", len(rows), printed.batch(rows).run),
+        Entry("kernel, one by one", len(rows), clocked(kernel.single(rows))),
+        Entry("printed, one by one", len(rows), printed.single(rows).run),
+    ]
+    *_, (_, samples) = measure(entries, ROUNDS)
+    return Saved(stages, len(rows), Times.of(*samples[:2]), Times.of(*samples[2:]))
 
 
 def rows_of(stages: Stages, times: int = TIMES) -> Rows:

@@ -1,27 +1,29 @@
 """What leaving out saves in whole scenes: the share that each stage decided, and the time against what keeps all.
 
 A scene is asked evenly over its region, each pair of sizes alike. Beside its kernel in C stand Table 2 as printed, in
-C, which proves nothing, and the certified kernel that `hypcheck.classify_scene` runs; all in one thread.
+C, which proves nothing, and the certified kernel that `hypcheck.classify_scene` runs; all in one thread, once by a call
+for many rows and once by a call for each, as who flies or walks asks.
 """
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hypcheck.bench.contenders.c_library import InC, compile_c, compiled, place_of
+from hypcheck.bench.contenders.c_library import InC, compiled, place_of
 from hypcheck.bench.contenders.c_tier import COMPILER
 from hypcheck.bench.needs import note_absent
-from hypcheck.bench.rounds import Clocked, Entry, Samples, clocked, measure
+from hypcheck.bench.rounds import Clocked, Entry, clocked, measure
 from hypcheck.bench.scene import rows_of
+from hypcheck.bench.scene_kernel import built
 from hypcheck.bench.statistics import estimate, ratios
 from hypcheck.errors import UnavailableError
 from hypcheck.kernel.classify import classify_scene
-from hypcheck.kernel.emission.kernel import emitted
+from hypcheck.kernel.emission.telling import PRINTED
 from hypcheck.kernel.question import Question
 from hypcheck.kernel.specialise.plan import Plan, Stages, plan_of
 from hypcheck.kernel.specialise.sampling import COUNT
@@ -32,6 +34,9 @@ from hypcheck.scene.reading import read_scene
 ROUNDS, QUICK_ROUNDS = 11, 5
 ROWS = 2**17
 """About how many rows a scene is asked; a setting has its sample's 4096 at least."""
+
+CERTIFIED = "fast"
+"""The certified kernel's name among the methods in C."""
 
 STAGES = ("always", "thresholds", "lines", "discriminant", "search")
 
@@ -58,31 +63,44 @@ def run(plans: Sequence[Plan], recorder: Recorder, advance: Advance, folder: Pat
 
 
 def _line(plan: Plan, methods: Path, folder: Path, rounds: int) -> dict[str, Any]:
-    tables = _tables(plan)
-    kernel, certified = _kernel(plan, folder, tables), _certified(plan, tables)
-    wrong = _wrong(kernel(), certified())
-    count = sum(map(len, tables))
-    printed = InC(methods, place_of("table-2-float64"))
-    entries = [
-        Entry("kernel", count, clocked(kernel)),
-        Entry("printed", count, _all_of([printed.batch(rows).run for rows in tables])),
-        Entry("certified", count, clocked(certified)),
-    ]
-    *_, (_, (own, plain, other)) = measure(entries, rounds)
+    tables, kernel = _tables(plan), built(plan, folder)
+    rows = np.concatenate(tables)
+    batch, single, certified = kernel.batch(tables), kernel.single(rows), _certified(plan, tables)
+    exact = certified()
+    wrong = int((_wrong(batch(), exact) | _wrong(single(), exact)).sum())
+    printed = InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
+    batches = {
+        "kernel": clocked(batch),
+        "printed": _all_of([printed.batch(each).run for each in tables]),
+        "certified": clocked(certified),
+    }
+    singles = {
+        "kernel": clocked(single),
+        "printed": printed.single(rows).run,
+        "certified": InC(methods, place_of(CERTIFIED)).single(rows).run,
+    }
     return {
         "scene": plan.scene.name,
         "question": plan.question,
         "precision": plan.format.name,
         "settings": len(plan.settings),
-        "rows": count,
+        "rows": len(rows),
         "wrong": wrong,
         "shares": shares(plan.settings),
-        "kernel_ns": own.median_ns,
-        "printed_ns": plain.median_ns,
-        "certified_ns": other.median_ns,
-        **_ratio("ratio", own, plain),
-        **_ratio("certified_ratio", own, other),
+        "batch": _times(batches, len(rows), rounds),
+        "single": _times(singles, len(rows), rounds),
     }
+
+
+def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> dict[str, Any]:
+    """Nanoseconds a row of each, and how long the kernel takes for each of the others'."""
+    *_, (_, samples) = measure([Entry(name, count, run) for name, run in asked.items()], rounds)
+    own, *others = samples
+    found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
+    for other in others:
+        ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
+        found |= {f"by_{other.name}": ratio.median, f"by_{other.name}_ci95": [ratio.low, ratio.high]}
+    return found
 
 
 def shares(settings: Sequence[Stages]) -> dict[str, float]:
@@ -90,40 +108,10 @@ def shares(settings: Sequence[Stages]) -> dict[str, float]:
     return {name: float(np.mean([each.shares.get(name, 0.0) for each in settings])) for name in STAGES}
 
 
-def _ratio(name: str, own: Samples, other: Samples) -> dict[str, Any]:
-    found = estimate(ratios([own.samples_ns], [other.samples_ns]))
-    return {name: found.median, f"{name}_ci95": [found.low, found.high]}
-
-
 def _tables(plan: Plan) -> list[Rows]:
     """The rows of each setting."""
     times = max(1, ROWS // (COUNT * max(1, len(plan.settings))))
     return [rows_of(stages, times) for stages in plan.settings]
-
-
-def _kernel(plan: Plan, folder: Path, tables: Sequence[Rows]) -> Callable[[], Positions]:
-    """The scene's kernel, asked about all rows, one pair of sizes after the other."""
-    folder.mkdir()
-    code, library = folder / "kernel.c", folder / "kernel.so"
-    code.write_text(emitted(plan, "c", ["hypcheck", "emit"]), encoding="utf-8")
-    compile_c(code, library)
-    function = ctypes.CDLL(str(library)).hypcheck_classify_scene
-    found = np.zeros(sum(map(len, tables)), dtype=np.int8)
-    kept, calls, start = [], [], 0
-    for rows in tables:
-        part = found[start : start + len(rows)]
-        sizes, columns = rows[0, :4].copy(), [np.ascontiguousarray(column) for column in rows[:, 4:].T]
-        pointers = [ctypes.c_void_p(each.ctypes.data) for each in (sizes, *columns, part)]
-        kept.append((sizes, columns))
-        calls.append((pointers[0], ctypes.c_size_t(len(rows)), *pointers[1:]))
-        start += len(rows)
-
-    def work(_kept: object = kept) -> Positions:
-        for call in calls:
-            function(*call)
-        return found
-
-    return work
 
 
 def _certified(plan: Plan, tables: Sequence[Rows]) -> Callable[[], Positions]:
@@ -155,6 +143,6 @@ def _all_of(parts: Sequence[Clocked]) -> Clocked:
     return run
 
 
-def _wrong(said: Positions, exact: Positions) -> int:
-    """How many rows the kernel answers otherwise than is exact; "cannot say" is no wrong answer."""
-    return int(((said != exact) & (said != CANNOT_SAY)).sum())
+def _wrong(said: Positions, exact: Positions) -> NDArray[np.bool_]:
+    """The rows that the kernel answers otherwise than is exact; "cannot say" is no wrong answer."""
+    return np.asarray((said != exact) & (said != CANNOT_SAY))

@@ -44,7 +44,8 @@ def _times(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
 
 def _scenes(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
     for line in record.of("scene"):
-        said = f"{figure(line['ratio'])} times Table 2's time, {line['wrong']:,} wrong"
+        ratios = (figure(line[mode]["by_printed"]) for mode in ("batch", "single"))
+        said = f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {line['wrong']:,} wrong"
         yield Case(line["scene"], _trouble(failed, "wrong", line["scene"], "scene"), (said,))
     for line in record.of("forest"):
         group = f"{line['trees']:,} trees"

@@ -151,10 +151,14 @@ def _forest(line: Line) -> Iterator[Measurement]:
 def _scene(line: Line) -> Iterator[Measurement]:
     for name, share in line["shares"].items():
         yield _plain("kernel", line["scene"], name, "share", share)
-    for name in ("kernel_ns", "printed_ns", "certified_ns", "rows", "wrong"):
+    for name in ("rows", "wrong"):
         yield _plain("kernel", line["scene"], "", name, line[name])
-    for name in ("ratio", "certified_ratio"):
-        yield ("kernel", line["scene"], "", name, line[name], *_ends(line[f"{name}_ci95"]))
+    for mode in ("batch", "single"):
+        times = line[mode]
+        for name in ("kernel_ns", "printed_ns", "certified_ns"):
+            yield _plain("kernel", line["scene"], mode, name, times[name])
+        for name in ("by_printed", "by_certified"):
+            yield ("kernel", line["scene"], mode, name, times[name], *_ends(times[f"{name}_ci95"]))
 
 
 def _comparison(line: Line) -> Iterator[Measurement]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.bench import scenes
+from hypcheck.bench import scene_kernel, scenes
 from hypcheck.bench.forest import contenders, growth, stepping
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.cli.bench import bench
@@ -112,7 +112,10 @@ def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_pat
     assert not violations(line, DEFINITIONS["$defs"]["scene"], DEFINITIONS)
     assert (line["scene"], line["settings"], line["wrong"]) == ("cooling tower", 2, 0)
     assert sum(line["shares"].values()) == pytest.approx(1)
-    assert min(line[name] for name in ("kernel_ns", "printed_ns", "certified_ns")) > 0
+    for mode in ("batch", "single"):
+        assert min(line[mode][name] for name in ("kernel_ns", "printed_ns", "certified_ns")) > 0
+        low, high = line[mode]["by_printed_ci95"]
+        assert low <= line[mode]["by_printed"] <= high
     assert "What scenes leave out" in report
 
 
@@ -124,7 +127,7 @@ def test_shares_of_a_scene_are_the_mean_of_its_pairs():
 
 @COMPILER
 def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatch):
-    right = scenes.emitted
+    right = scene_kernel.emitted
 
     def spoilt(plan, language, command):
         text = right(plan, language, command)
@@ -132,7 +135,7 @@ def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatc
         end = text.index(";", start)
         return text.replace(text[start:end], repr(float(text[start:end]) * 1.2))
 
-    monkeypatch.setattr(scenes, "emitted", spoilt)
+    monkeypatch.setattr(scene_kernel, "emitted", spoilt)
     code, _, report = ended(tmp_path, "--scene", "tower")
     assert code == 1
     assert "the kernel of the scene answers" in report
