@@ -10,8 +10,8 @@ from importlib import resources
 import pytest
 
 from hypcheck.errors import InputError
+from hypcheck.report.json_schema import violations
 from hypcheck.scene.reading import parse_scene, shipped_scenes, shipped_text
-from tests.json_schema import violations
 from tests.test_scene_reading import LEAST, WHOLE
 
 if sys.version_info >= (3, 11):

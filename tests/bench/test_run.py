@@ -14,7 +14,7 @@ from hypcheck.bench.plan import REFERENCE
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, read
-from tests.json_schema import violations
+from hypcheck.report.json_schema import violations
 
 SMALL = ["--quick", "--processes", "2", "--rounds", "2", "--workers", "1"]
 FEW = replace(plan.QUICK, judged=300, cell=2, map_lines=9, timed=8192)

@@ -13,9 +13,9 @@ from hypcheck.replay.case import case_of
 from hypcheck.report import junit, markdown, summary
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, under_test
+from hypcheck.report.json_schema import violations
 from hypcheck.report.terminal import summary_lines
 from hypcheck.report.verdict import failures
-from tests.json_schema import violations
 from tests.test_report_schemas import RECORD, SUMMARY
 
 SPECS = (
