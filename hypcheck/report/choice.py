@@ -21,6 +21,9 @@ DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 BEYOND = "reliable beyond"
 """How a need begins that is about a distance."""
 
+NEARLY = 8.0
+"""Three octaves, as wide as a point of the curves: a method that is ten times as slow is not advised for less."""
+
 IN_FLOATS = ("paper", "algebraic", "roots", "foreign")
 """Kinds that promise no more than their floats allow."""
 
@@ -126,11 +129,12 @@ def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Ne
 
 
 def _nearest(what: str, found: Sequence[Measured]) -> Iterator[tuple[Need, list[Measured]]]:
-    """Those of the found that are reliable nearest to contact."""
+    """Those of the found that are reliable nearest to contact, or not NEARLY times as far from it."""
     best = min((each.reliable_above for each in found), default=math.inf)
     if best < math.inf:
-        need = Need(f"{what}; errors end at {figure(best)}", distance=best)
-        yield need, [each for each in found if each.reliable_above == best]
+        distance = NEARLY * best
+        need = Need(f"{what}; errors end by {figure(distance)}" if best else f"{what}; none wrong", distance=distance)
+        yield need, [each for each in found if each.reliable_above <= distance]
 
 
 def _reliable(found: Iterable[Measured], distance: float, names: Sequence[str] | None = None) -> list[Measured]:

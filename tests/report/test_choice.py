@@ -84,11 +84,23 @@ def test_reliable_beyond_a_distance_everywhere_and_where_it_is_timed():
     )
     found = {key: (each.use.name, each.errs) for key, each in advice(record).items()}
     assert found == {
-        ("plain float64; errors end at 1.0e-13", EVERYWHERE, "position"): ("near", ()),
+        ("plain float64; errors end by 8.0e-13", EVERYWHERE, "position"): ("near", ()),
         ("reliable beyond 1e-9", EVERYWHERE, "position"): ("sound", ()),
         ("reliable beyond 1e-9", EVERYDAY, "position"): ("narrow", ("ring",)),
         ("reliable beyond 0.001", EVERYWHERE, "position"): ("rough", ()),
     }
+
+
+@pytest.mark.parametrize(("farther", "name"), [(8e-13, "quick"), (1.7e-12, "near")])
+def test_a_slow_method_is_not_advised_for_an_octave_or_two(farther, name):
+    record = chosen(method("near", 50.0, {"uniform": 1e-13}), method("quick", 1.0, {"uniform": farther}))
+    found = advice(record)["plain float64; errors end by 8.0e-13", EVERYWHERE, "position"]
+    assert found.use.name == name
+
+
+def test_of_those_that_never_erred_the_fastest_is_advised():
+    record = chosen(method("near", 50.0, {"uniform": 0.0}), method("quick", 1.0, {"uniform": 0.0}))
+    assert advice(record)["plain float64; none wrong", EVERYWHERE, "position"].use.name == "quick"
 
 
 def test_who_answers_less_is_advised_for_less():
@@ -98,7 +110,7 @@ def test_who_answers_less_is_advised_for_less():
     )
     found = {key: each.use.name for key, each in advice(record).items()}
     assert found == {
-        ("plain float64; errors end at 1.0e-13", EVERYWHERE, "position"): "all",
+        ("plain float64; errors end by 8.0e-13", EVERYWHERE, "position"): "all",
         ("reliable beyond 1e-12", EVERYDAY, "clear or not"): "half",
     }
 

@@ -93,22 +93,24 @@ def pair(record: Record) -> Iterator[Plot]:
     known, name = workloads(record), principal(record)
     near, everywhere = points(record, name), worst_points(record, name)
     if near:
-        yield _plot("front-near", f"{str(known[name]['title']).capitalize()}", near, 400, everyone=True)
-        yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, everyone=True)
+        where = str(known[name]["title"])
+        yield _plot("front-near", where.capitalize(), near, 400, timed=where)
+        yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 
 
-def _plot(name: str, title: str, found: Sequence[Point], height: float = 375, *, everyone: bool = False) -> Plot:
+def _plot(name: str, title: str, found: Sequence[Point], height: float = 375, timed: str = "") -> Plot:
+    """What was found, with names along the front; where the title may not say on which workload it was `timed`, all."""
     drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
     best = front(found)
-    heights = _axes(axes, found)
+    heights = _axes(axes, found, timed)
     steps = _steps(best, heights, axes.get_xlim()[1])
     for (x0, y0), (x1, y1) in steps:
         axes.plot((x0, x1), (y0, y1), color=colour("soft"), linewidth=1.2, linestyle=DASHES[1], zorder=1.5)
     tips = _marks(axes, found, heights, name)
     _legend(drawn, found)
     important = sorted(found, key=lambda point: (point not in best, point.time_ns))
-    names = [visible(point.name, 28) if everyone or point in best else None for point in important]
+    names = [visible(point.name, 28) if timed or point in best else None for point in important]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
     labels.place(axes, places, names, steps, len(best))
     said = f"The front, from the fastest: {'; '.join(_tip(point) for point in best)}."
@@ -168,7 +170,7 @@ def _legend(drawn: Figure, found: Sequence[Point]) -> None:
     drawn.legend(handles=below, loc="outside lower left")
 
 
-def _axes(axes: Axes, found: Sequence[Point]) -> dict[float, float]:
+def _axes(axes: Axes, found: Sequence[Point], timed: str) -> dict[float, float]:
     """Name the axes; the height of each reliability: its log10, and heights of their own for 0 and infinity."""
     finite = [math.log10(point.reliable_above) for point in found if 0 < point.reliable_above < math.inf] or [-1.0]
     low, high = math.floor(min(finite)), math.ceil(max(finite))
@@ -193,7 +195,7 @@ def _axes(axes: Axes, found: Sequence[Point]) -> dict[float, float]:
     axes.set_xlim(least, most)
     axes.set_xticks([10.0**k for k in exponents], [power_of_ten(k) for k in exponents])
     axes.set_xticks([], minor=True)
-    axes.set_xlabel("time of a query in a batch (ns)")
+    axes.set_xlabel(f"time of a query in a batch{', ' if timed else ''}{visible(timed, 18)} (ns)")
     return heights
 
 
