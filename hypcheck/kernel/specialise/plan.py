@@ -25,7 +25,7 @@ from hypcheck.kernel.specialise.scale import scaled
 from hypcheck.kernel.specialise.search import Search, search
 from hypcheck.kernel.specialise.settings import Setting, always, settings_of
 from hypcheck.kernel.specialise.thresholds import Thresholds, thresholds
-from hypcheck.pairs import Position
+from hypcheck.pairs import SIZES, Position
 from hypcheck.scene.model import Scene, Span
 
 MOST_SETTINGS = 64
@@ -91,11 +91,14 @@ class Plan:
     @property
     def bound_u(self) -> Fraction:
         """The largest backward error that an answer can have, in units u of the format."""
-        return max((stages.bound_u for stages in self.settings), default=Fraction(0))
+        return max(stages.bound_u for stages in self.settings)
 
 
 def plan_of(scene: Scene, precision: str = "float64") -> Plan:
-    """The plan for a scene's own question. Raises InputError for another format, too many or too extreme sizes."""
+    """The plan for a scene's own question.
+
+    Raises InputError for another format, too many or too extreme sizes, and where nothing is ever asked.
+    """
     form = format_of(precision)
     settings = settings_of(scene)
     if len(settings) > MOST_SETTINGS:
@@ -103,11 +106,18 @@ def plan_of(scene: Scene, precision: str = "float64") -> Plan:
             f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {MOST_SETTINGS} "
             "(hypcheck.Scene asks any number)"
         )
+    if not settings:
+        raise InputError("no kernel is made: no hyperboloid's height meets the region, so nothing is ever asked there")
+    return Plan(scene, scene.question, form, tuple(_within(setting, scene.question, form) for setting in settings))
+
+
+def _within(setting: Setting, question: str, form: Format) -> Stages:
+    """The stages of a setting; raises InputError where a number leaves the format."""
     try:
-        found = tuple(_stages(setting, scene.question, form) for setting in settings)
+        return _stages(setting, question, form)
     except OverflowError as error:
-        raise InputError(f"no kernel is made for the scene's sizes: {error} (hypcheck.Scene asks any)") from None
-    return Plan(scene, scene.question, form, found)
+        sizes = ", ".join(f"{name} {size!r}" for name, size in zip(SIZES, setting.sizes, strict=True))
+        raise InputError(f"no kernel is made for {sizes}: {error} (hypcheck.Scene asks any)") from None
 
 
 def _stages(setting: Setting, question: str, form: Format) -> Stages:

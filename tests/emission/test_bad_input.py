@@ -1,0 +1,85 @@
+"""Scenes that no kernel is made for: one sentence that says what and where, exit 2, and nothing written."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.cli.main import main
+
+SCENE = """name = "t"
+question = "interior"
+[[hyperboloid]]
+alpha = 2.0
+gamma = 17.8
+[mover]
+b = 0.25
+d = 0.15
+"""
+MANY = 'name = "m"\nquestion = "exterior"\n' + "".join(
+    f"[[hyperboloid]]\nalpha = {n}.5\ngamma = 9.0\n" for n in range(65)
+)
+BAD = {
+    "a negative size": ("alpha = 2.0", "alpha = -2.0", "line 4: hyperboloid 1: alpha is -2.0"),
+    "no size": ("b = 0.25", "b = 0.0", "line 7: [mover]: b is 0.0; it must be a finite number above 0"),
+    "no number": ("alpha = 2.0", "alpha = nan", "line 4: hyperboloid 1: alpha is nan"),
+    "infinity": ("gamma = 17.8", "gamma = inf", "line 5: hyperboloid 1: gamma is inf"),
+    "an unknown key": ("gamma = 17.8", "gamma = 17.8\nradius = 3", 'line 6: hyperboloid 1 has the key "radius"'),
+    "a text": ("alpha = 2.0", 'alpha = "two"', 'hyperboloid 1: alpha is "two"'),
+    "no TOML": ("alpha = 2.0", "alpha = = 2", "is no TOML"),
+    "a key twice": ("alpha = 2.0", "alpha = 2.0\nalpha = 3.0", "is no TOML"),
+    "another question": ("interior", "inside", 'question is "inside"'),
+    "no mover": ("[mover]\nb = 0.25\nd = 0.15\n", "", "the scene has no [mover]"),
+    "nothing": (SCENE, "", "the scene has no name"),
+    "a region upside down": ("[mover]", "[region]\nz = [3, -3]\n[mover]", "[region]: z is [3, -3]"),
+    "a centre of two": ("gamma = 17.8", "gamma = 17.8\ncenter = [1, 2]", "center is [1, 2]"),
+    "sizes beyond the format": ("alpha = 2.0", "alpha = 1e-300", "no kernel is made for alpha 1e-300, gamma 17.8, b 0"),
+    "nothing to ask": (
+        "[mover]",
+        "height = [-1, 3]\n[region]\nz = [4, 5]\n[mover]",
+        "no hyperboloid's height meets the region",
+    ),
+    "too many sizes": (SCENE, MANY + "[mover]\nb = 0.3\nd = 0.9\n", "the scene has 65 different pairs of sizes"),
+}
+
+
+def refused(arguments, capsys):
+    """The one line of a command that refuses."""
+    assert main(arguments) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert len(said.err.splitlines()) == 1
+    return said.err
+
+
+@pytest.mark.parametrize(("old", "new", "sentence"), BAD.values(), ids=BAD)
+def test_a_bad_scene_gets_a_sentence_and_leaves_what_was_there(old, new, sentence, tmp_path, capsys):
+    path, output = tmp_path / "scene.toml", tmp_path / "kernel.c"
+    assert old in SCENE
+    path.write_text(SCENE.replace(old, new), encoding="utf-8")
+    output.write_text("kept", encoding="utf-8")
+    assert sentence in refused(["plan", str(path)], capsys)
+    assert sentence in refused(["emit", "--scene", str(path), "--language", "c", "--output", str(output)], capsys)
+    assert output.read_text(encoding="utf-8") == "kept"
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["kernel.c", "scene.toml"]
+
+
+def test_what_cannot_be_read_or_written_gets_a_sentence(tmp_path, capsys):
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
+    assert "is not UTF-8 text" in refused(["plan", str(tmp_path / "bytes.toml")], capsys)
+    assert "is a directory" in refused(["plan", str(tmp_path)], capsys)
+    assert "there is no such file" in refused(["plan", "nowhere.toml"], capsys)
+    emit = ["emit", "--scene", "tower", "--language", "c", "--output"]
+    assert "cannot write" in refused([*emit, str(tmp_path / "nowhere" / "kernel.c")], capsys)
+    assert "it is a folder" in refused([*emit, str(tmp_path)], capsys)
+
+
+def test_trees_that_overlap_are_no_mistake(tmp_path, capsys):
+    """Every pair is asked for itself; trees of the same sizes share a function."""
+    path = tmp_path / "scene.toml"
+    trees = "".join(
+        f'[[hyperboloid]]\nname = "{name}"\nalpha = 0.5\ngamma = 6\ncenter = [{x}, 0, 0]\n'
+        for name, x in (("a", 0), ("b", 0.25))
+    )
+    path.write_text(f'name = "t"\nquestion = "exterior"\n{trees}[mover]\nb = 0.3\nd = 0.9\n', encoding="utf-8")
+    assert main(["plan", str(path)]) == 0
+    assert "1. alpha 0.5, gamma 6.0, b 0.3, d 0.9: the mover and a; the mover and b" in capsys.readouterr().out
