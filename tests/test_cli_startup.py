@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from hypcheck.cli.main import main
+
 HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "importlib.metadata")
 PAGE = {"numpy", "matplotlib", "jinja2"}
 """What writes a report with pictures."""
@@ -33,6 +35,11 @@ def test_help_and_version_load_nothing_heavy(arguments):
     assert after(arguments) == set()
 
 
+def test_no_command_s_help_loads_anything_heavy():
+    each = "from hypcheck.cli.commands import COMMANDS; from hypcheck.cli.main import main"
+    assert loaded(f"{each}; assert not any([main([name, '--help']) for name in COMMANDS])") == set()
+
+
 def test_one_pair_needs_no_arrays():
     assert after(PAIR) <= {"mpmath"}
 
@@ -43,6 +50,8 @@ def test_one_pair_needs_no_arrays():
         (["cases", "list"], {"numpy"}),
         (["emit", "--scene", "tower", "--language", "c"], {"numpy"}),
         (["plan", "tower"], {"numpy"}),
+        (["simulate", "forest"], {"numpy", "mpmath"}),
+        (["replay", "tower-body/1/1/3", "builtin:fast"], {"numpy"}),
         (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], PAGE),
         (
             ["verify", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
@@ -54,6 +63,12 @@ def test_a_command_loads_what_it_uses(arguments, allowed, tmp_path):
     """A table of cases needs no oracle, a gate no derivation, and two oracles of four no mesh."""
     out = ["--out", str(tmp_path)] if arguments[0] == "verify" else []
     assert after([*arguments, *out]) <= allowed | {"importlib.metadata"}
+
+
+def test_a_report_in_text_loads_no_pictures(tmp_path):
+    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "9", "--out", str(tmp_path)]) == 0
+    for form in ([], ["--format", "markdown"], ["--format", "junit"]):
+        assert after(["report", str(tmp_path), *form]) <= {"numpy", "importlib.metadata"}
 
 
 def test_importing_the_package_loads_nothing_heavy():
