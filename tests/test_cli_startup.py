@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.cli.main import main
 
-HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "importlib.metadata")
+HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
 PAGE = {"numpy", "matplotlib", "jinja2"}
 """What writes a report with pictures."""
 

@@ -5,6 +5,7 @@ What is sent is Python's pickle, which a scheduler and its workers execute: they
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import re
 import warnings
@@ -35,7 +36,8 @@ SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
 
 def check_address(address: str) -> None:
     """Raise InputError where the text is no address at all."""
-    if not LOCAL.fullmatch(address) and not re.fullmatch(r"([a-z]+://)?[^\s/:]\S*:\d{1,5}", address):
+    named = re.fullmatch(r"(?!local:)((tcp|tls|ws|wss|ucx)://)?[^\s/:][^\s/]*:(?P<port>\d{1,5})", address)
+    if not LOCAL.fullmatch(address) and not (named and int(named["port"]) < 1 << 16):
         right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
         raise InputError(f"--cluster is {address!r}; it must be {right}")
 
@@ -70,7 +72,9 @@ def _started(workers: int) -> Iterator[str]:
 
     others = active_children()
     try:
-        with interrupts_held():  # the threads that start workers, again and again, hold interrupts as long as they live
+        # The threads that start workers, again and again, hold interrupts as long as they live.
+        with warnings.catch_warnings(), interrupts_held():
+            warnings.simplefilter("ignore")  # of the port of a page that nobody asked for
             cluster = LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
@@ -94,12 +98,13 @@ def _started(workers: int) -> Iterator[str]:
 def _client(address: str) -> Iterator[Client]:
     from distributed import Client  # noqa: PLC0415
 
+    _require_scheduler(address)
     try:
         with warnings.catch_warnings(), interrupts_held():
             warnings.simplefilter("ignore")  # of versions, which are looked at below
             client = Client(address, timeout=CONNECT, set_as_default=False, name="hypcheck")
-    except (OSError, ValueError) as error:
-        raise InputError(f"--cluster {address}: no dask scheduler answers there: {_reason(error)}") from None
+    except Exception as error:  # noqa: BLE001 - whatever it is that answers there may lead to any
+        raise _nobody(address, error) from None
     try:
         _require_workers(client, address)
         _require_versions(client.get_versions(packages=["hypcheck"]), address)
@@ -107,6 +112,35 @@ def _client(address: str) -> Iterator[Client]:
     finally:
         with suppress(Exception):
             client.close(timeout=CLOSE)
+
+
+def _require_scheduler(address: str) -> None:
+    """Raise InputError where nobody answers as dask does: a Client that fails so prints tracebacks when it is freed."""
+    from distributed.core import rpc  # noqa: PLC0415
+    from distributed.security import Security  # noqa: PLC0415
+
+    async def who() -> str:
+        async with rpc(address, CONNECT, connection_args=Security().get_connection_args("client")) as there:
+            return str((await there.identity())["type"])
+
+    try:
+        kind = asyncio.run(asyncio.wait_for(who(), CONNECT + 3))  # dask waits longer for one who is silent
+    except Exception as error:  # noqa: BLE001 - a stranger's answer may lead to any, a MemoryError too
+        raise _nobody(address, error) from None
+    if kind != "Scheduler":
+        raise InputError(f"--cluster {address}: a dask {kind.lower()} is there, and no scheduler; name its scheduler")
+
+
+def _nobody(address: str, error: Exception) -> InputError:
+    while error.__cause__ is not None and isinstance(error.__cause__, Exception):  # dask wraps errors of connections
+        error = error.__cause__
+    if isinstance(error, (TimeoutError, asyncio.TimeoutError)):
+        reason = f"nothing was said within {CONNECT:.0f} s"
+    elif isinstance(error, MemoryError):
+        reason = "what is said there is not what dask says"
+    else:
+        reason = str(error) or type(error).__name__
+    return InputError(f"--cluster {address}: no dask scheduler answers there: {reason}")
 
 
 def _require_workers(client: Client, address: str) -> None:
@@ -133,13 +167,6 @@ def _require_versions(found: Mapping[str, Any], address: str) -> None:
 def _versions(machine: Mapping[str, Any]) -> dict[str, str | None]:
     packages = machine["packages"]
     return {name: packages.get(name) for name in SAME} | {"python": ".".join(packages["python"].split(".")[:2])}
-
-
-def _reason(error: Exception) -> str:
-    """The last cause of an error: dask wraps those of connections."""
-    while error.__cause__ is not None and isinstance(error.__cause__, Exception):
-        error = error.__cause__
-    return str(error) or type(error).__name__
 
 
 def _silence() -> None:

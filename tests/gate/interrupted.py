@@ -77,7 +77,7 @@ def came_to(out):
     lines = [json.loads(line) for line in (out / FILE).read_text(encoding="utf-8").splitlines()]
     for line in lines:
         del line["crc32"]
-    del lines[0]["started"], lines[0]["options"]["workers"], lines[-1]["seconds"]
+    del lines[0]["started"], lines[0]["options"]["workers"], lines[0]["options"]["cluster"], lines[-1]["seconds"]
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     del summary["started"], summary["seconds"]
     return [json.dumps(line).encode() for line in (*lines, summary)]

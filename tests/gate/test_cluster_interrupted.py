@@ -1,0 +1,56 @@
+"""A cluster that is lost, and a run on one that is interrupted: what was finished is kept and gone on with."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+
+from hypcheck.record import read
+from hypcheck.record.reading import FILE
+from tests.gate.clusters import Cluster
+from tests.gate.interrupted import CODE, came_to, ended, started, wait_for
+from tests.gate.test_interrupted import all_gone, needs_proc, token  # noqa: F401
+
+pytest.importorskip("distributed")
+pytestmark = needs_proc
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """What a run comes to that never had to do with a cluster."""
+    out = tmp_path_factory.mktemp("whole")
+    assert ended(out)[0] == CODE
+    return came_to(out)
+
+
+def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
+    cluster = Cluster(tmp_path, {})
+    out = tmp_path / "out"
+    try:
+        cluster.start_workers(1)
+        process = started(out, "--cluster", cluster.address)
+        wait_for(process, out, b"progress")
+        cluster.kill_scheduler()
+        said = "".join(process.communicate())
+    finally:
+        cluster.end()
+    assert process.returncode == 2
+    assert "the cluster was lost: its scheduler is not there any more; what was finished is in the record" in said
+    assert f"the same command with --resume {out} goes on" in said
+    assert "Traceback" not in said
+    assert read(out / FILE).of("progress")
+    assert ended(out, "--resume", str(out))[0] == CODE
+    assert came_to(out) == whole
+
+
+def test_an_interrupted_run_on_workers_here_leaves_none_of_them_and_goes_on(tmp_path, whole, token):  # noqa: F811
+    process = started(tmp_path, "--cluster", "local:2", start_new_session=True)
+    wait_for(process, tmp_path, b"progress")
+    process.send_signal(signal.SIGINT)
+    said = "".join(process.communicate())
+    assert process.returncode == 130, said
+    assert "Traceback" not in said
+    assert all_gone(token) == []
+    assert ended(tmp_path, "--cluster", "local:1", "--resume", str(tmp_path))[0] == CODE
+    assert came_to(tmp_path) == whole

@@ -1,0 +1,126 @@
+"""A cluster that is not there, is none, or is not like us here is told of in a sentence."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import socket
+import sys
+import threading
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.gate import cluster as ways
+from hypcheck.gate.cluster import check_address, connected
+from tests.gate.clusters import Cluster
+
+pytest.importorskip("distributed")
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    """A scheduler and one worker."""
+    found = Cluster(tmp_path_factory.mktemp("cluster"), {})
+    found.start_workers(1)
+    yield found
+    found.end()
+
+
+@contextlib.contextmanager
+def server(says):
+    """The address of one who answers every connection with these bytes, and then is silent."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        held = []
+
+        def serve():
+            with contextlib.suppress(OSError):
+                while True:
+                    held.append(listening.accept()[0])
+                    held[-1].sendall(says)
+
+        threading.Thread(target=serve, daemon=True).start()
+        yield f"tcp://127.0.0.1:{listening.getsockname()[1]}"
+        listening.shutdown(socket.SHUT_RDWR)
+        for each in held:
+            each.close()
+
+
+def refusal(address, monkeypatch):
+    """What is said of an address that must answer within a second."""
+    monkeypatch.setattr(ways, "CONNECT", 1.0)
+    with pytest.raises(InputError) as said, connected(address):
+        pass
+    return str(said.value)
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["nonsense", "host", "host:", "host:65536", "local:0", "local:x", "http://host:8786", "tcp://host/a:1", ""],
+)
+def test_what_is_no_address(address):
+    with pytest.raises(InputError, match=r"it must be that of a dask\.distributed scheduler, such as"):
+        check_address(address)
+
+
+@pytest.mark.parametrize("address", ["host:8786", "tcp://10.0.0.1:8786", "tls://[::1]:65535", "local:1", "local:9999"])
+def test_what_is_an_address(address):
+    check_address(address)
+
+
+def test_nobody_is_there(monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        port = listening.getsockname()[1]
+    said = refusal(f"tcp://127.0.0.1:{port}", monkeypatch)
+    assert said.startswith(f"--cluster tcp://127.0.0.1:{port}: no dask scheduler answers there: ")
+
+
+@pytest.mark.parametrize(
+    ("says", "reason"),
+    [(b"", "nothing was said within 1 s"), (b"HTTP/1.1 400 Bad Request\r\n\r\n" * 9, "what is said there is not")],
+)
+def test_somebody_else_is_there(monkeypatch, says, reason):
+    with server(says) as address:
+        assert reason in refusal(address, monkeypatch)
+
+
+def test_a_worker_is_there(cluster, monkeypatch):
+    with connected(cluster.address) as client:
+        (worker,) = client.scheduler_info()["workers"]
+    assert "a dask worker is there, and no scheduler; name its scheduler" in refusal(worker, monkeypatch)
+
+
+def test_a_scheduler_without_workers(tmp_path, monkeypatch):
+    empty = Cluster(tmp_path, {})
+    try:
+        assert "the scheduler has no workers; `dask worker tcp://" in refusal(empty.address, monkeypatch)
+    finally:
+        empty.end()
+
+
+@pytest.mark.parametrize(
+    ("package", "version", "said"), [("hypcheck", "0.0.1", "has hypcheck 0.0.1"), ("dask", None, "has no dask")]
+)
+def test_other_versions(cluster, package, version, said):
+    with connected(cluster.address) as client:
+        found = client.get_versions(packages=["hypcheck"])
+    ways._require_versions(found, cluster.address)
+    for who in ("scheduler", "worker"):
+        other = copy.deepcopy(found)
+        machine = other[who] if who == "scheduler" else next(iter(other["workers"].values()))
+        machine["packages"][package] = version
+        with pytest.raises(InputError, match=rf"{who} (tcp\S+ )?{said}, and here it is .*; both must be one"):
+            ways._require_versions(other, cluster.address)
+
+
+def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
+    assert main([*words, "--cluster", "local:2"]) == 2
+    said = capsys.readouterr().err
+    assert said == (
+        "hypcheck: error: --cluster needs dask.distributed (distributed is not installed): "
+        "pip install 'hypcheck[cluster]'\n"
+    )
+    assert not list(tmp_path.iterdir())
