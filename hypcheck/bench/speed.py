@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from statistics import median
 from typing import Any
 
 from hypcheck.bench import session
@@ -76,7 +77,7 @@ def _line(found: Found, key: Key) -> dict[str, Any]:
         "ratio": None if ratio is None else ratio.median,
         "ratio_ci95": None if ratio is None else [ratio.low, ratio.high],
         "checksum": first.checksum,
-        "empty_ns": estimate([[each.empty_ns] for each in parts]).median,
+        "empty_ns": median(each.empty_ns for each in parts),
         "timed_by": parts[0].timed_by,
     }
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,14 +59,24 @@ def resampled_medians(samples: Samples, seed: int = _SEED) -> NDArray[np.float64
     parts = [np.asarray(part, dtype=np.float64) for part in samples if len(part)]
     if not parts:
         raise ValueError("there is no sample")
+    places, short = _draws(tuple(map(len, parts)), seed)
+    picked = np.concatenate(parts)[places]
+    if short is not None:
+        return np.asarray(np.nanmedian(np.where(short, np.nan, picked), axis=1))
+    return np.asarray(np.median(picked, axis=1))
+
+
+@lru_cache(maxsize=16)
+def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None]:
+    """For each resample the places of what it draws, of all samples in a row; and which of these there are not.
+
+    A process that was cut short has fewer rounds. Samples of one run are alike in their numbers, and drawn alike.
+    """
     generator = np.random.Generator(np.random.PCG64(seed))
-    rounds = max(map(len, parts))
-    table = np.stack([np.pad(part, (0, rounds - len(part))) for part in parts])
-    lengths = np.array([len(part) for part in parts])
-    drawn = generator.integers(0, len(parts), (DRAWS, len(parts)))
-    shares = generator.random((DRAWS, len(parts), rounds))
-    picked = table[drawn[..., None], np.floor(shares * lengths[drawn][..., None]).astype(np.int64)]
-    if (lengths < rounds).any():  # a process that was cut short has fewer rounds
-        picked = np.where(np.arange(rounds) < lengths[drawn][..., None], picked, np.nan)
-        return np.asarray(np.nanmedian(picked.reshape(DRAWS, -1), axis=1))
-    return np.asarray(np.median(picked.reshape(DRAWS, -1), axis=1))
+    number, rounds, each = len(lengths), max(lengths), np.array(lengths)
+    drawn = generator.integers(0, number, (DRAWS, number))[..., None]
+    shares = generator.random((DRAWS, number, rounds))
+    starts = np.cumsum(each) - each
+    places = (starts[drawn] + np.floor(shares * each[drawn]).astype(np.int64)).reshape(DRAWS, -1)
+    missing = (np.arange(rounds) >= each[drawn]).reshape(DRAWS, -1)
+    return places, missing if missing.any() else None
