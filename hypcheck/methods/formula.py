@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -102,6 +103,7 @@ def by_scene(formula: Formula, format_name: str) -> ByScene:
     return answers
 
 
+@cache
 def parts(formula: Formula) -> tuple[Program, Program]:
     """The formula's program in two: what sizes alone decide, and what is left for each centre."""
     return split(formula.program, (formula.answer,), SIZES)

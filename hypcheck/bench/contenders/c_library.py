@@ -50,13 +50,14 @@ KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
 """As the package is built (setup.py): the kernel chooses its instruction set when it runs, and its bounds allow FMA."""
 
 
-def bodies() -> list[Body | Ready]:
+@cache
+def bodies() -> tuple[Body | Ready, ...]:
     """Every method in C; its place in the table is its place here plus one."""
     listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
     others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
     duals = [dual(format_name) for format_name in FORMATS]
-    return [FAST, *listed, *others, *roots, *duals]
+    return (FAST, *listed, *others, *roots, *duals)
 
 
 def place_of(name: str) -> int:
