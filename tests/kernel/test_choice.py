@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.kernel import choice as module
 from hypcheck.kernel.choice import LEVELS, Choice, choice, most_threads
+
+CPUINFO = Path("/proc/cpuinfo")
 
 
 @pytest.fixture
@@ -62,6 +66,20 @@ def test_a_level_that_this_machine_lacks_is_refused(fresh):
     fresh.setenv("HYPCHECK_LEVEL", "avx512")
     with pytest.raises(InputError, match="'avx512', but this machine or build has no more than sse2"):
         choice()
+
+
+OF_AVX2 = {"avx2", "fma", "bmi2"}
+NEEDS = {"avx512": OF_AVX2 | {"avx512f", "avx512bw", "avx512dq", "avx512vl"}, "avx2": OF_AVX2}
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64" or not CPUINFO.exists(), reason="it is read where Linux tells it")
+def test_the_best_level_is_the_one_that_the_processor_has(fresh):
+    compiled = pytest.importorskip("hypcheck.kernel._compiled")
+    flags = set(next(line for line in CPUINFO.read_text().splitlines() if line.startswith("flags")).split())
+    assert choice().level == next((level for level, needed in NEEDS.items() if needed <= flags), "sse2")
+    for level in LEVELS:
+        assert compiled.use_level(level) == (NEEDS.get(level, set()) <= flags)
+    compiled.use_level(choice().level)
 
 
 def test_threads_are_the_processors_unless_they_are_told(fresh):

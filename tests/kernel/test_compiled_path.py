@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -93,7 +94,7 @@ def test_a_question_that_is_none_asks_c_for_the_position(scene):
         assert (answers == batch.positions(scene.rows)).all()
 
 
-def test_a_million_rows_are_shared_among_threads_and_the_interpreter_is_free_meanwhile(monkeypatch):
+def test_a_million_rows_are_shared_among_threads(monkeypatch):
     monkeypatch.setattr(compiled_path, "ROWS_A_THREAD", 1000)
     monkeypatch.setenv("HYPCHECK_THREADS", "3")
     seen = set()
@@ -111,6 +112,30 @@ def test_a_million_rows_are_shared_among_threads_and_the_interpreter_is_free_mea
     assert len(seen) == 3
     assert refused == 0
     assert (answers == numpy_path.positions_of_scene(SIZES, x, y, z)).all()
+
+
+def test_python_runs_on_while_c_computes():
+    """A second thread counts while the first is in C; with the interpreter held it would stand still until the end."""
+    rows = np.tile([1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0], (400_000, 1))  # tangencies: some 0.2 s for the integers
+    answers, counted, done = np.empty(len(rows), np.int8), [], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted.append(time.perf_counter_ns())
+
+    other = threading.Thread(target=count)
+    other.start()
+    try:
+        while not counted:
+            time.sleep(0.001)
+        started = time.perf_counter_ns()
+        compiled.ask(0, rows, answers)
+        ended = time.perf_counter_ns()
+    finally:
+        done.set()
+        other.join()
+    middle = [at for at in counted if started + (ended - started) / 10 < at < ended - (ended - started) / 10]
+    assert len(middle) > 100
 
 
 @pytest.mark.parametrize("bad", ["hypcheck-1", threading.current_thread().name])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
 
 import pytest
 
@@ -15,7 +16,15 @@ from hypcheck.kernel.programs import certified
 from tests.kernel.compiling import COMPILER, HEADER, IMPLEMENTATION, compiled_source, needs_compiler
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-pedantic", "-Werror")
-GXX = shutil.which("g++")
+CLANG = shutil.which("clang")
+needs_clang = pytest.mark.skipif(CLANG is None, reason="there is no clang")
+COMPILERS = pytest.mark.parametrize(
+    "compiler", [pytest.param(None, marks=needs_compiler), pytest.param(CLANG, marks=needs_clang)], ids=["cc", "clang"]
+)
+CPP_COMPILERS = [
+    pytest.param(shutil.which(name), marks=pytest.mark.skipif(shutil.which(name) is None, reason=f"there is no {name}"))
+    for name in ("g++", "clang++")
+]
 
 
 def test_the_header_is_what_the_generator_prints():
@@ -40,32 +49,51 @@ def test_limits_of_the_scalar_function_are_those_of_the_program():
     )
 
 
-@needs_compiler
+@COMPILERS
 @pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "plain"])
-def test_c99_has_nothing_to_complain_of(options, tmp_path):
-    done = compiled_source(tmp_path, IMPLEMENTATION, "-std=c99", "-O1", *WARNINGS, *options)
+def test_c99_has_nothing_to_complain_of(options, compiler, tmp_path):
+    done = compiled_source(tmp_path, IMPLEMENTATION, "-std=c99", "-O1", *WARNINGS, *options, compiler=compiler)
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.skipif(GXX is None, reason="there is no g++")
+@pytest.mark.parametrize("compiler", CPP_COMPILERS, ids=["g++", "clang++"])
 @pytest.mark.parametrize("source", ['#include "hypcheck.h"\n', IMPLEMENTATION], ids=["declarations", "implementation"])
-def test_cpp_has_nothing_to_complain_of(source, tmp_path):
+def test_cpp_has_nothing_to_complain_of(source, compiler, tmp_path):
     options = ("-std=c++11", "-fsyntax-only", "-Wall", "-Wextra", "-pedantic", "-Werror")
-    done = compiled_source(tmp_path, source, *options, compiler=GXX, suffix=".cpp")
+    done = compiled_source(tmp_path, source, *options, compiler=compiler, suffix=".cpp")
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@needs_compiler
+WHOLE = ("-ffast-math", "-Ofast", "-ffinite-math-only")
+PARTS = ("-funsafe-math-optimizations", "-fassociative-math -fno-signed-zeros -fno-trapping-math", "-freciprocal-math")
+
+
 @pytest.mark.parametrize(
-    "option", ["-ffast-math", "-Ofast", "-ffinite-math-only", "-fassociative-math -fno-signed-zeros -fno-trapping-math"]
+    ("compiler", "option"),
+    [
+        *(pytest.param(None, option, marks=needs_compiler) for option in WHOLE + PARTS),
+        *(pytest.param(CLANG, option, marks=needs_clang) for option in WHOLE),
+    ],
 )
-def test_arithmetic_that_voids_the_proofs_is_refused(option, tmp_path):
-    done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", *option.split())
+def test_arithmetic_that_voids_the_proofs_is_refused(option, compiler, tmp_path):
+    done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", *option.split(), compiler=compiler)
     assert done.returncode != 0
-    assert "#error" in done.stderr
+    assert "error: " in done.stderr
     assert "hypcheck: compile without" in done.stderr
-    declared = compiled_source(tmp_path, '#include "hypcheck.h"\n', "-O1", *option.split())
+    declared = compiled_source(tmp_path, '#include "hypcheck.h"\n', "-O1", *option.split(), compiler=compiler)
     assert declared.returncode == 0  # files that only call may be compiled as they like
+
+
+@needs_clang
+@pytest.mark.parametrize("option", PARTS)
+def test_arithmetic_that_clang_does_not_tell_of_is_taken_back(option, tmp_path):
+    """No operation carries a flag that lets clang reorder a sum or replace a quotient."""
+    (tmp_path / "source.c").write_text(IMPLEMENTATION, encoding="utf-8")
+    listing = [CLANG, "-O1", *option.split(), f"-I{HEADER.parent}", "-S", "-emit-llvm", "source.c", "-o", "-"]
+    done = subprocess.run(listing, cwd=tmp_path, capture_output=True, text=True, check=True)
+    operations = re.findall(r"= (?:fadd|fsub|fmul|fdiv) .*", done.stdout)
+    assert len(operations) > 1000
+    assert [line for line in operations if re.search(r"\b(reassoc|arcp|nnan|ninf|fast)\b", line)] == []
 
 
 @needs_compiler

@@ -82,7 +82,8 @@ def header() -> str:
         "#define HC_IMPLEMENTED\n"
         "/* The file includes itself for each instruction set; define HYPCHECK_SELF where it has another name. */\n"
         '#ifndef HYPCHECK_SELF\n#define HYPCHECK_SELF "hypcheck.h"\n#endif\n\n'
-        f"{body}\n#elif defined(HC_LEVEL)\n\n{_part('level.h')}\n#endif\n"
+        f"{body}\n#if HC_PRECISE\n#pragma float_control(pop)\n#endif\n"
+        f"#elif defined(HC_LEVEL)\n\n{_part('level.h')}\n#endif\n"
     )
 
 

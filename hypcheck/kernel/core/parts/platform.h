@@ -10,6 +10,14 @@
 #include <float.h>
 #include <string.h>
 
+/* Clang defines no macro for the parts of -ffast-math, such as -funsafe-math-optimizations: they are taken back. */
+#if defined(__clang__) && __clang_major__ >= 12 && (defined(__x86_64__) || defined(__aarch64__))
+#define HC_PRECISE 1
+#pragma float_control(precise, on, push)
+#else
+#define HC_PRECISE 0
+#endif
+
 /* The bounds ask for one rounding to double in each operation. Where the machine rounds otherwise (x87), floats decide
    nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. */
 #if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 16
@@ -20,6 +28,7 @@
 
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
 #define HC_X86 1
+#include <cpuid.h>
 #include <immintrin.h>
 #else
 #define HC_X86 0
