@@ -7,6 +7,7 @@ import os
 import shutil
 import sys
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from importlib.machinery import PathFinder
 from pathlib import Path
 
@@ -17,26 +18,34 @@ _BLOCK = 1 << 20
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
     """The sha256 of the files that SPECs name, and of other files, by path; of those that are there."""
-    paths = [*(path for spec in specs for path in files_of(spec)), *(path for path in others if path is not None)]
+    named = [each.path for spec in specs for each in files_of(spec)]
+    paths = [*named, *(path for path in others if path is not None)]
     return {str(path): sha256(path) for path in paths}
 
 
-def files_of(spec: str) -> list[Path]:
-    """The files that are there: a library, a Python file or module, a command and those of its words that are files.
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A file that is there, which word `word` of a SPEC names by its path, or by what is `searched` for."""
+
+    word: int
+    path: Path
+    searched: bool
+
+
+def files_of(text: str) -> Iterator[Named]:
+    """The files of a SPEC: a library, a Python file or module, a command and those of its words that are files.
 
     Nothing is imported or run to find them. Raises InputError where the SPEC is none.
     """
-    parsed = parse_spec(spec)
-    if parsed.kind == "builtin":
-        return []
-    if parsed.kind == "command":
-        program = shutil.which(parsed.words[0])
-        found: Iterator[str | None] = iter([program, *parsed.words[1:]])
-    elif parsed.kind == "python" and not is_file(parsed.words[0]):
-        found = iter([_module(parsed.words[0])])
-    else:
-        found = iter(parsed.words[:1])
-    return [Path(each) for each in found if each is not None and os.path.isfile(each)]
+    spec = parse_spec(text)
+    if spec.kind == "builtin":
+        return
+    for word, name in enumerate(spec.words if spec.kind == "command" else spec.words[:1]):
+        module = spec.kind == "python" and not is_file(name)
+        program = spec.kind == "command" and word == 0 and os.sep not in name
+        found = _module(name) if module else shutil.which(name) if program else name
+        if found is not None and os.path.isfile(found):
+            yield Named(word, Path(found), module or program)
 
 
 def sha256(path: Path) -> str:

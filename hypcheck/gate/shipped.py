@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,25 +33,17 @@ class Shipped:
 
 
 def files_to_ship(text: str) -> tuple[Shipped, ...]:
-    """The files of a SPEC. Raises InputError where one cannot be read."""
+    """The files that a SPEC names by their paths. Raises InputError where one cannot be read."""
     found = []
-    for word, name in _named(text):
-        path = Path(name).absolute()
+    for named in files_of(text):
+        if named.searched:
+            continue
+        path = named.path.absolute()
         try:
-            found.append(Shipped(word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
+            found.append(Shipped(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
         except OSError as error:
             raise InputError(f"{path} cannot be sent to a cluster: {(error.strerror or str(error)).lower()}") from None
     return tuple(found)
-
-
-def _named(text: str) -> Iterator[tuple[int, str]]:
-    spec = parse_spec(text)
-    if spec.kind == "library" or (spec.kind == "python" and is_file(spec.words[0])):
-        yield 0, spec.words[0]
-    elif spec.kind == "command":
-        for word, name in enumerate(spec.words):
-            if os.path.isfile(name) and (word > 0 or os.sep in name):
-                yield word, name
 
 
 def spec_there(text: str, files: tuple[Shipped, ...], worker: str, folder: Path) -> str:
@@ -92,5 +83,4 @@ def module_sha256(text: str) -> str:
     spec = parse_spec(text)
     if spec.kind != "python" or is_file(spec.words[0]):
         return ""
-    files = files_of(text)
-    return sha256(files[0]) if files else "(not found)"
+    return next((sha256(each.path) for each in files_of(text)), "(not found)")
