@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import subprocess
+import sys
 import tempfile
 import threading
 
@@ -17,7 +18,10 @@ from tests.soak.running import SHORT, run
 MIB = 1 << 20
 
 
-def test_some_rounds_leave_nothing():
+def test_some_rounds_leave_nothing(monkeypatch):
+    """Without pictures, which take longer than all else; the long form has them."""
+    for name in ("matplotlib", "jinja2"):
+        monkeypatch.setitem(sys.modules, name, None)
     course = run(0.0, seed=5, least=4, size=SHORT)
     assert not course.faults, course.faults
     assert not course.not_started
