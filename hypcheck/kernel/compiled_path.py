@@ -31,7 +31,7 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
     def part(start: int, stop: int) -> int:
         return int(ask(number, aligned[start:stop], answers[start:stop]))
 
-    return answers, _in_parts(part, len(rows), threads)
+    return answers, in_parts(part, len(rows), threads)
 
 
 def answer_scene(
@@ -59,10 +59,10 @@ def fill_scene(
             refused += int(ask(number, sizes, *copies, answers[low:high]))
         return refused
 
-    return _in_parts(part, len(answers), threads)
+    return in_parts(part, len(answers), threads)
 
 
-def _in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
+def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
     """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
 
     What a part raises is raised here, once all have ended.

@@ -40,7 +40,7 @@ class Recorder:
 def small(monkeypatch):
     """The same measurements of far fewer rows: what they find is of no interest here."""
     for module, sizes in (
-        (compiled, {"MANY": 4096, "CACHED": 2048, "WORST": 64, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2}),
+        (compiled, {"MANY": 4096, "CACHED": 2048, "WORST": 64, "AGAIN": 2, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2}),
         (python, {"MANY": 20_000, "CALLS": 20, "FEW": 3, "TRIANGLES": 60}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
@@ -56,7 +56,7 @@ def test_every_target_has_a_line_of_the_record_s_schema(small):
     assert sum(advanced) == kernel.steps()
     found = [line for line in recorder.lines if line["type"] == "kernel"]
     names = [line["name"] for line in found]
-    assert len(set(names)) == len(names) == 14
+    assert len(set(names)) == len(names) == 15
     definition = json.loads(PUBLISHED.read_text(encoding="utf-8"))
     for line in found:
         assert not violations(line, definition["$defs"]["kernel"], definition)
@@ -111,6 +111,15 @@ def test_the_plain_formula_in_c_does_its_work(level, tmp_path):
         mixed = np.bitwise_xor.reduce(np.concatenate(columns).view(np.uint64))
         assert each.read_only(*columns)(1)[1] == int(mixed) & 0xFFFF
         assert took > 0
+        assert each.read_by_the_clock(*columns, threads=1)(1)[1] == int(mixed) & 0xFFFF
+
+
+@COMPILER
+def test_the_kernel_over_and_over_answers_its_rows(tmp_path):
+    pytest.importorskip("hypcheck.kernel._compiled")
+    columns, out = uniform(5000), np.full(5000, 9, np.int8)
+    baselines(tmp_path, "plain")[0].over_and_over(np.array(SIZES), *columns, out, times=3)
+    assert (out == hypcheck.classify_scene(SIZES, *columns)).all()
 
 
 def test_the_numpy_expressions_do_their_work():

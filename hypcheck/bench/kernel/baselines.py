@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contenders.c_library import compiler_here, run_compiler
 from hypcheck.bench.contenders.c_source import of_formula
-from hypcheck.bench.rounds import Clocked
+from hypcheck.bench.rounds import Clocked, clocked
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.errors import UnavailableError
+from hypcheck.kernel.choice import compiled
+from hypcheck.kernel.compiled_path import in_parts
 from hypcheck.pairs import SIZES
 
 FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
@@ -47,6 +49,15 @@ uint64_t read_only(size_t n, const uint64_t *restrict x, const uint64_t *restric
     return mixed;
 }
 
+typedef size_t (*kernel)(int, const double *, size_t, const double *, const double *, const double *, int8_t *);
+
+void over_and_over(kernel ask, size_t times, const double *sizes, size_t n, const double *x, const double *y,
+                   const double *z, int8_t *out)
+{
+    while (times--)
+        ask(0, sizes, n, x, y, z, out);
+}
+
 void plain(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
            const double *restrict zs, int8_t *restrict out)
 {
@@ -65,6 +76,25 @@ class Baseline:
         function, pointers = self.library.read_only, [column.ctypes.data for column in (x, y, z)]
         function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
         return _clocked(lambda: int(function(len(x), *pointers)) & 0xFFFF)
+
+    def read_by_the_clock(self, x: Floats, y: Floats, z: Floats, threads: int) -> Clocked:
+        """The same shared among threads as the kernel shares its rows, by the clock on the wall."""
+        function = self.library.read_only
+        function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
+
+        def part(start: int, stop: int) -> int:
+            return int(function(stop - start, *(column[start:].ctypes.data for column in (x, y, z)))) & 0xFFFF
+
+        return clocked(lambda: np.array([in_parts(part, len(x), threads)]))
+
+    def over_and_over(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8], times: int) -> None:
+        """The compiled kernel `times` times, in one call during which other threads of Python run."""
+        ask = ctypes.CDLL(str(compiled().__file__)).hypcheck_ask_scene
+        function = self.library.over_and_over
+        function.restype = None
+        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
+        pointers = [column.ctypes.data for column in (x, y, z, out)]
+        function(ctypes.cast(ask, ctypes.c_void_p), times, sizes.ctypes.data, len(x), *pointers)
 
     def plain(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8]) -> Clocked:
         """The plain formula, one thread; the sum is of its answers."""

@@ -44,6 +44,7 @@ def _groups() -> Iterator[Group]:
     if choice().kernel == "compiled":
         yield lambda folder, quick: compiled.from_memory(folder, _rounds(quick))
         yield lambda folder, quick: compiled.in_cache(folder, _rounds(quick))
+        yield lambda folder, quick: compiled.threads_in_cache(folder, _rounds(quick))
         yield lambda _folder, quick: compiled.near_contact(_rounds(quick))
         yield lambda _folder, quick: compiled.streamed(QUICK_STREAM if quick else STREAM, 1 if quick else 3)
     yield lambda _folder, quick: python.against_numpy(3 if quick else 5)
