@@ -16,6 +16,10 @@ REFERENCE = "table-2-float64"
 """The method whose time every ratio is relative to: the paper's own formula in numpy, which runs everywhere."""
 
 
+RESTARTS = 3
+"""Of a SPEC that crashes or hangs: enough to find a row at fault, which fails the run; the rest need not be known."""
+
+
 @dataclass(frozen=True, slots=True)
 class Amounts:
     """How much is done: what makes a run full or quick.
@@ -84,7 +88,7 @@ class BenchPlan:
     compiled: Path | None = None
     foreign: tuple[Any, ...] = ()
     missing: tuple[str, ...] = ()
-    limits: Limits = field(default_factory=Limits)
+    limits: Limits = field(default_factory=lambda: Limits(restarts=RESTARTS))
 
     def __post_init__(self) -> None:
         if self.max_slowdown < 1:

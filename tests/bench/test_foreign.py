@@ -8,9 +8,10 @@ from hypcheck.bench.contenders import contenders, foreign
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.rounds import Entry, RefusedError, measure
 from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.methods.faults import StartError
 from hypcheck.methods.limits import Limits
 from tests.bench.test_run import ended
-from tests.miniatures import command, compiled
+from tests.miniatures import QUICK, command, compiled
 
 ROWS = WORKLOADS["uniform"].rows(1, 50)
 SUBJECT = """
@@ -111,6 +112,13 @@ def test_a_slow_one_is_asked_about_fewer_rows(tmp_path):
     assert slow.judged < quick.judged
 
 
+def test_one_that_never_answers_is_waited_for_once(tmp_path):
+    path = tmp_path / "never.py"
+    path.write_text("def classify(rows):\n    while True:\n        pass\n", encoding="utf-8")
+    with pytest.raises(StartError, match=r"does not answer its first question, about one row: no answer within 0\.7 s"):
+        foreign.met(f"python:{path}:classify", QUICK, [])
+
+
 SMALL = ["--workloads", "uniform", "--methods", "fast-numpy"]
 
 
@@ -165,6 +173,7 @@ def test_one_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
     refused = record.of("refused")
     assert refused
     assert all("ZeroDivisionError" in line["reason"] for line in refused)
+    assert all("; the row is 2.0, 17.8, 0.25, 0.15, " in line["reason"] for line in refused)
     assert "subject" not in {line["method"] for line in record.of("speed")}
 
 

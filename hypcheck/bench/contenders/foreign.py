@@ -15,7 +15,7 @@ from hypcheck.bench.rounds import Clocked, RefusedError
 from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.methods.builtin import builtin
 from hypcheck.methods.description import Description
-from hypcheck.methods.faults import TimingError
+from hypcheck.methods.faults import Outcome, StartError, TimingError
 from hypcheck.methods.frames import LARGEST
 from hypcheck.methods.implementation import Implementation
 from hypcheck.methods.limits import Limits
@@ -57,6 +57,9 @@ def _seconds_a_row(implementation: Implementation) -> float:
     some = WORKLOADS["uniform"].rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some)]
     some = inside if len(inside) else np.array([[*NEAR_SCENES[0], 1.0, 0.5, 2.0]])
+    first = implementation.classify(some[:1])
+    if Outcome.TIMEOUT in first.outcomes:  # it would be waited for again and again
+        raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")
     implementation.classify(some)  # warms it up
     while True:
         started = time.perf_counter()
@@ -151,7 +154,8 @@ class Outside:
     def _asked(self, rows: Rows, *, by_scene: bool) -> Answers:
         answered = self.implementation.classify(rows, by_scene=by_scene and len(rows) > 0)
         if answered.reasons:
-            self.trouble = next(iter(answered.reasons.values()))
+            place, reason = next(iter(answered.reasons.items()))
+            self.trouble = f"{reason}; the row is {', '.join(map(repr, rows[place].tolist()))}"
         return answered.answers
 
     def _times(self, parts: Sequence[Rows], answers: Callable[[], Answers], *, by_scene: bool) -> Clocked:
