@@ -142,6 +142,16 @@ def test_a_record_cut_at_any_byte_goes_on_or_is_refused(paused, whole, tmp_path,
         assert (tmp_path / "cut.jsonl").read_bytes() == paused[:cut]
 
 
+def test_a_damaged_record_goes_on_once_it_is_repaired(paused, whole, tmp_path, here):
+    damaged, good = tmp_path / "damaged.jsonl", tmp_path / "good.jsonl"
+    damaged.write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
+    code, said = here(tmp_path / "out", "--resume", str(damaged))
+    assert (code, "is damaged in line 5, at byte" in said) == (2, True)
+    assert main(["record", "repair", str(damaged), "--out", str(good)]) == 0
+    assert here(tmp_path / "out", "--resume", str(good))[0] == CODE
+    assert came_to(tmp_path / "out") == whole[0]
+
+
 @given(st.data())
 def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_on(paused, data):
     """Also of a finished record, and of one that was interrupted with lines of an unfinished implementation."""

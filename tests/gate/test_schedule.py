@@ -127,6 +127,23 @@ def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
             assert saved(last(states(some, Here(it, rules), read))) == saved(passed[-1])
 
 
+def _but_for_bins(state):
+    """Of which there are so many that a run of this size has not seen them all."""
+    for tally in state["total"]["tallies"].values():
+        del tally["size_bins"], tally["place_bins"]
+    return state
+
+
+def test_what_is_kept_of_a_run_does_not_grow_with_it():
+    some = todo(["uniform"], 36_000)
+    with RIGHT.open() as it:
+        passed = [state for _, state in states(some, Here(it, rules_of(it)), State(it.allowance))]
+    sizes = [len(json.dumps(_but_for_bins(saved(state)))) for state in passed]
+    quarter = len(sizes) // 4
+    assert quarter >= 9
+    assert max(sizes[-quarter:]) < 1.1 * max(sizes[quarter : 2 * quarter])
+
+
 def test_a_process_of_ours_that_is_killed_costs_nothing():
     some = todo(["tower-body"], 6000)
     with RIGHT.open() as it:
