@@ -132,7 +132,7 @@ def _by_parallel_lines(
     """The same for one chunk, in single precision; None, and nothing is filled in, where a centre has no room in it."""
     numbers, truths = buffers.of(len(result))
     R, T = chunks.plane(*columns, numbers[: chunks.PLANE_BUFFERS[0]])
-    if not (T.max() <= constants["reach"] and R.max() < CAP_OF_SINGLES):  # so with NaN
+    if not (np.maximum.reduce(T) <= constants["reach"] and np.maximum.reduce(R) < CAP_OF_SINGLES):  # so with NaN
         return None
     found = chunks.parallel_lines(R, T, constants, numbers[chunks.PLANE_BUFFERS[0] :], truths)
     return _filled_in(*found, result)

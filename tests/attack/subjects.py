@@ -1,4 +1,4 @@
-"""What is attacked: each kernel at each instruction set, asked for rows, scenes and every question; and pairs."""
+"""What is attacked: each kernel at each instruction set, asked for rows and scenes; and the functions of a pair."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from hypcheck.kernel.scalar import exact_position
 class Subject:
     """`rows(rows)` and `scene(sizes, x, y, z)` answer positions; only each `every`-th row is asked.
 
-    A position that another question does not agree with is answered 99.
+    In scenes every question has its own lines: a position that another question does not agree with is answered 99.
     """
 
     name: str
@@ -41,14 +41,9 @@ def of_library(path: Path, name: str, level: str | None = None) -> Subject | Non
 
     def rows(values: np.ndarray) -> np.ndarray:
         assert chosen()
-        values, count = np.ascontiguousarray(values), ctypes.c_size_t(len(values))
-
-        def ask(question: str) -> np.ndarray:
-            answers = np.full(len(values), 99, np.int8)
-            library.hypcheck_ask(NUMBER_OF[question], count, pointer(values), pointer(answers))
-            return answers
-
-        return _agreed(ask)
+        values, answers = np.ascontiguousarray(values), np.full(len(values), 99, np.int8)
+        library.hypcheck_classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
+        return answers
 
     def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
         assert chosen()

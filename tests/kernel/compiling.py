@@ -17,16 +17,29 @@ IMPLEMENTATION = '#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n'
 
 COMPILER = shutil.which(os.environ.get("CC", "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+CLANG = shutil.which("clang")
+needs_clang = pytest.mark.skipif(CLANG is None, reason="there is no clang")
 
 STRICT = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror")
 
 
-def shared_library(folder: Path, source: str, *options: str) -> ctypes.CDLL:
+def shared_library(folder: Path, source: str, *options: str, compiler: str | None = None) -> ctypes.CDLL:
     """The library that the C source makes, loaded. Fails the test with what the compiler said."""
     path = folder / "source.c"
     path.write_text(source, encoding="utf-8")
     library = folder / "library.so"
-    command = [str(COMPILER), *STRICT, "-O2", "-shared", "-fPIC", *options, str(path), "-lm", "-o", str(library)]
+    command = [
+        str(compiler or COMPILER),
+        *STRICT,
+        "-O2",
+        "-shared",
+        "-fPIC",
+        *options,
+        str(path),
+        "-lm",
+        "-o",
+        str(library),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return ctypes.CDLL(str(library))

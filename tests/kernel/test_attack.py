@@ -13,7 +13,15 @@ from hypcheck.truth import batch
 from tests.attack.places import Scene, near_contact, scenes
 from tests.attack.strike import batches, strike, tally
 from tests.attack.subjects import Subject, of_library, subjects
-from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
+from tests.kernel.compiling import (
+    CLANG,
+    COMPILER,
+    HEADER,
+    IMPLEMENTATION,
+    needs_clang,
+    needs_compiler,
+    shared_library,
+)
 
 ROWS = 60_000
 
@@ -28,22 +36,28 @@ def test_no_kernel_is_wrong_anywhere(struck):
     assert sum(wrong.values()) == 0, rows[0][0].tolist()
 
 
-def built(folder, *options, header=None, name="built", level=None):
+def built(folder, *options, header=None, compiler=COMPILER):
     (folder / "hypcheck.h").write_text(header or HEADER.read_text(encoding="utf-8"), encoding="utf-8")
-    shared_library(folder, IMPLEMENTATION, *options)
-    found = of_library(folder / "library.so", name, level)
+    shared_library(folder, IMPLEMENTATION, *options, compiler=compiler)
+    found = of_library(folder / "library.so", "built")
     assert found is not None
     return found
 
 
+CONTRACTED = ("-std=gnu99", "-O3", "-march=native", "-ffp-contract=fast")
+
+
 @needs_compiler
 @pytest.mark.parametrize(
-    "options",
-    [("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS"), ("-std=gnu99", "-O3", "-march=native")],
-    ids=["plain-with-32-bit-limbs", "everything-contracted"],
+    ("compiler", "options"),
+    [
+        pytest.param(COMPILER, ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS"), id="plain-with-32-bit-limbs"),
+        pytest.param(COMPILER, CONTRACTED, id="everything-contracted"),
+        pytest.param(CLANG, CONTRACTED, id="by-clang", marks=needs_clang),
+    ],
 )
-def test_no_build_is_wrong_anywhere(options, struck, tmp_path):
-    _, wrong, rows = tally(strike([built(tmp_path, *options)], struck[::3]))
+def test_no_build_is_wrong_anywhere(compiler, options, struck, tmp_path):
+    _, wrong, rows = tally(strike([built(tmp_path, *options, compiler=compiler)], struck[::3]))
     assert sum(wrong.values()) == 0, rows[0][0].tolist()
 
 

@@ -13,11 +13,17 @@ from hypcheck.kernel.core import generate
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.printing import modules
 from hypcheck.kernel.programs import certified
-from tests.kernel.compiling import COMPILER, HEADER, IMPLEMENTATION, compiled_source, needs_compiler
+from tests.kernel.compiling import (
+    CLANG,
+    COMPILER,
+    HEADER,
+    IMPLEMENTATION,
+    compiled_source,
+    needs_clang,
+    needs_compiler,
+)
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-pedantic", "-Werror")
-CLANG = shutil.which("clang")
-needs_clang = pytest.mark.skipif(CLANG is None, reason="there is no clang")
 COMPILERS = pytest.mark.parametrize(
     "compiler", [pytest.param(None, marks=needs_compiler), pytest.param(CLANG, marks=needs_clang)], ids=["cc", "clang"]
 )

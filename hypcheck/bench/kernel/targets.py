@@ -47,7 +47,7 @@ def _groups() -> Iterator[Group]:
         yield lambda folder, quick: compiled.threads_in_cache(folder, _rounds(quick))
         yield lambda _folder, quick: compiled.near_contact(_rounds(quick))
         yield lambda _folder, quick: compiled.streamed(QUICK_STREAM if quick else STREAM, 1 if quick else 3)
-    yield lambda _folder, quick: python.against_numpy(3 if quick else 5)
+    yield lambda _folder, quick: python.against_numpy(3 if quick else 9)
     yield lambda _folder, quick: python.against_others(_rounds(quick))
     yield lambda _folder, quick: python.one_call(_rounds(quick))
 
