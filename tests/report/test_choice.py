@@ -98,6 +98,17 @@ def test_a_slow_method_is_not_advised_for_an_octave_or_two(farther, name):
     assert found.use.name == name
 
 
+def test_who_calls_from_python_row_by_row_is_told_what_for():
+    in_c = method("in-c", 0.1, {"uniform": 0.0}, exact=True)
+    by_row = [
+        {**line, "tier": "python"} if line["type"] == "method" else line
+        for line in method("by-row", 7.0, {"uniform": 0.0}, exact=True)
+    ]
+    found = advice(chosen(in_c, by_row))
+    assert found[EXACT].use.name == "in-c"
+    assert found["never a wrong answer, a call a row from Python", EVERYWHERE, "position"].use.name == "by-row"
+
+
 def test_of_those_that_never_erred_the_fastest_is_advised():
     record = chosen(method("near", 50.0, {"uniform": 0.0}), method("quick", 1.0, {"uniform": 0.0}))
     assert advice(record)["plain float64; none wrong", EVERYWHERE, "position"].use.name == "quick"
