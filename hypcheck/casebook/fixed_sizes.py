@@ -28,6 +28,9 @@ MARK = "@"
 OPEN = 2.0
 """Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
 
+FARTHEST = 2.0**1000
+"""Metres; what lies farther out, as of sizes with ratios near 10¹⁰⁰ it may, is asked here."""
+
 _SPAN = re.compile(r"([xyz])=([^:]+):([^:]+)")
 
 
@@ -122,6 +125,7 @@ def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
 
 def _turned(setting: FixedSizes, draw: Draw, radius: Floats, z: Floats) -> Rows:
     cosine, sine = draw.circle(len(radius))
+    radius = np.where(radius <= FARTHEST, radius, FARTHEST)
     return _rows(setting, radius * cosine, radius * sine, z)
 
 
@@ -164,8 +168,9 @@ def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     alpha, gamma, b, d = setting.sizes
     A, B = (alpha / b) * (alpha / b), (gamma / d) * (gamma / d)
     z = _heights(setting, draw, n)
-    Q = (z / d) * (z / d)
-    P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
+    with np.errstate(over="ignore", invalid="ignore"):  # of ratios near 10¹⁰⁰; see FARTHEST
+        Q = (z / d) * (z / d)
+        P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
     steps = draw.signs(n) * draw.log_uniform(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
     return _turned(setting, draw, b * np.sqrt(np.maximum(P * (1 + steps), 0.0)), z)
 

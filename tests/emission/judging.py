@@ -20,9 +20,14 @@ def worst_error(asked_of, plan, count):
     for family in families_for(domain.settings):
         rows = family.rows(0, count)
         rows = rows[domain.holds(rows) & representable(rows, plan.format.name)]
-        if not len(rows):
-            continue
-        for case in judge.wrong_cases(rows, batch.positions(rows), asked_of(rows), criterion):
-            worst = max(worst, judge.in_units(judge.measured(case, plan.question), criterion.unit))
+        worst = max(worst, worst_of(asked_of, rows, criterion)) if len(rows) else worst
         asked += len(rows)
     return worst, asked
+
+
+def worst_of(asked_of, rows, criterion):
+    """The largest backward error in units u of what `asked_of` answers to these rows."""
+    wrong = judge.wrong_cases(rows, batch.positions(rows), asked_of(rows), criterion)
+    return max(
+        (judge.in_units(judge.measured(case, criterion.question), criterion.unit) for case in wrong), default=0.0
+    )

@@ -16,7 +16,7 @@ from hypcheck.pairs import Position
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.scene.model import Hyperboloid, Mover, Region, Scene, Span
 from hypcheck.truth import batch
-from tests.emission.building import COMMAND, asking, built, skip_without
+from tests.emission.building import COMMAND, COMMANDS, asking, built, skip_without
 from tests.specialise.scenes import HILLS, scene
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
@@ -121,3 +121,27 @@ def test_the_head_says_what_is_promised_where(language):
     assert "At any other height the answer is worth nothing: z is not looked at" in head(z=Span(0.5, 0.5))
     fields = head(x=Span(9.0, 10.0), z=Span(-1.0, 1.0))
     assert "Outside it the answer is worth nothing: the centre is not looked at" in fields
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_of_many_settings_is_found_and_no_neighbour_of_one(language, tmp_path):
+    skip_without(language)
+    trees = tuple(
+        Hyperboloid(f"tree {number}", alpha, gamma, (0.0, 0.0, 0.0))
+        for number, (alpha, gamma) in enumerate((a, g) for a in (0.7, 0.3, 0.5) for g in (9.0, 4.0, 6.0))
+    )
+    among = Scene("trees", "position", trees, Mover(0.3, 0.9), Region(z=Span(0.0, 0.0)))
+    sizes = np.array([[tree.alpha, tree.gamma, 0.3, 0.9] for tree in trees])
+    rows = np.column_stack([sizes, np.full(9, 0.9), np.zeros((9, 2))])
+    strange = np.repeat(rows, 8, axis=0)
+    for place in range(8):
+        column, towards = place % 4, (-np.inf, np.inf)[place // 4]
+        strange[place::8, column] = np.nextafter(strange[place::8, column], towards)
+    asked = asking(built(tmp_path, among, language), language)
+    queries = np.concatenate([rows, strange])
+    # A library is asked by scene too, so of one pair of sizes at a time.
+    tables = np.split(queries, len(queries)) if language in COMMANDS else [queries]
+    found = np.concatenate([asked(table) for table in tables])
+    assert (found[:9] == batch.positions(rows)).all()
+    assert len(set(found[:9].tolist())) == 2
+    assert (found[9:] == CANNOT_SAY).all()

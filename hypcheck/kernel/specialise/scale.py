@@ -29,9 +29,14 @@ class Scaled:
 
 
 def scaled(sizes: Sizes, form: Format) -> Scaled:
-    """The squares of the sizes, scaled where the format asks for it (Theorem 1 allows any two factors)."""
+    """The squares of the sizes, scaled where the format asks for it (Theorem 1 allows any two factors).
+
+    Raises OverflowError where a factor is no number of the format.
+    """
     alpha, gamma, b, d = map(Fraction, sizes)
     limit = ORDINARY[form.name]
     radial = Fraction(1) if all(1 / limit < each < limit for each in (alpha, b)) else 1 / power_of_two_near(b)
     axial = Fraction(1) if all(1 / limit < each < limit for each in (gamma, d)) else 1 / power_of_two_near(d)
+    for unit in (radial, axial):
+        form.rounded(unit)
     return Scaled((alpha / b) ** 2, (gamma / d) ** 2, (b * radial) ** 2, (d * axial) ** 2, radial, axial)

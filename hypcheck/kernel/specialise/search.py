@@ -13,11 +13,16 @@ positive at the λ found, that λ is the true maximum for P and Q changed by the
 stationary there, the true maximum is larger by the square of that only, far below one u of the terms. So the answer
 "contact" is right for inputs changed by half of (k + j)u too, up to a share of order √u. `backward_bound` counts.
 
-Range. That holds as long as nothing overflows, which `widest` and `highest` see to: with P and Q so bounded that
-P, Q times 1, A or B, P/A and Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and beside the other pole,
-and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B)) < 2 M. Towards a pole
-F's own term may overflow: it is then the larger one. What underflows is the square of a coordinate that is nothing
+Range. That holds as long as nothing overflows, which `widest` and `highest` see to: with P and Q so bounded that P, Q
+times 1, A or B, 2⁸ P/A and 2⁸ Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and beside the other
+pole, and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B)) < 2 M. Towards a
+pole F's own term may overflow: it is then the larger one. What underflows is the square of a coordinate that is nothing
 beside the semi-axes, or a term that is nothing beside 1 + λ: at most 2^least/A or 2^least/B (`_least_square`).
+
+Beginning. The λ of the maximum can be as near to 0 or to a pole as it likes; the search begins at a distance e > 0 and
+may say e where it is nearer. Next to 0 that is as good where e ≤ 1/(2 + 2 P/A) on the one side and 1/(2 + 2 Q/B) on the
+other: up to there φ ≤ P e/A − 1, or Q e/B + e − 1, is negative, at the maximum too. Next to a pole, λ and with it 1 + λ
+and the other pole's term change by a share of e/A or e/B, which is u/1024, and this pole's term becomes smaller.
 """
 
 from __future__ import annotations
@@ -34,11 +39,11 @@ from hypcheck.kernel.specialise.entry import UNSCALED, entry
 from hypcheck.kernel.specialise.formats import Format
 from hypcheck.kernel.specialise.scale import Scaled
 
-GEOMETRIC_STEPS = 10
-"""Halvings of the exponent: 100 octaves become a tenth of one."""
+GEOMETRIC_STEPS = 15
+"""Halvings of the exponent: the 2040 octaves that a search in float64 can begin with become a tenth of one."""
 
-OCTAVES = 100
-"""How much nearer to 0, or to a pole, than half way the search begins."""
+SPARE = 10
+"""Bits beyond the format's from which on a distance to a pole changes nothing."""
 
 START = program_of(
     "start",
@@ -123,32 +128,37 @@ def search(scaled: Scaled, form: Format, corner: tuple[Fraction, Fraction]) -> S
     widest, highest = _farthest(scaled, form)
     if 2 * (corner[0] * scaled.radial) ** 2 > widest or (corner[1] * scaled.axial) ** 2 > highest:
         raise OverflowError(f"products of the lengths in the region leave {form.name}")
-    floor = Fraction(2) ** (form.least + 6)
     exact = {
         "A": A,
         "B": B,
         "PR": 1 / bb,
         "QZ": 1 / dd,
-        "low_a": max(A / 2 / 2**OCTAVES, floor),
-        "low_b": max(B / 2 / 2**OCTAVES, floor),
     }
     constants = {name: form.rounded(value) for name, value in exact.items()}
+    constants["low_a"] = form.rounded(_begin(A, highest / dd / B, form), "down")
+    constants["low_b"] = form.rounded(_begin(B, widest / bb / A, form), "down")
     # a r = (α/b²) √R and c z = (γ/d²) |z|: square roots of A/b² and B/d², rounded to nearest.
     constants["AR"], constants["CZ"] = _root(A / bb, form), _root(B / dd, form)
     ends = (form.rounded(widest, "down"), form.rounded(highest, "down"))
     return Search(constants, GEOMETRIC_STEPS + form.bits + 3, *ends)
 
 
+def _begin(pole: Fraction, steepest: Fraction, form: Format) -> Fraction:
+    """The distance to 0 or to a pole at which the search begins; `steepest` is the largest P/A or Q/B (Beginning)."""
+    beside_pole: Fraction = pole / Fraction(2) ** (form.bits + SPARE)
+    return min(beside_pole, 1 / (2 * (1 + steepest)))
+
+
 def _least_square(form: Format) -> Fraction:
-    """What A and B must not be below: 2^least beside it is less than a sixteenth of u."""
-    return Fraction(2) ** (form.least + form.bits + 4)
+    """What A and B must not be below: 2^least beside it is far below u, and a search's first distance is normal."""
+    return Fraction(2) ** (form.least + form.bits + SPARE + 1)
 
 
 def _farthest(scaled: Scaled, form: Format) -> tuple[Fraction, Fraction]:
     """The greatest R and zz of which nothing overflows in a search."""
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     most = Fraction(2) ** (form.greatest - 2)
-    P, Q = (most / max(Fraction(1), A, B, 1 / own) for own in (A, B))
+    P, Q = (most / max(Fraction(1), A, B, 2**8 / own) for own in (A, B))
     return min(most, P * bb), min(most, Q * dd)
 
 
