@@ -96,7 +96,7 @@ class Buffers(Generic[Number]):
 
     def __init__(self, counts: tuple[int, int], rows: int, number: type[Number]) -> None:
         self._numbers: list[NDArray[Number]] = [np.empty(rows, dtype=number) for _ in range(counts[0])]
-        self._truths = [np.empty(rows, dtype=np.bool_) for _ in range(counts[1])]
+        self._truths: list[Mask] = [np.empty(rows, dtype=np.bool_) for _ in range(counts[1])]
         self._rows = rows
 
     def of(self, rows: int) -> tuple[list[NDArray[Number]], list[Mask]]:
