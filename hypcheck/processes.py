@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from itertools import chain, islice
 from multiprocessing import active_children, get_context, resource_tracker
 from typing import Any, TypeVar
 
@@ -60,6 +63,63 @@ def perform(
         running: dict[Future[Result], Task] = {executor.submit(function, task): task for task in tasks}
     for future in as_completed(running):
         yield running[future], future.result()
+
+
+def in_order(
+    function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int
+) -> Generator[Result, None, None]:
+    """The result of each task, in order: of the first few, `alone`, done here, and of the others by so many processes.
+
+    Tasks are taken ahead of their turn, and what goes wrong is told in its turn. What a process was killed over is done
+    here. To be closed where it is left early.
+    """
+    coming = iter(tasks)
+    yield from map(function, islice(coming, alone))
+    if workers <= 1:
+        yield from map(function, coming)
+        return
+    for first in coming:
+        with fresh(workers) as executor:
+            line: deque[tuple[Task | _Trouble, Future[Result] | None]] = deque()
+            for task in _troubles_in_turn(chain([first], coming)):
+                line.append((task, _begun(function, task, executor)))
+                if len(line) == 2 * workers:
+                    yield _finished(function, *line.popleft())
+            while line:
+                yield _finished(function, *line.popleft())
+
+
+@dataclass(frozen=True, slots=True)
+class _Trouble:
+    """What stands in place of the tasks that it ended."""
+
+    error: Exception
+
+
+def _troubles_in_turn(tasks: Iterable[Task]) -> Iterator[Task | _Trouble]:
+    try:
+        yield from tasks
+    except Exception as error:  # noqa: BLE001 - whatever it is, it is told behind the results before it
+        yield _Trouble(error)
+
+
+def _begun(function: Callable[[Task], Result], task: Task | _Trouble, executor: Executor) -> Future[Result] | None:
+    if isinstance(task, _Trouble):
+        return None
+    try:
+        with interrupts_held():
+            return executor.submit(function, task)
+    except BrokenExecutor:
+        return None
+
+
+def _finished(function: Callable[[Task], Result], task: Task | _Trouble, future: Future[Result] | None) -> Result:
+    if isinstance(task, _Trouble):
+        raise task.error
+    with suppress(BrokenExecutor):
+        if future is not None:
+            return future.result()
+    return function(task)
 
 
 def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:

@@ -31,11 +31,15 @@ class Chunk:
     texts: list[str] | None
 
 
+Unread: TypeAlias = Callable[[], Chunk]
+"""A chunk whose values are still to be read, here or in another process. Raises InputError about a row."""
+
+
 @dataclass(frozen=True, slots=True)
 class Table:
     """A table to be read: its chunks, and for text its header (None where it has none) and the end of its lines."""
 
-    chunks: Iterator[Chunk]
+    chunks: Iterator[Unread]
     header: str | None = None
     line_end: str = "\n"
 
@@ -52,5 +56,12 @@ class Answers:
     clearance: NDArray[np.float64]
 
 
-Write: TypeAlias = Callable[[Chunk, Answers], None]
-"""What a table's writer offers while its block lasts: add a chunk with its answers. Raises InputError."""
+@dataclass(frozen=True, slots=True)
+class Sink:
+    """What a table's writer offers while its block lasts.
+
+    `render` makes bytes of a chunk and its answers, here or in another process; `add` writes them. Raises InputError.
+    """
+
+    render: Callable[[Chunk, Answers], bytes]
+    add: Callable[[bytes], object]

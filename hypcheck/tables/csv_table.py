@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from itertools import chain
 from operator import itemgetter
 
@@ -16,7 +17,7 @@ import numpy as np
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.pairs import COLUMNS, REFUSED
 from hypcheck.rows import Rows, invalid
-from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Table, Write
+from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Unread
 from hypcheck.tables.columns import ADDED, check_names
 from hypcheck.tables.csv_records import Records
 from hypcheck.tables.examine import Places, examine
@@ -46,22 +47,22 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
 
 
 @contextmanager
-def write_csv(writer: Writer, table: Table) -> Iterator[Write]:
+def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
     """Rows with four cells more: a row's own text where the table has text, else its seven numbers."""
     end = table.line_end
     header = table.header if table.header is not None else ",".join(COLUMNS)
     writer.write(f"{header},{','.join(ADDED)}{end}".encode())
+    yield Sink(partial(_lines, end), writer.write)
 
-    def write(chunk: Chunk, answers: Answers) -> None:
-        texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
-        added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
-        rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
-        lines = [f"{text}{cells}{clearance}{end}" for text, cells, clearance in rows]
-        for index in np.flatnonzero(chunk.refused).tolist():
-            lines[index] = f"{texts[index]},{REFUSED},{LABELS[REFUSED]},,{end}"
-        writer.write("".join(lines).encode())
 
-    yield write
+def _lines(end: str, chunk: Chunk, answers: Answers) -> bytes:
+    texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
+    added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
+    rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
+    lines = [f"{text}{cells}{clearance}{end}" for text, cells, clearance in rows]
+    for index in np.flatnonzero(chunk.refused).tolist():
+        lines[index] = f"{texts[index]},{REFUSED},{LABELS[REFUSED]},,{end}"
+    return "".join(lines).encode()
 
 
 _CELLS = {
@@ -71,7 +72,7 @@ _CELLS = {
 }
 
 
-def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> Iterator[Chunk]:
+def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> Iterator[Unread]:
     pick = itemgetter(*columns)
     count = 0
     while True:
@@ -87,7 +88,7 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
             texts.append(records.text.rstrip("\r\n"))
         if not texts:
             break
-        yield _chunk(cells, texts, places, mark=mark)
+        yield partial(_chunk, cells, texts, places, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")

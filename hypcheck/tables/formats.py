@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hypcheck.errors import InputError
-from hypcheck.tables.chunk import Table, Write
+from hypcheck.tables.chunk import Sink, Table
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
@@ -21,7 +21,7 @@ class _Read(Protocol):
 
 
 class _Open(Protocol):
-    def __call__(self, writer: Writer, table: Table, /) -> AbstractContextManager[Write]: ...
+    def __call__(self, writer: Writer, table: Table, /) -> AbstractContextManager[Sink]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,8 @@ _FORMATS = {
 
 
 @contextmanager
-def opened(route: Route, *, mark: bool) -> Iterator[tuple[Reader, Table, Write]]:
-    """What is read at one end of `route`, the table in it, and what adds answers at the other.
+def opened(route: Route, *, mark: bool) -> Iterator[tuple[Reader, Table, Sink]]:
+    """What is read at one end of `route`, the table in it, and where its answers go at the other.
 
     The output takes its place when the block ends well; after an error nothing of it is left. Raises InputError where
     either cannot be opened, NothingJudgedError (while its chunks are read) where the table has no rows.
@@ -48,5 +48,5 @@ def opened(route: Route, *, mark: bool) -> Iterator[tuple[Reader, Table, Write]]
         raise InputError(f"--output {route.target} is the input itself; name another file")
     with reading(route.source) as reader:
         table = _FORMATS[route.source_format].read(reader, mark=mark)
-        with writing(route.target) as writer, _FORMATS[route.target_format].write(writer, table) as write:
-            yield reader, table, write
+        with writing(route.target) as writer, _FORMATS[route.target_format].write(writer, table) as sink:
+            yield reader, table, sink

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from itertools import chain
 from math import isfinite
 from operator import itemgetter
@@ -18,7 +19,7 @@ import numpy as np
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.pairs import COLUMNS, REFUSED
 from hypcheck.rows import Rows, invalid
-from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Table, Write
+from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Unread
 from hypcheck.tables.columns import ADDED, check_names
 from hypcheck.tables.examine import Places, examine
 from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
@@ -37,22 +38,22 @@ def read_jsonl(reader: Reader, *, mark: bool) -> Table:
 
 
 @contextmanager
-def write_jsonl(writer: Writer, _table: Table) -> Iterator[Write]:
+def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
     """Objects with four keys more: a row's own object where the table has text, else one of its seven numbers."""
+    yield Sink(_lines, writer.write)
 
-    def write(chunk: Chunk, answers: Answers) -> None:
-        texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
-        added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
-        clearances = list(map(repr, answers.clearance.tolist()))
-        for index in np.flatnonzero(np.isinf(answers.clearance)).tolist():
-            clearances[index] = '"inf"'  # JSON has no number for it
-        rows = zip(texts, added, clearances, strict=True)
-        lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
-        for index in np.flatnonzero(chunk.refused).tolist():
-            lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
-        writer.write("".join(lines).encode())
 
-    yield write
+def _lines(chunk: Chunk, answers: Answers) -> bytes:
+    texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
+    added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
+    clearances = list(map(repr, answers.clearance.tolist()))
+    for index in np.flatnonzero(np.isinf(answers.clearance)).tolist():
+        clearances[index] = '"inf"'  # JSON has no number for it
+    rows = zip(texts, added, clearances, strict=True)
+    lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
+    for index in np.flatnonzero(chunk.refused).tolist():
+        lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
+    return "".join(lines).encode()
 
 
 _KEYS = {
@@ -76,7 +77,7 @@ _PICK = itemgetter(*COLUMNS)
 _CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
 
 
-def _chunks(reader: Reader, *, mark: bool) -> Iterator[Chunk]:
+def _chunks(reader: Reader, *, mark: bool) -> Iterator[Unread]:
     lines = enumerate(text_lines(reader), start=1)
     count = 0
     while True:
@@ -91,7 +92,7 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[Chunk]:
                     break
         if not texts:
             break
-        yield _chunk(texts, places, mark=mark)
+        yield partial(_chunk, texts, places, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")

@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import IO, cast
 
 import numpy as np
@@ -19,7 +20,7 @@ from numpy.lib import format as npy
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.pairs import COLUMNS
 from hypcheck.rows import Rows, first_trouble, invalid
-from hypcheck.tables.chunk import CHUNK, Answers, Chunk, Table, Write
+from hypcheck.tables.chunk import CHUNK, Answers, Chunk, Sink, Table, Unread
 from hypcheck.tables.streams import Reader, Writer
 
 WIDTH = len(COLUMNS)
@@ -35,24 +36,28 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 
 
 @contextmanager
-def write_npy(writer: Writer, _table: Table) -> Iterator[Write]:
+def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
     """Positions alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
     # The header comes first and tells the count, which is known last, and an output may be a pipe.
     with tempfile.TemporaryFile() as file:
         kept, count = Writer(file, "a temporary file"), 0
 
-        def write(_chunk: Chunk, answers: Answers) -> None:
+        def add(data: bytes) -> None:
             nonlocal count
-            kept.write(answers.positions.tobytes())
-            count += len(answers.positions)
+            kept.write(data)
+            count += len(data)
 
-        yield write
+        yield Sink(_positions, add)
         kept.flush()
         header = {"descr": "|i1", "fortran_order": False, "shape": (count,)}
         npy.write_array_header_1_0(cast("IO[bytes]", writer), header)
         file.seek(0)
         while block := file.read(_COPIED_AT_ONCE):
             writer.write(block)
+
+
+def _positions(_chunk: Chunk, answers: Answers) -> bytes:
+    return answers.positions.tobytes()
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,15 +119,19 @@ def _require_length(name: str, size: int, count: int) -> None:
         raise InputError(f"{name} goes on for {size - needed} bytes after its {count} rows; it must hold one array")
 
 
-def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Chunk]:
+def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Unread]:
     for start in range(0, layout.count, CHUNK):
         rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
-        refused = invalid(rows)
-        if not mark and refused.any():
-            raise InputError(f"{reader.name}, {first_trouble(rows, start + 1)}")
-        yield Chunk(rows, refused, None)
+        yield partial(_chunk, rows, reader.name, start + 1, mark=mark)
     if reader.size() is None and reader.read(1):
         raise InputError(f"{reader.name} goes on after its {layout.count} rows; it must hold one array")
+
+
+def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> Chunk:
+    refused = invalid(rows)
+    if not mark and refused.any():
+        raise InputError(f"{name}, {first_trouble(rows, first)}")
+    return Chunk(rows, refused, None)
 
 
 def _rows(reader: Reader, layout: _Layout, start: int, count: int) -> Rows:
