@@ -17,6 +17,17 @@ IMPLEMENTATION = '#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n'
 
 COMPILER = shutil.which(os.environ.get("CC", "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+
+
+def _is_clang(compiler: str | None) -> bool:
+    """Whatever its name is: on macOS cc and gcc are clang."""
+    if compiler is None:
+        return False
+    done = subprocess.run([compiler, "-dM", "-E", "-x", "c", os.devnull], capture_output=True, text=True, check=False)
+    return "__clang__" in done.stdout
+
+
+needs_gcc = pytest.mark.skipif(COMPILER is None or _is_clang(COMPILER), reason="the C compiler is none, or clang")
 CLANG = shutil.which("clang")
 needs_clang = pytest.mark.skipif(CLANG is None, reason="there is no clang")
 
