@@ -92,4 +92,6 @@ def dearer(ratio: Estimate, noise: float) -> str:
 
 
 def _told(ratio: Estimate) -> str:
-    return f"{ratio.median:.3g} ({ratio.low:.3g} to {ratio.high:.3g})"
+    values = (ratio.median, ratio.low, ratio.high)
+    middle, low, high = (f"{value:.3g}" if value < 1000 else f"{value:,.0f}" for value in values)
+    return f"{middle} ({low} to {high})"
