@@ -24,6 +24,12 @@ _SHARE = 10
 """Questions begin small and grow until one takes this part of the timeout: who is slow is asked less at once, and is
 not taken for one that hangs."""
 
+_SLACK_NS, _UNSEEN = 5_000_000_000, 20
+"""What a timed question may take by our clock: seconds for the way there and a warming up, and so often what it says.
+
+Whoever tells microseconds for nanoseconds would seem a thousand times as fast, and be asked for as much more work.
+"""
+
 
 class Implementation:
     """A context manager; its process is started again after a fault, as often as the limits allow.
@@ -154,8 +160,8 @@ class Implementation:
 
         Of a library no rows may be timed too: what a call takes.
 
-        Raises TimingError where it fails, or where its checksum is not the sum of its answers, taken once or for each
-        repetition.
+        Raises TimingError where it fails, where it took far longer than it says, or where its checksum is not the sum
+        of its answers, taken once or for each repetition.
         """
         rows = as_rows(rows)
         self._check_scene(rows, by_scene=by_scene)
@@ -163,7 +169,10 @@ class Implementation:
         if not least <= len(rows) <= LARGEST or repeat < 1:
             raise InputError(f"{len(rows)} rows cannot be timed {repeat} times; {least} to {LARGEST} can, once or more")
         try:
-            times = self._runs.session().time(rows, repeat, by_scene=by_scene)
+            session = self._runs.session()
+            began = time.monotonic_ns()
+            times = session.time(rows, repeat, by_scene=by_scene)
+            took = time.monotonic_ns() - began
         except FaultError as fault:
             raise TimingError(f"{self.spec} could not be timed: {self._runs.note(fault)}") from None
         except OverError as error:
@@ -173,6 +182,8 @@ class Implementation:
             raise
         if times is None:
             return None
+        if took > _SLACK_NS + _UNSEEN * times[0]:
+            raise TimingError(f"{self.spec} says that it took {times[0]:,} ns for what took {took:,} ns by our clock")
         answered = self.classify(rows, by_scene=by_scene)
         total = int(answered.answers.sum(dtype=np.int64))
         if not answered.answered.all() or times[1] not in {total, total * repeat}:

@@ -8,6 +8,7 @@ from hypcheck.bench.contenders import contenders, foreign
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.rounds import Entry, RefusedError, measure
 from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.methods import implementation
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.limits import Limits
 from tests.bench.test_run import ended
@@ -81,6 +82,14 @@ def test_a_clock_with_a_wrong_checksum_is_refused():
     *_, (_, (found,)) = measure([Entry("it", ready.rows, ready.run)], 2)
     assert "timed with the checksum" in found.refused
     assert found.samples_ns == []
+    way.close()
+
+
+def test_a_clock_that_tells_far_too_little_is_refused(monkeypatch):
+    monkeypatch.setattr(implementation, "_SLACK_NS", 10**9)
+    way = opened(command("boasts", "binary"))
+    with pytest.raises(RefusedError, match=r"says that it took 3,000 ns for what took 1,\d+,\d+,\d+ ns by our clock"):
+        way.batch(ROWS).run(3)
     way.close()
 
 
