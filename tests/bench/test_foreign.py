@@ -88,7 +88,7 @@ def test_a_clock_with_a_wrong_checksum_is_refused():
 def test_a_clock_that_tells_far_too_little_is_refused(monkeypatch):
     monkeypatch.setattr(implementation, "_SLACK_NS", 10**9)
     way = opened(command("boasts", "binary"))
-    with pytest.raises(RefusedError, match=r"says that it took 3,000 ns for what took 1,\d+,\d+,\d+ ns by our clock"):
+    with pytest.raises(RefusedError, match=r"says that it took 3,000 ns for what took [\d,]+ ns by our clock"):
         way.batch(ROWS).run(3)
     way.close()
 
