@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck import groups
-from hypcheck.gate import chunks, schedule
+from hypcheck.gate import chunks, results, schedule
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.results import Performed, Result, merged
 from hypcheck.gate.saved import restored, restored_result, saved, saved_result
@@ -18,7 +18,7 @@ from hypcheck.gate.schedule import Again, State, states
 from hypcheck.gate.work import Opening, perform
 from hypcheck.gate.workers import Here, Workers
 from hypcheck.methods.asking import ALONE
-from hypcheck.methods.faults import StartError
+from hypcheck.methods.faults import Outcome, StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance
 from tests.gate import killing
@@ -192,8 +192,21 @@ def test_a_result_counts_where_enough_was_left_for_it(granted, left, actual, fit
 def test_a_result_comes_back_from_json():
     fault = groups.Fault((0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0), "wrong", "said \ud83d")
     worst = groups.Worst((1, 2), "a/1/1/2", (1.5, 5e-324), 0, 1, "false-clear", "wrong", float("inf"))
-    result = Result(tallies={"some": groups.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))})
+    left = results.Open(chunks.Chunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8))
+    result = Result(
+        tallies={"some": groups.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
+        open=(left,),
+        again=results.Again(9, 2, 1),
+        outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),
+        excusing=frozenset({0, 7}),
+        named=frozenset({"ring-0007"}),
+    )
     again = restored_result(json.loads(json.dumps(saved_result(result), allow_nan=False)))
     assert again.tallies["some"].worst == (worst,)
     assert repr(again.tallies["some"].faults) == repr((fault,))
     assert saved_result(again) == saved_result(result)
+    for name in ("again", "outcomes", "excusing", "named"):
+        assert getattr(again, name) == getattr(result, name)
+    assert again.open[0].chunk == left.chunk
+    assert again.open[0].indices.tolist() == left.indices.tolist()
+    assert again.open[0].answers.tolist() == left.answers.tolist()
