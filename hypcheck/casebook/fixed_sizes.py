@@ -157,7 +157,7 @@ def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """On and about r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
     alpha, gamma, b, d = setting.sizes
     a, c = alpha / b, gamma / d
-    radius = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
+    radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
     radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
     height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
     return _turned(setting, draw, radius, height)

@@ -92,7 +92,7 @@ def _of_file(path: str) -> ModuleType:
 
 
 def _integers(result: object, n: int) -> Answers:
-    if np.ma.is_masked(result):
+    if isinstance(result, np.ma.MaskedArray) and np.any(result.mask):
         raise ContractError("it returned a masked array with masked answers; it must answer every row")
     try:
         array = np.asarray(result)

@@ -40,7 +40,8 @@ def octaves(rows: Rows, positions: Positions) -> Floats:
     found = np.full(len(rows), np.nan)
     places = np.flatnonzero(within)
     places = places[~_flipped(rows[places], positions[places], np.full(len(places), LEAST), OUTER)]
-    low, high = np.full(len(places), LEAST), np.zeros(len(places), dtype=np.int64)
+    low: NDArray[np.int64] = np.full(len(places), LEAST)
+    high: NDArray[np.int64] = np.zeros(len(places), dtype=np.int64)
     while len(places):
         done = high - low == 1
         found[places[done]] = low[done]
