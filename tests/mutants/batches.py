@@ -11,6 +11,7 @@ _calls = [0]
 _rows = [0]
 _kept = np.zeros(1 << 17, dtype=np.int8)
 _kept_sizes = np.ones(4)
+_seen: set[bytes] = set()
 _last = [np.zeros(1, dtype=np.int8)]
 _random = np.random.Generator(np.random.Philox(5))
 
@@ -288,3 +289,34 @@ def answer_kept_while_x_and_y_stay(rows):
 def sizes_kept_while_three_stay(rows):
     """What depends on the sizes is computed anew when α, γ or b changes; d is forgotten."""
     return _kept_while_alike(rows, [0, 1, 2])
+
+
+@wrong()
+def twins_of_a_question(rows):
+    """Equal rows of a question are computed once, and only the first of them is answered."""
+    answers = position(rows)
+    first = np.unique(rows, axis=0, return_index=True)[1]
+    again = np.ones(len(rows), dtype=bool)
+    again[first] = False
+    answers[again] = _moved(answers[again])
+    return answers
+
+
+@wrong()
+def neighbours_alike(rows):
+    """A row that is equal to the row before it is not computed."""
+    answers = position(rows)
+    alike = np.flatnonzero((rows[1:] == rows[:-1]).all(axis=1)) + 1
+    answers[alike] = _moved(answers[alike])
+    return answers
+
+
+@wrong()
+def rows_that_come_again(rows):
+    """What was answered once is looked up from then on, in a table that holds something else."""
+    answers = position(rows)
+    for place, row in enumerate(rows):
+        if row.tobytes() in _seen:
+            answers[place] = _moved(answers[place : place + 1])[0]
+        _seen.add(row.tobytes())
+    return answers
