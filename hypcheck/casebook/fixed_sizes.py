@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -203,7 +204,8 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
         return position is Position.EXTERIOR if side is Position.EXTERIOR else position is not Position.INTERIOR
 
-    low, high = 0.0, sizes[0] + sizes[2]
+    alpha, gamma, b, _ = sizes
+    low, high = 0.0, min(alpha * math.hypot(1.0, z / gamma) + b, sys.float_info.max)
     if outward(low):
         return low
     while not outward(high):

@@ -12,13 +12,12 @@ from hypcheck.methods.checks import shown
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.domain_reading import domain_of
 from hypcheck.methods.questions import PRECISIONS, QUESTIONS
-from hypcheck.tables.strict_json import object_of, strict_decoder
+from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 from hypcheck.visible import visible
 
 PROTOCOL = 1
 LONGEST = 1 << 16
 """Bytes of a description."""
-_STRICT = strict_decoder()
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +62,14 @@ def described_by_json(text: str | bytes, defaults: Description, required: tuple[
 def parse_domain(text: str) -> Domain:
     """A domain as the command line has it, in JSON; raises InputError."""
     return domain_of(_json(text, "the domain"), "the domain")
+
+
+def _unbounded(text: str) -> float:
+    """Infinity, which Python and TOML write where a domain has no end; raises ValueError on NaN."""
+    return refused_constant(text) if text == "NaN" else float(text)
+
+
+_STRICT = strict_decoder(constant=_unbounded)
 
 
 def _json(text: str | bytes, where: str) -> object:

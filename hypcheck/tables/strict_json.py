@@ -17,19 +17,27 @@ _LONGEST_INTEGER = 400
 """Digits of what is still made an int; more are beyond float64 anyway, and Python refuses to convert some of them."""
 
 
-def strict_decoder(number: Callable[[str], float] | None = None) -> json.JSONDecoder:
+def refused_constant(text: str) -> NoReturn:
+    """Raise ValueError, the end of a sentence, for NaN and the infinities."""
+    raise ValueError(f"{text} is not JSON; every number must be finite")
+
+
+def strict_decoder(
+    number: Callable[[str], float] | None = None, constant: Callable[[str], float] = refused_constant
+) -> json.JSONDecoder:
     """A decoder that raises ValueError, the end of a sentence, on what is not strict JSON.
 
-    `number`, where given, makes a number of its text, but for integers of ordinary length.
+    `number`, where given, makes a number of its text, but for integers of ordinary length; `constant` one of NaN,
+    Infinity and -Infinity.
     """
     if number is None:
-        return json.JSONDecoder(object_pairs_hook=_members, parse_constant=_no_constant)
+        return json.JSONDecoder(object_pairs_hook=_members, parse_constant=constant)
 
     def integer(text: str) -> float:
         return int(text) if len(text) <= _LONGEST_INTEGER else number(text)
 
     return json.JSONDecoder(
-        object_pairs_hook=_members, parse_constant=_no_constant, parse_float=number, parse_int=integer
+        object_pairs_hook=_members, parse_constant=constant, parse_float=number, parse_int=integer
     )
 
 
@@ -38,10 +46,6 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(members) < len(pairs):
         raise ValueError(f"key {first_double([name for name, _ in pairs])}")
     return members
-
-
-def _no_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is not JSON; every number must be finite")
 
 
 def object_of(
