@@ -160,6 +160,12 @@ def test_everything_can_be_said():
     assert said.domain.magnitude == (0.0, np.inf)
 
 
+def test_a_domain_may_have_no_end_as_python_and_toml_write_it_but_no_nan():
+    assert description.parse_domain('{"magnitude":[1e-6,Infinity]}').magnitude == (1e-6, np.inf)
+    with pytest.raises(InputError, match="NaN is not JSON"):
+        description.parse_domain('{"magnitude":[1e-6,NaN]}')
+
+
 def test_nothing_need_be_said():
     assert description.described({}, DEFAULTS) == DEFAULTS
 

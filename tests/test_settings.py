@@ -29,7 +29,7 @@ seed = 7
 tolerance = 16
 precision = "float32"
 question = "exterior"
-domain = { regimes = ["c2>=a"], ratio = [1e-3, 1e3], magnitude = [1e-6, 1e300] }
+domain = { regimes = ["c2>=a"], ratio = [1e-3, 1e3], magnitude = [1e-6, inf] }
 max_abstained = 2
 fail_on = "false-clear"
 deterministic = true
@@ -73,7 +73,7 @@ def test_every_setting_reaches_the_run(project):
         "known_failures": "known.toml",
         "precision": "float32",
         "question": "exterior",
-        "domain": {"regimes": ["c2>=a"], "ratio": [1e-3, 1e3], "magnitude": [1e-6, 1e300], "settings": []},
+        "domain": {"regimes": ["c2>=a"], "ratio": [1e-3, 1e3], "magnitude": [1e-6, "inf"], "settings": []},
         "limits": {"startup_timeout": 5.0, "timeout": 2.5, "restarts": 3, "memory": 512 << 20},
         "workers": None,
         "cluster": None,

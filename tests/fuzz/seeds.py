@@ -128,7 +128,7 @@ seed = 7
 tolerance = 16
 precision = "float32"
 question = "exterior"
-domain = { regimes = ["c2>=a"], ratio = [1e-3, 1e3], magnitude = [1e-6, 1e300] }
+domain = { regimes = ["c2>=a"], ratio = [1e-3, 1e3], magnitude = [1e-6, inf] }
 max_abstained = 2
 fail_on = "false-clear"
 deterministic = true
