@@ -36,9 +36,7 @@ def strict_decoder(
     def integer(text: str) -> float:
         return int(text) if len(text) <= _LONGEST_INTEGER else number(text)
 
-    return json.JSONDecoder(
-        object_pairs_hook=_members, parse_constant=constant, parse_float=number, parse_int=integer
-    )
+    return json.JSONDecoder(object_pairs_hook=_members, parse_constant=constant, parse_float=number, parse_int=integer)
 
 
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

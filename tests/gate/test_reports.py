@@ -16,7 +16,7 @@ from hypcheck.report.digest import implementations, under_test
 from hypcheck.report.json_schema import violations
 from hypcheck.report.terminal import summary_lines
 from hypcheck.report.verdict import failures
-from tests.test_report_schemas import RECORD, SUMMARY
+from tests.report.test_schemas import RECORD, SUMMARY
 
 SPECS = (
     "builtin:fast",

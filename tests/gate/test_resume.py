@@ -35,7 +35,7 @@ from tests.gate.interrupted import (
     words,
 )
 from tests.records import resealed
-from tests.test_report_schemas import RECORD
+from tests.report.test_schemas import RECORD
 
 MOMENTS = int(os.environ.get("HYPCHECK_MOMENTS", "3"))
 """Random moments to interrupt a run at; fifty are for whoever changes how progress is kept."""

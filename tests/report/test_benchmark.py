@@ -12,7 +12,7 @@ from hypcheck.report.json_schema import violations
 from hypcheck.report.verdict import failures, verdict
 from tests.report import bench_lines
 from tests.report.bench_lines import bench_record
-from tests.test_report_schemas import SUMMARY
+from tests.report.test_schemas import SUMMARY
 
 
 def lines(kind, **changes):

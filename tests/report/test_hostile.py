@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.report.write import REPORTS
 from tests.report.hostile import SCRIPT, hostile_record
-from tests.test_report_markdown import PARSER
+from tests.report.test_markdown import PARSER
 
 UNSEEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u200e\u200f\ud800-\udfff]")
 WHOLE = ("json", "junit", "csv")

@@ -35,7 +35,7 @@ COMMANDS = [name for name, language in LANGUAGES.items() if language.spec.starts
 ASKED = [*FAMILIES]
 """Families whose rows are asked: hard ones, where a last bit decides, and the extreme ones, where squares overflow."""
 
-PROTOCOL = Path(__file__).parent.parent / "docs" / "protocol.md"
+PROTOCOL = Path(__file__).parents[2] / "docs" / "protocol.md"
 
 
 ANSWERS = {

@@ -12,7 +12,7 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.report.json_schema import violations
 from hypcheck.scene.reading import parse_scene, shipped_scenes, shipped_text
-from tests.test_scene_reading import LEAST, WHOLE
+from tests.scene.test_reading import LEAST, WHOLE
 
 if sys.version_info >= (3, 11):
     import tomllib

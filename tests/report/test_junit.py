@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypcheck.report.junit import render
 from hypcheck.visible import visible
 from tests import report_samples as samples
-from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 
 
 def junit(*extra, exit_code=0, body=None):

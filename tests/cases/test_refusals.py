@@ -9,7 +9,7 @@ import pytest
 from hypcheck.casebook import vectors
 from hypcheck.casebook.frozen.refusals import read_refusals
 from hypcheck.errors import InputError
-from tests.test_cases_reading import SOUND, refused
+from tests.cases.test_reading import SOUND, refused
 
 BAD_ROWS = vectors.path_of("invalid").read_text(encoding="utf-8").splitlines()
 BAD_FIRST = BAD_ROWS.index('"cases": [') + 1

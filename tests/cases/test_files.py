@@ -258,7 +258,7 @@ def test_the_c_example_compiles_and_sees_every_number_to_the_bit(tmp_path, name)
 def test_the_files_are_installed_with_the_package(tmp_path, monkeypatch):
     """What setup.py adds to a build: the same bytes, inside the package, and in a source distribution."""
     setuptools = pytest.importorskip("setuptools")
-    root = Path(__file__).parents[1]
+    root = Path(__file__).parents[2]
     monkeypatch.chdir(root)
     given = {}
     monkeypatch.setattr(setuptools, "setup", lambda **options: given.update(options))

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from hypcheck.report.write import Written
 from tests import report_samples as samples
-from tests.test_report_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
+from tests.report.test_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
 
 WRITTEN = [
     Written(Path("out/summary.json")),

@@ -13,7 +13,7 @@ from hypcheck.report.markdown import render
 from hypcheck.report.write import Around
 from hypcheck.visible import visible
 from tests import report_samples as samples
-from tests.test_report_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 
 PARSER = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"])
 
