@@ -205,7 +205,7 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
         return position is Position.EXTERIOR if side is Position.EXTERIOR else position is not Position.INTERIOR
 
     alpha, gamma, b, _ = sizes
-    low, high = 0.0, min(alpha * math.hypot(1.0, z / gamma) + b, sys.float_info.max)
+    low, high = 0.0, min(alpha * (1 + abs(z) / gamma) + b, sys.float_info.max)
     if outward(low):
         return low
     while not outward(high):

@@ -67,7 +67,14 @@ def record_and_report(
             _ended_early(error, growing, goes_on=recorder.goes_on)
             raise
         growing.replace(out / FILE)
-        report(record, out)
+        try:
+            report(record, out)
+        except BaseException:
+            place = shlex.quote(str(out))
+            _say(
+                f"the record in {visible(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports"
+            )
+            raise
     return record
 
 
@@ -87,8 +94,13 @@ def _ended_early(error: BaseException, growing: Path, *, goes_on: bool) -> None:
         write_reports(record, out)
         _tell(record, [])
     then = f"with --resume {shlex.quote(str(out))} goes on" if goes_on else "begins anew"
+    _say(f"what was finished is in {visible(path)}; the same command {then}")
+
+
+def _say(sentence: str) -> None:
+    """Tell whoever watches, if anybody still does."""
     with suppress(OSError):
-        click.echo(f"hypcheck: what was finished is in {visible(path)}; the same command {then}", err=True)
+        click.echo(f"hypcheck: {sentence}", err=True)
 
 
 def report(record: Record, out: Path) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from unittest.mock import patch
@@ -33,20 +34,28 @@ def of_library(path: Path, name: str, level: str | None = None) -> Subject | Non
     """A shared library that was compiled from hypcheck.h; None where it does not have the level."""
     library = ctypes.CDLL(str(path))
 
-    def chosen() -> bool:
-        return level is None or bool(library.hypcheck_use_level(level.encode()))
+    library.hypcheck_level.restype = ctypes.c_char_p
+
+    @contextmanager
+    def chosen() -> Iterator[bool]:
+        """The level, as long as it lasts: the library may be the extension that others in this process use."""
+        before = library.hypcheck_level()
+        try:
+            yield level is None or bool(library.hypcheck_use_level(level.encode()))
+        finally:
+            library.hypcheck_use_level(before)
 
     def pointer(array: np.ndarray) -> ctypes.c_void_p:
         return ctypes.c_void_p(array.ctypes.data)
 
     def rows(values: np.ndarray) -> np.ndarray:
-        assert chosen()
         values, answers = np.ascontiguousarray(values), np.full(len(values), 99, np.int8)
-        library.hypcheck_classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
+        with chosen() as there:
+            assert there
+            library.hypcheck_classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
         return answers
 
     def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
-        assert chosen()
         four, count = np.array(sizes), ctypes.c_size_t(len(columns[0]))
         pointers = [pointer(column) for column in columns]
 
@@ -55,9 +64,12 @@ def of_library(path: Path, name: str, level: str | None = None) -> Subject | Non
             library.hypcheck_ask_scene(NUMBER_OF[question], pointer(four), count, *pointers, pointer(answers))
             return answers
 
-        return _agreed(ask)
+        with chosen() as there:
+            assert there
+            return _agreed(ask)
 
-    return Subject(name, rows, scene) if chosen() else None
+    with chosen() as there:
+        return Subject(name, rows, scene) if there else None
 
 
 def _agreed(ask: Callable[[str], np.ndarray]) -> np.ndarray:

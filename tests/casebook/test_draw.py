@@ -32,6 +32,7 @@ ALLOWED = {
         "object_",
         "dtype",
         "ndarray",
+        "errstate",
     ),
     *(
         "add",

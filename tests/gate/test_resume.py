@@ -92,8 +92,9 @@ def interrupted(out, whole, dice, number, *more):
     assert process.returncode in (CODE, -number, 128 + number)
     assert "Traceback" not in said or number == signal.SIGINT  # Python itself may still be starting
     if process.returncode > CODE and (out / FILE).exists():
-        goes_on = b'"progress"' in (out / FILE).read_bytes()
-        assert (f"the same command with --resume {out} goes on" if goes_on else "the same command ") in said
+        record = read(out / FILE)
+        goes_on = f"the same command {f'with --resume {out} goes on' if record.of('progress') else ''}"
+        assert (f"hypcheck report {out} --out {out} makes its reports" if record.footer else goes_on) in said
 
 
 @pytest.mark.parametrize("moment", range(MOMENTS))
@@ -104,6 +105,20 @@ def test_killed_at_any_moment(whole, tmp_path, moment, here):
     code, said = here(tmp_path, *resume, *["--workers", "2"][: 2 * (moment % 7 == 2)])
     assert code == CODE, said
     assert came_to(tmp_path) == whole[0]
+
+
+def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_path, here, monkeypatch):
+    def interrupts(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("hypcheck.report.write.write_reports", interrupts)
+        code, said = here(tmp_path)
+    assert code == 130
+    assert f"{tmp_path / FILE} is whole; hypcheck report {tmp_path} --out {tmp_path} makes its reports" in said
+    assert read(tmp_path / FILE).footer
+    assert main(["report", str(tmp_path), "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "summary.json").exists()
 
 
 def test_killed_twice(whole, tmp_path, here):
