@@ -40,7 +40,8 @@ def ribbon(segments: Sequence[Segment]) -> tuple[Vertices, Triangles]:
 
     Each becomes a square of two triangles with the segment in its middle, so the point of it nearest to C, which is
     in that plane, is the segment's. Segments without length are left out, as FCL's distance to a triangle without area
-    is 0 wherever it lies.
+    is 0 wherever it lies; one below about 1e-77, whose fourth power underflows, is to FCL without area too. Ends are of
+    the lattice of mesh_window.UNIT, so that none is so short.
     """
     ends: NDArray[np.float64] = np.array(segments, dtype=np.float64).reshape(-1, 4)
     half = np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]) / 2
