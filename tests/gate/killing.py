@@ -20,7 +20,7 @@ ENVIRONMENT = {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()}
 """What tells it the case; where that is not set, there is none."""
 
 
-def todo(names, count):
+def steps_of(names, count):
     return list(steps((chunk for name in names for chunk in chunks.chunks(FAMILIES[name], 1, count)), refuses=False))
 
 

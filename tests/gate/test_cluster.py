@@ -15,7 +15,7 @@ from hypcheck.gate.schedule import State, states
 from hypcheck.gate.work import Opening
 from hypcheck.methods.limits import Limits
 from tests.gate.clusters import Cluster
-from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, todo, without_culprit
+from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 
 pytest.importorskip("distributed")
 
@@ -61,7 +61,7 @@ def pids(client):
 
 
 def test_killed_workers_cost_nothing(client):
-    some = todo(["tower-body", "ring"], 9000)
+    some = steps_of(["tower-body", "ring"], 9000)
 
     def kill(crew, number):
         if number in {1, 12}:
@@ -71,7 +71,7 @@ def test_killed_workers_cost_nothing(client):
 
 
 def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(client):
-    some = todo(["uniform", "tower-body"], 4000)
+    some = steps_of(["uniform", "tower-body"], 4000)
     culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
     reason = "workers of the cluster ended, one after the other, while they had nothing but these cases"
@@ -86,7 +86,7 @@ def _subject(folder: Path) -> tuple[Path, Opening]:
 
 def test_a_file_that_a_worker_does_not_have_is_sent(client, tmp_path):
     file, opening = _subject(tmp_path)
-    some = todo(["ring"], 2000)
+    some = steps_of(["ring"], 2000)
     expected = here(opening, some)
     with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
         file.rename(tmp_path / "elsewhere.py")
@@ -101,7 +101,7 @@ def test_another_file_on_a_worker_is_refused(client, tmp_path):
         with pytest.raises(
             InputError, match=r"subject.py is another file on worker tcp://127.0.0.1:\d+: sha256 \w{64} "
         ):
-            list(states(todo(["ring"], 100), crew, State(it.allowance)))
+            list(states(steps_of(["ring"], 100), crew, State(it.allowance)))
 
 
 def test_nothing_is_left_on_the_workers(client, cluster):

@@ -22,7 +22,7 @@ from hypcheck.methods.faults import Outcome, StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance
 from tests.gate import killing
-from tests.gate.killing import todo
+from tests.gate.killing import steps_of
 
 RIGHT = Opening("builtin:table-2-float32", Limits())
 DIES = Opening("python:tests.gate.subjects:dies_on_the_axis", Limits(restarts=4))
@@ -73,7 +73,7 @@ def last(some):
 def test_results_add_up_in_any_order():
     with RIGHT.open() as it:
         rules = rules_of(it)
-        some = [step for step in todo(["ring-neighbourhood", "ring"], 1500) if not isinstance(step, Again)]
+        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 1500) if not isinstance(step, Again)]
         parts = [perform(step, it, rules, it.allowance).result for step in some]
     whole = saved_result(merged(parts)) | {"open": []}
     assert len(parts) == 6
@@ -85,7 +85,7 @@ def test_results_add_up_in_any_order():
 
 
 def test_the_order_in_which_steps_are_performed_makes_no_difference():
-    some = todo(["uniform", "flight", "ring"], 2500)
+    some = steps_of(["uniform", "flight", "ring"], 2500)
     assert sum(isinstance(step, Again) for step in some) == 3
     with RIGHT.open() as it:
         rules = rules_of(it)
@@ -99,7 +99,7 @@ def test_the_order_in_which_steps_are_performed_makes_no_difference():
 
 def test_restarts_are_used_up_in_order_whoever_is_first():
     """Cases on the axis end the process: the first few do, and all others are not run."""
-    some = todo(["tower-body", "axis", "tower-rotors"], 1500)
+    some = steps_of(["tower-body", "axis", "tower-rotors"], 1500)
     with DIES.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
@@ -115,7 +115,7 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
 
 
 def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
-    some = todo(["flight", "ring", "uniform"], 2500)
+    some = steps_of(["flight", "ring", "uniform"], 2500)
     with RIGHT.open() as it:
         rules = rules_of(it)
         passed = [state for _, state in states(some, Here(it, rules), State(it.allowance))]
@@ -135,7 +135,7 @@ def _but_for_bins(state):
 
 
 def test_what_is_kept_of_a_run_does_not_grow_with_it():
-    some = todo(["uniform"], 36_000)
+    some = steps_of(["uniform"], 36_000)
     with RIGHT.open() as it:
         passed = [state for _, state in states(some, Here(it, rules_of(it)), State(it.allowance))]
     sizes = [len(json.dumps(_but_for_bins(saved(state)))) for state in passed]
@@ -145,7 +145,7 @@ def test_what_is_kept_of_a_run_does_not_grow_with_it():
 
 
 def test_a_process_of_ours_that_is_killed_costs_nothing():
-    some = todo(["tower-body"], 6000)
+    some = steps_of(["tower-body"], 6000)
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
@@ -168,7 +168,7 @@ def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_pat
         pytest.raises(StartError, match="describes itself otherwise"),
         Workers(2, fickle, rules_of(it), it) as crew,
     ):
-        last(states(todo(["ring"], 10), crew, State(it.allowance)))
+        last(states(steps_of(["ring"], 10), crew, State(it.allowance)))
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from hypcheck.gate import chunks, schedule, workers
 from hypcheck.gate.schedule import State, states
 from hypcheck.gate.workers import LostError, Workers
-from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, todo, without_culprit
+from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 
 
 @pytest.fixture(autouse=True)
@@ -20,7 +20,7 @@ def small(monkeypatch):
 
 
 def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(monkeypatch):
-    some = todo(["uniform", "tower-body"], 4000)
+    some = steps_of(["uniform", "tower-body"], 4000)
     culprit, others = without_culprit(some)
     expected = here(KILLS, others).total
     for name, value in ENVIRONMENT.items():
@@ -38,7 +38,7 @@ def _ends_at_once(*_):
 def test_processes_that_cannot_begin_end_the_run(monkeypatch):
     """Nothing is known of any case then, so that none may be called a crash."""
     monkeypatch.setattr(workers, "_serve", _ends_at_once)
-    some = todo(["uniform"], 2000)
+    some = steps_of(["uniform"], 2000)
     with (
         KILLS.open() as it,
         pytest.raises(LostError, match=r"3 processes of hypcheck ended before they had asked anything, .* status 9"),

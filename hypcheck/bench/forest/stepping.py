@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterator, Sequence
-from time import perf_counter, perf_counter_ns
+from time import perf_counter
 from typing import Any
 
 from hypcheck.bench.forest.contenders import OURS, Clear, Walker, answers, here
-from hypcheck.bench.forest.growth import Forest, Point, forest_of, walk
+from hypcheck.bench.forest.growth import Forest, forest_of, walk
 from hypcheck.bench.needs import note_absent
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.rounds import Clocked, Entry, Samples, measure
+from hypcheck.bench.rounds import Entry, Samples, clocked_calls, measure
 from hypcheck.bench.statistics import estimate, ratios
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
@@ -51,7 +51,7 @@ def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[dict[str, Any]]:
         name: sum(said != true for said, true in zip(answers(clear, centres), truth, strict=True))
         for name, (clear, _) in made.items()
     }
-    entries = [Entry(name, STEPS, _steps(clear, centres)) for name, (clear, _) in made.items()]
+    entries = [Entry(name, STEPS, clocked_calls(clear, centres)) for name, (clear, _) in made.items()]
     *_, (_, samples) = measure(entries, rounds)
     ours = samples[0]
     for each in samples:
@@ -66,19 +66,6 @@ def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
     started = perf_counter()
     clear = walker.make(forest)
     return clear, perf_counter() - started
-
-
-def _steps(clear: Clear, centres: list[Point]) -> Clocked:
-    def work(repeat: int) -> tuple[int, int]:
-        total = 0
-        started = perf_counter_ns()
-        for _ in range(repeat):
-            total = 0
-            for x, y, z in centres:
-                total += clear(x, y, z)
-        return perf_counter_ns() - started, total
-
-    return work
 
 
 def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> dict[str, Any]:

@@ -13,7 +13,7 @@ import hypcheck
 from hypcheck.bench.kernel.expressions import with_powers, with_products
 from hypcheck.bench.kernel.rows import SIZES, uniform
 from hypcheck.bench.kernel.target import Target, measured, rate, times_as_fast, worked
-from hypcheck.bench.rounds import Clocked, Entry
+from hypcheck.bench.rounds import Clocked, Entry, clocked_calls
 from hypcheck.kernel import numpy_path
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.scalar import exact_position
@@ -130,13 +130,4 @@ def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:
     if touches is None:
         raise AssertionError("FCL refused the mesh")
 
-    def run(repeat: int) -> tuple[int, int]:
-        total = 0
-        started = thread_time_ns()
-        for _ in range(repeat):
-            total = 0
-            for x, y, z in centres:
-                total += touches(x, y, z)
-        return thread_time_ns() - started, total
-
-    return run
+    return clocked_calls(touches, centres, thread_time_ns)
