@@ -24,7 +24,7 @@ ALL = """
 specs = ["builtin:table-2-float64", "builtin:procedure-1-float64"]
 out = "build/report"
 families = ["tower-body", "forest-*"]
-count = 3
+count = 3.0
 seed = 7
 tolerance = 16
 precision = "float32"
@@ -153,7 +153,7 @@ def test_without_the_file_nothing_changes(tmp_path, monkeypatch):
         ("toleranse = 1", "did you mean tolerance?"),
         ("[verify]\ncount = 1", "line 1: there is no setting 'verify'; there are specs, out,"),
         ("\n\ncount = -1", "line 3: count is -1; it must be a whole number, at least 0"),
-        ("count = 2.0", "count is 2.0; it must be a whole number"),
+        ("count = 2.5", "count is 2.5; it must be a whole number, at least 0 and at most 1e15"),
         ("count = true", "count is true; it must be a whole number"),
         ('count = "3"', 'count is "3"; it must be a whole number'),
         ("seed = 9223372036854775808", "at most 9223372036854775807"),

@@ -9,6 +9,7 @@ import click
 
 from hypcheck.cli.exits import Exit
 from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
@@ -19,10 +20,10 @@ from hypcheck.cli.recording import Part, record_and_report
 )
 @click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
-@click.option("--processes", type=click.IntRange(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
-@click.option("--rounds", type=click.IntRange(1), help="Rounds in each process.  [default: 5; quick: 3]")
-@click.option("--workers", type=click.IntRange(1), help="Processes that judge.  [default: one a processor]")
+@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--processes", type=Whole(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
+@click.option("--rounds", type=Whole(1), help="Rounds in each process.  [default: 5; quick: 3]")
+@click.option("--workers", type=Whole(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to be held to.")
 @click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import InputError
 
 _FORMATS = ("json", "csv", "npy")
@@ -42,8 +43,8 @@ def show(name: str, as_json: bool) -> None:
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
 @click.argument("family")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
-@click.option("--count", type=click.IntRange(1), default=100, show_default=True, help="Rows.")
+@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--count", type=Whole(1), default=100, show_default=True, help="Rows.")
 @click.option("--format", "said", type=click.Choice(_FORMATS), help="By default what --output ends in, or json.")
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:

@@ -13,6 +13,7 @@ import click
 
 from hypcheck.cli.exits import Exit, first_that_applies
 from hypcheck.cli.options import Command, FiniteRange, limits_of, with_limits
+from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import NothingJudgedError
 
 if TYPE_CHECKING:
@@ -85,9 +86,9 @@ Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing)
 @click.command(help=_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
 @click.option("--budget", type=FiniteRange(0, min_open=True), help="Seconds.  [default: 60, or none with --queries]")
-@click.option("--queries", type=click.IntRange(1), help="Rows asked at most; with no --budget the same is found again.")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
-@click.option("--show", type=click.IntRange(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
+@click.option("--queries", type=Whole(1), help="Rows asked at most; with no --budget the same is found again.")
+@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--show", type=Whole(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
 @click.option("--out", metavar="FILE", help="A vector file to which the worst row of each kind is added.")
 @about_one_implementation
 @click.pass_context

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from hypcheck.cli.whole import Whole
 from hypcheck.errors import InputError
 from hypcheck.tables.numbers import is_number
 
@@ -33,7 +34,7 @@ _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}
 _LIMITS = (
     click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready."),
     click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without progress."),
-    click.option("--restarts", type=click.IntRange(0), default=20, show_default=True, help="After crashes and hangs."),
+    click.option("--restarts", type=Whole(0), default=20, show_default=True, help="After crashes and hangs."),
     click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
 )
 

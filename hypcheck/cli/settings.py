@@ -17,6 +17,7 @@ from types import MappingProxyType
 from typing import Any
 
 from hypcheck import toml
+from hypcheck.cli.whole import LARGEST_COUNT, LARGEST_SEED, wanted
 from hypcheck.errors import InputError
 
 FILE = "hypcheck.toml"
@@ -27,7 +28,6 @@ ABOUT_ONE = ("tolerance", "precision", "question", "domain", "startup_timeout", 
 COMMANDS = ("verify", "replay", "hunt", "minimise")
 """Commands that go by the settings: verify by all of them, the others by ABOUT_ONE."""
 
-_LARGEST_SEED = 2**63 - 1
 _LONGEST_KEY = 100
 """Characters of a key that is looked for among the known ones and in the text; no setting has so long a name."""
 _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
@@ -110,12 +110,13 @@ def _path(value: object) -> str:
     return value
 
 
-def _whole(least: int, greatest: int | None = None) -> Callable[[object], int]:
+def _whole(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], int]:
     def check(value: object) -> int:
-        if isinstance(value, int) and not isinstance(value, bool) and least <= value <= (greatest or value):
+        if isinstance(value, float) and value.is_integer():  # 1e9 is a float in TOML
+            value = int(value)
+        if isinstance(value, int) and not isinstance(value, bool) and least <= value <= greatest:
             return value
-        upper = "" if greatest is None else f" and at most {greatest}"
-        raise ValueError(f"a whole number, at least {least}{upper}")
+        raise ValueError(wanted(least, greatest))
 
     return check
 
@@ -185,7 +186,7 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "out": _path,
         "families": _names,
         "count": _whole(0),
-        "seed": _whole(0, _LARGEST_SEED),
+        "seed": _whole(0, LARGEST_SEED),
         "tolerance": _number,
         "precision": _one_of(_precisions),
         "question": _one_of(_questions),

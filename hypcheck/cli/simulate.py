@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from hypcheck.cli.progress import watched
+from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-SEED = click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
+SEED = click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
 OUT = click.option("--out", type=click.Path(path_type=Path), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Decide exactly what happens between the positions too.")
 FORMAT = click.option(
@@ -39,7 +40,7 @@ def simulate() -> None:
 
 @simulate.command(short_help="A walker among many trees, by Procedure 1 in float32.")
 @click.option("--scene", "name", default="forest", show_default=True, help="A scene file, or a shipped scene.")
-@click.option("--steps", type=click.IntRange(0), help="Steps to try.  [default: as the scene says]")
+@click.option("--steps", type=Whole(0), help="Steps to try.  [default: as the scene says]")
 @common
 def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
     """A walker among trees of both types, by Procedure 1 with what Table 2 takes out of the loop.
@@ -64,10 +65,10 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
 @simulate.command(short_help="A quadcopter in a cooling tower, by Procedures 2.a and 2.b; Table 5 again.")
 @click.option("--scene", "name", default="tower", show_default=True, help="A scene file, or tower-simplest.")
 @click.option("--table", type=click.Choice(["5"]), help="Make the paper's Table 5 again.")
-@click.option("--runs", type=click.IntRange(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
+@click.option("--runs", type=Whole(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
 @click.option("--speed", type=float, default=5.0, show_default=True, help="Of the flights in the figure, m/s.")
 @click.option("--time", type=float, default=0.2, show_default=True, help="Their response time, s.")
-@click.option("--workers", type=click.IntRange(1), help="Processes for the table.  [default: one a processor]")
+@click.option("--workers", type=Whole(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]")
 @common
 def tower(
     name: str,

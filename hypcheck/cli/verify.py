@@ -15,6 +15,7 @@ from hypcheck.cli.options import FiniteRange, limits_of, with_limits
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.resuming import folder_of, resumed
 from hypcheck.cli.settings import FILE, Settings
+from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
 
 OURS_ONLY = ("oracles", "judged", "roots", "meshes")
@@ -38,25 +39,27 @@ GATE_ONLY = (
 )
 """Options of a run with SPEC."""
 
-_COUNT = click.IntRange(1)
+_COUNT = Whole(1)
 
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True)
 @click.option("--families", help="Names and globs, separated by commas.  [default: all but the extreme ones]")
-@click.option("--count", type=click.IntRange(0), default=400, show_default=True, help="Generated rows of each family.")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), default=1, show_default=True)
+@click.option("--count", type=Whole(0), default=400, show_default=True, help="Generated rows of each family.")
+@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
 @click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u.")
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
 @click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
 @click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
-@click.option("--workers", type=_COUNT, help="Processes.  [default: one a processor; with SPEC, of large runs]")
+@click.option(
+    "--workers", type=Whole(1, MOST_PROCESSES), help="Processes.  [default: one a processor; with SPEC, of large runs]"
+)
 @click.option("--precision", help="With SPEC: stands for the precision it declares.")
 @click.option("--question", help="With SPEC: stands for the question it declares.")
 @click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
-@click.option("--max-abstained", type=click.IntRange(0), default=0, show_default=True, help="Cases it may not answer.")
+@click.option("--max-abstained", type=Whole(0), default=0, show_default=True, help="Cases it may not answer.")
 @click.option("--fail-on", type=click.Choice(["wrong", "false-clear"]), default="wrong", show_default=True)
 @click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")

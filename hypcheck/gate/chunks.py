@@ -97,8 +97,8 @@ class Cases:
 def chunks(family: Family, seed: int, count: int) -> Iterator[Chunk]:
     """The frozen vectors of a family, then `count` generated rows, beginning after those that were frozen."""
     measured = OCTAVES_OF
-    if family.name in vectors.NAMES:
-        known = len(_frozen(family.name).rows)
+    known = frozen_cases(family.name)
+    if known:
         yield Chunk(family.name, None, 0, known, min(known, measured))
         measured = max(0, measured - known)
     start = first_unfrozen(family, seed)
@@ -107,6 +107,11 @@ def chunks(family: Family, seed: int, count: int) -> Iterator[Chunk]:
         end = min(stop, (start // SIZE + 1) * SIZE)
         yield Chunk(family.name, seed, start, end, min(measured, end - start))
         start, measured = end, 0
+
+
+def frozen_cases(name: str) -> int:
+    """How many vectors of a family are frozen."""
+    return len(_frozen(name).rows) if name in vectors.NAMES else 0
 
 
 def found_by_search() -> Iterator[Chunk]:

@@ -11,7 +11,7 @@ from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
 from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import NothingJudgedError
-from hypcheck.gate.chunks import Chunk, chunks, found_by_search
+from hypcheck.gate.chunks import Chunk, chunks, found_by_search, frozen_cases
 from hypcheck.gate.cluster import connected
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines
@@ -40,7 +40,10 @@ def chosen(plan: GatePlan) -> tuple[Family, ...]:
 
 def size(plan: GatePlan) -> int:
     """The cases that each implementation is asked, those that it will skip included."""
-    return sum(map(len, _chunks(plan)))
+    families = chosen(plan)
+    frozen = sum(frozen_cases(family.name) for family in families)
+    found = 0 if plan.filtered else sum(map(len, found_by_search()))
+    return frozen + found + len(families) * plan.count
 
 
 def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, state: State | None = None) -> None:
