@@ -12,6 +12,7 @@ import click
 from tests.fuzz.judging import judged, stop_hangs
 from tests.fuzz.readers import READERS
 from tests.fuzz.running import GROWTH, Tally, input_of, run
+from tests.telling import teller
 
 KEPT = Path("reports/fuzz")
 """Where the inputs go that end as none may; what is fixed is kept in tests/fuzz/corpus."""
@@ -29,7 +30,7 @@ def main(names: tuple[str, ...], count: int, seed: int, processes: int, number: 
         one(names, seed, number)
         return
     before = time.monotonic()
-    tally = run(count, seed, names or tuple(READERS), processes, _tell if sys.stderr.isatty() else lambda _: None)
+    tally = run(count, seed, names or tuple(READERS), processes, teller(_stands))
     for line in lines(tally, time.monotonic() - before, processes):
         click.echo(line)
     sys.exit(1 if tally.failed else 0)
@@ -62,8 +63,8 @@ def lines(tally: Tally, seconds: float, processes: int):
         yield f"{path}: {finding.says}"
 
 
-def _tell(tally: Tally) -> None:
-    click.echo(f"\r{tally.count} inputs, {len(tally.findings)} findings ", nl=False, err=True)
+def _stands(tally: Tally) -> str:
+    return f"{tally.count:,} inputs, {len(tally.findings)} findings"
 
 
 if __name__ == "__main__":

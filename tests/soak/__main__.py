@@ -9,6 +9,7 @@ import click
 
 from tests.soak.measuring import Sample, growth
 from tests.soak.running import Course, run
+from tests.telling import teller
 
 
 @click.command(context_settings={"show_default": True})
@@ -17,7 +18,7 @@ from tests.soak.running import Course, run
 def main(seconds: float, seed: int) -> None:
     """Gate implementations that crash, hang, drip and garble, again and again, and look at what this process holds."""
     before = time.monotonic()
-    course = run(seconds, seed, after=_tell if sys.stderr.isatty() else lambda _: None)
+    course = run(seconds, seed, after=teller(_stands))
     for line in lines(course, time.monotonic() - before):
         click.echo(line)
     sys.exit(1 if course.faults else 0)
@@ -42,8 +43,8 @@ def _shown(held: Sample) -> str:
     return f"{held.resident / 2**20:14.1f} {held.handles:8} {held.threads:8} {held.children:9}"
 
 
-def _tell(course: Course) -> None:
-    click.echo(f"\r{course.rounds} rounds, {len(course.troubles)} troubles ", nl=False, err=True)
+def _stands(course: Course) -> str:
+    return f"{course.rounds} rounds, {len(course.troubles)} troubles"
 
 
 if __name__ == "__main__":
