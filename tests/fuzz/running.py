@@ -26,7 +26,7 @@ BATCH = 200
 """Inputs that a process is given at a time."""
 
 STUCK = 60.0
-"""Seconds without a batch's end after which a process is killed: something there cannot be stopped from within."""
+"""Seconds at one input after which a process is killed: something there cannot be stopped from within."""
 
 MEMORY = 512 << 20
 """Bytes of address space that reading may take beyond what a process has when it begins."""
@@ -106,11 +106,29 @@ def run(count: int, seed: int, names: tuple[str, ...], processes: int, tell=lamb
     return tally
 
 
+class Patience:
+    """Knows whether something has stood still for so many seconds, by where it was whenever that was asked."""
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self.renew()
+
+    def renew(self) -> None:
+        """It begins something else."""
+        self._place, self._since = None, time.monotonic()
+
+    def ends(self, place: int) -> bool:
+        """Whether it has stood at this place for too long."""
+        if place != self._place:
+            self._place, self._since = place, time.monotonic()
+        return time.monotonic() > self._since + self._seconds
+
+
 class _Worker:
     """One process, begun again where it is lost."""
 
     def __init__(self, seed: int, names: tuple[str, ...], patience: float) -> None:
-        self._seed, self._names, self._patience = seed, names, patience
+        self._seed, self._names, self._patience = seed, names, Patience(patience)
         self.batch: tuple[str, int, int] | None = None
         self._begin()
 
@@ -124,13 +142,14 @@ class _Worker:
 
     def give(self, batch: tuple[str, int, int]) -> None:
         """Let it read a batch."""
-        self.batch, self._since = batch, time.monotonic()
+        self.batch = batch
+        self._patience.renew()
         self.ends.send(batch)
 
     @property
     def stuck(self) -> bool:
-        """Whether it has been at one batch for too long."""
-        return time.monotonic() > self._since + self._patience
+        """Whether it has been at one input for too long."""
+        return self._patience.ends(self._at.value)
 
     def take(self, tally: Tally) -> None:
         """Take what it found; where it is lost, note the input it was lost with and go on behind that."""

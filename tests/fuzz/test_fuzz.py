@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.fuzz import running
 from tests.fuzz.bombs import bombs
 from tests.fuzz.judging import judged, stop_hangs, trouble_with
 from tests.fuzz.readers import FAULTY, READERS
-from tests.fuzz.running import run
+from tests.fuzz.running import Patience, run
 
 CORPUS = sorted(path for path in (Path(__file__).parent / "corpus").glob("*/*"))
 BOMBS = bombs()
@@ -66,6 +67,19 @@ def test_a_faulty_reader_is_found_out(name, says):
     tally = run(1, seed=1, names=(name,), processes=1, stuck=6.0 if name == "sleeps" else 60.0)
     assert tally.failed
     assert re.search(says, tally.findings[0].says), tally.findings
+
+
+def test_patience_ends_with_one_input_and_not_with_a_batch(monkeypatch):
+    now = 0.0
+    monkeypatch.setattr(running.time, "monotonic", lambda: now)
+    patience = Patience(60.0)
+    for place in range(5):
+        now += 50.0
+        assert not patience.ends(place)
+    now += 61.0
+    assert patience.ends(4)
+    patience.renew()
+    assert not patience.ends(4)
 
 
 def test_a_reader_that_keeps_memory_is_found_out():
