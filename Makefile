@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack soak kernels test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -45,6 +45,9 @@ kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
 	$(BIN)/python -m tests.attack
+
+pace: $(VENV)/ready-dev ## rows a second of verify from 1e6 to 1e9 rows; ends with 1 where they differ by over 15 %
+	$(BIN)/python -m tests.pace
 
 soak: $(VENV)/ready-dev ## a million damaged inputs for all readers, ten minutes of verify against what crashes and hangs
 	$(BIN)/python -m tests.fuzz --count 1000000

@@ -22,7 +22,7 @@ from hypcheck.rows import CANNOT_SAY, Positions, Rows
 ALONE = 32
 """Cases that are asked one by one."""
 
-ODD, MOST_IN_ODD = 7, 4096
+ODD, MOST_IN_ODD = 7, 1536
 """Rows of an odd question, and cases that are asked in such questions at most."""
 
 TWINS = 64
