@@ -10,6 +10,7 @@ from typing import Any
 from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, Line, Record, read
 from hypcheck.record.reading import file_of
+from hypcheck.report.counts import trouble_with
 from hypcheck.report.json_schema import violations
 from hypcheck.visible import visible
 
@@ -53,5 +54,6 @@ def _check(line: Line, number: int, file: Path, schema: dict[str, Any]) -> None:
     if {"$ref": f"#/$defs/{kind}"} not in schema["oneOf"]:
         return
     wrong = violations(line, schema["$defs"][kind], schema)
-    if wrong:
-        raise InputError(f"{file}: line {number}, {kind}: {visible(wrong[0].removeprefix('$.'))}")
+    trouble = wrong[0].removeprefix("$.") if wrong else trouble_with(line)
+    if trouble:
+        raise InputError(f"{file}: line {number}, {kind}: {visible(trouble)}")

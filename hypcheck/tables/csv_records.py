@@ -6,7 +6,7 @@ import csv
 from itertools import chain, islice, tee
 
 from hypcheck.errors import InputError
-from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
+from hypcheck.tables.lines import BYTE_ORDER_MARK, Block, Lines
 from hypcheck.tables.streams import Reader
 
 
@@ -17,18 +17,33 @@ class Records:
         self.name = reader.name
         self.line = 0
         self.text = ""
-        lines = text_lines(reader)
+        self._lines = Lines(reader)
+        lines = self._lines.each
         first = next(lines, "")
         self.byte_order_mark = BYTE_ORDER_MARK if first.startswith(BYTE_ORDER_MARK) else ""
         # The parser runs over one copy of the lines; what it took for a record is then taken from the other.
         parsed, self._written = tee(chain([first.removeprefix(BYTE_ORDER_MARK)], lines))
         self._parser = csv.reader(parsed, strict=True)
         self._lines_taken = 0
+        self._lines_skipped = 0
+
+    @property
+    def at_block(self) -> bool:
+        """Whether the next records may be a block."""
+        return self._lines.at_block(self._lines_taken)
+
+    def block(self) -> Block | None:
+        """The next records as a block without quotes, in which every line is one; None where they are none."""
+        block = self._lines.block(self._lines_taken, avoiding=b'"')
+        if block is not None:
+            self._lines_taken += block.count
+            self._lines_skipped += block.count
+        return block
 
     def next(self) -> list[str] | None:
         """The cells of the next record that is not blank, None at the end. Raises InputError on broken quoting."""
         while (record := self._parsed()) is not None:
-            begin, self._lines_taken = self._lines_taken, self._parser.line_num
+            begin, self._lines_taken = self._lines_taken, self._lines_skipped + self._parser.line_num
             self.line = begin + 1
             count = self._lines_taken - begin
             self.text = next(self._written) if count == 1 else "".join(islice(self._written, count))

@@ -6,7 +6,7 @@ Blank lines are left out; line ends become those of the header; a byte order mar
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import chain
@@ -21,6 +21,7 @@ from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Un
 from hypcheck.tables.columns import ADDED, check_names
 from hypcheck.tables.csv_records import Records
 from hypcheck.tables.examine import Places, examine
+from hypcheck.tables.lines import Block
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text
 from hypcheck.tables.streams import Reader, Writer
 
@@ -76,22 +77,44 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
     pick = itemgetter(*columns)
     count = 0
     while True:
+        while (block := records.block()) is not None:
+            places = Places(records.name, count, range(block.first, block.first + block.count))
+            yield partial(_chunk_of_block, block, width, pick, places, mark=mark)
+            count += block.count
+        lines: list[int] = []
         cells: list[tuple[str, ...]] = []
         texts: list[str] = []
-        places = Places(records.name, count, [])
+        places = Places(records.name, count, lines)
         while len(texts) < CHUNK and (record := records.next()) is not None:
-            places.lines.append(records.line)
-            if len(record) != width:
-                noun = "cell" if len(record) == 1 else "cells"
-                raise InputError(f"{places.of(len(texts))}: {len(record)} {noun}; the header has {width}")
+            lines.append(records.line)
+            _require_width(record, width, places, len(texts))
             cells.append(pick(record))
             texts.append(records.text.rstrip("\r\n"))
+            if records.at_block:
+                break
         if not texts:
             break
         yield partial(_chunk, cells, texts, places, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")
+
+
+def _require_width(record: Sequence[str], width: int, places: Places, index: int) -> None:
+    if len(record) != width:
+        noun = "cell" if len(record) == 1 else "cells"
+        raise InputError(f"{places.of(index)}: {len(record)} {noun}; the header has {width}")
+
+
+def _chunk_of_block(
+    block: Block, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: Places, *, mark: bool
+) -> Chunk:
+    """Without quotes, what stands between two commas is a cell."""
+    texts = block.plain_lines()
+    records = [text.split(",") for text in texts]
+    for index, record in enumerate(records):
+        _require_width(record, width, places, index)
+    return _chunk(list(map(pick, records)), texts, places, mark=mark)
 
 
 def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: Places, *, mark: bool) -> Chunk:

@@ -23,7 +23,7 @@ class Places:
 
     name: str
     rows_before: int
-    lines: list[int]
+    lines: Sequence[int]
 
     def of(self, index: int) -> str:
         """How a message names a row of the chunk."""

@@ -22,7 +22,7 @@ from hypcheck.rows import Rows, invalid
 from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Unread
 from hypcheck.tables.columns import ADDED, check_names
 from hypcheck.tables.examine import Places, examine
-from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
+from hypcheck.tables.lines import BYTE_ORDER_MARK, Block, Lines
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
 from hypcheck.tables.streams import Reader, Writer
 from hypcheck.tables.strict_json import strict_decoder
@@ -74,28 +74,37 @@ def _object(row: list[float]) -> str:
 
 _FAST, _THOROUGH = strict_decoder(), strict_decoder(Literal)
 _PICK = itemgetter(*COLUMNS)
+_BLANKS = " \t\r\n"
 _CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[Unread]:
-    lines = enumerate(text_lines(reader), start=1)
-    count = 0
+    lines, number, count = Lines(reader), 0, 0
     while True:
-        texts: list[str] = []
-        places = Places(reader.name, count, [])
-        for number, line in lines:
-            text = line.strip(" \t\r\n") if number > 1 else line.removeprefix(BYTE_ORDER_MARK).strip(" \t\r\n")
+        while (block := lines.block(number)) is not None:
+            number += block.count
+            places = Places(reader.name, count, range(block.first, block.first + block.count))
+            yield partial(_chunk_of_block, block, places, mark=mark)
+            count += block.count
+        texts, numbers = [], []
+        for line in lines.each:
+            number += 1
+            text = line.strip(_BLANKS) if number > 1 else line.removeprefix(BYTE_ORDER_MARK).strip(_BLANKS)
             if text:
                 texts.append(text)
-                places.lines.append(number)
-                if len(texts) == CHUNK:
-                    break
+                numbers.append(number)
+            if len(texts) == CHUNK or (texts and lines.at_block(number)):
+                break
         if not texts:
             break
-        yield partial(_chunk, texts, places, mark=mark)
+        yield partial(_chunk, texts, Places(reader.name, count, numbers), mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
+
+
+def _chunk_of_block(block: Block, places: Places, *, mark: bool) -> Chunk:
+    return _chunk([line.rstrip(_BLANKS) for line in block.plain_lines()], places, mark=mark)
 
 
 def _chunk(texts: list[str], places: Places, *, mark: bool) -> Chunk:

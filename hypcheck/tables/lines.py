@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain
 
 from hypcheck.errors import InputError
@@ -15,30 +17,93 @@ LONGEST = 1 << 20
 
 BYTE_ORDER_MARK = "\ufeff"
 
+_LONGEST_PLAIN = 1 << 16
+_AMISS = re.compile(rb"(?:\A|\n)[\x00-\x20]|\x00|\r(?!\n)")
+"""A line that is blank or begins as one, a NUL, a carriage return that ends no line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Some whole lines of a text, the first of which has this number."""
+
+    first: int
+    data: bytes
+
+    @property
+    def count(self) -> int:
+        """How many lines they are; the last of a text may have no end."""
+        return self.data.count(b"\n") + (not self.data.endswith(b"\n"))
+
+    def is_plain(self, avoiding: bytes) -> bool:
+        """Whether every line is short, ASCII, and not blank, and none of these bytes is in them."""
+        data = self.data
+        if not data.isascii() or (avoiding and avoiding in data) or _AMISS.search(data):
+            return False
+        return max(map(len, data.split(b"\n"))) <= _LONGEST_PLAIN
+
+    def plain_lines(self) -> list[str]:
+        """The lines of a plain block without their ends."""
+        text = self.data.decode("ascii").replace("\r\n", "\n")
+        return text.removesuffix("\n").split("\n")
+
+
+class Lines:
+    """A text by lines: one after the other, or where a block begins, if it is plain, the block as a whole."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.name = reader.name
+        self._blocks = _blocks(reader)
+        self._ahead: Block | None = None
+        self._given = 0
+        self.each: Iterator[str] = chain.from_iterable(self._opened())
+        """The lines, each with its end (LF or CRLF); a byte order mark stays at the start of the first.
+
+        Raises InputError, naming the line, on bytes that are not UTF-8, on NUL and on a line beyond LONGEST.
+        """
+
+    def at_block(self, taken: int) -> bool:
+        """Whether a block begins, or the text ends, behind the first `taken` lines."""
+        return taken == self._given
+
+    def block(self, taken: int, avoiding: bytes = b"") -> Block | None:
+        """The next block, if `taken` lines are all before it, and it is plain. Raises InputError as `each` does."""
+        if not self.at_block(taken):
+            return None
+        if self._ahead is None:
+            self._ahead = next(self._blocks, None)
+        if self._ahead is None or not self._ahead.is_plain(avoiding):
+            return None
+        block, self._ahead = self._ahead, None
+        self._given += block.count
+        return block
+
+    def _opened(self) -> Iterator[list[str]]:
+        while (block := self._ahead or next(self._blocks, None)) is not None:
+            self._ahead = None
+            self._given += block.count
+            yield _lines(block.data, self.name, block.first)
+
 
 def text_lines(reader: Reader) -> Iterator[str]:
-    """The lines, each with its end (LF or CRLF); a byte order mark stays at the start of the first.
-
-    Raises InputError, naming the line, on bytes that are not UTF-8, on NUL and on a line beyond LONGEST.
-    """
-    return chain.from_iterable(_blocks(reader))
+    """The lines of a text, as Lines has each."""
+    return Lines(reader).each
 
 
-def _blocks(reader: Reader) -> Iterator[list[str]]:
+def _blocks(reader: Reader) -> Iterator[Block]:
     number, rest = 1, b""
-    while block := reader.read(BLOCK):
-        block = rest + block
-        cut = block.rfind(b"\n") + 1
-        rest = block[cut:]
+    while data := reader.read(BLOCK):
+        data = rest + data
+        cut = data.rfind(b"\n") + 1
+        rest = data[cut:]
         if len(rest) > LONGEST:
-            line = number + block.count(b"\n", 0, cut)
+            line = number + data.count(b"\n", 0, cut)
             raise InputError(f"{reader.name}, line {line}: longer than {LONGEST} bytes; a row is one short line")
         if cut:
-            lines = _lines(block[:cut], reader.name, number)
-            number += len(lines)
-            yield lines
+            block = Block(number, data[:cut])
+            number += block.count
+            yield block
     if rest:
-        yield _lines(rest, reader.name, number)
+        yield Block(number, rest)
 
 
 def _lines(block: bytes, name: str, first: int) -> list[str]:

@@ -77,6 +77,12 @@ def test_a_curve_s_marks_stand_where_their_octaves_are():
     assert legends == ["none of n wrong: at most 3/n (95 %)", "m"]
 
 
+def test_cases_that_nothing_changes_have_no_place_on_a_curve():
+    found = curve("one", {-3.0: (5, 1), math.inf: (7, 7)})
+    assert [(octave.exponent, octave.asked, octave.wrong) for octave in found.octaves] == [(-3.0, 5, 1)]
+    assert curve("none", {math.inf: (7, 0)}).octaves == ()
+
+
 def test_many_curves_are_shared_out_evenly():
     assert [len(part) for part in in_parts(range(9))] == [4, 5]
     assert [len(part) for part in in_parts(range(8))] == [8]

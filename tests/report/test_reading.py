@@ -40,6 +40,11 @@ def test_a_record_from_its_file_or_its_folder(tmp_path, body):
         ("group", {"worst": [{}]}, "worst[0] lacks answer, backward_error, "),
         ("oracle", {"asked": -4}, "asked is -4, below 0"),
         ("timing", {"samples_ns": ["\x1b[31m"]}, r"samples_ns[0] is '\x1b[31m', not number"),
+        ("group", {"octaves": {"-in\u202e": {}}}, "octaves has '-in\\u202e', which is neither a small whole number"),
+        ("group", {"octaves": {"12345": {}}}, "octaves has '12345', which is neither a small whole number"),
+        ("group", {"size_bins": [[0, 0, 3, 4]]}, "size_bins[0] has 4 wrong answers of 3"),
+        ("group", {"place_bins": [[0, 0, 3, 2], [0, 10**5, 1, 1]]}, "place_bins[1] is at 100000"),
+        ("group", {"place_bins": [[0, 0, -3, -4]]}, "place_bins[0] has -4 wrong answers of -3"),
         ("map", {"lines": ["x" * 10**6]}, "lines[0] is 'xxxxxxxxxxxxxxxxx"),
     ],
 )
@@ -50,6 +55,21 @@ def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
         read_checked(written(tmp_path, body))
     assert f"record.jsonl: line {number}, {kind}: {said}" in str(caught.value)
     assert len(str(caught.value)) < 1000
+
+
+@pytest.mark.parametrize(
+    ("octaves", "said"),
+    [
+        ([[-3, 2, 3]], "octaves[0] has 3 wrong answers of 2"),
+        ([["-inf", 2, 1], [10**5, 1, 1]], "octaves[1] is at 100000; it must be between"),
+        ([[-3, "-inf", 3]], "octaves[0] has a count that is no number"),
+    ],
+)
+def test_counts_that_cannot_be_are_named(tmp_path, octaves, said):
+    body = [{**line, "octaves": octaves} if line["type"] == "accuracy" else line for line in bench_lines.lines()]
+    with pytest.raises(InputError) as caught:
+        read_checked(written(tmp_path, body))
+    assert f", accuracy: {said}" in str(caught.value)
 
 
 @pytest.mark.parametrize("constant", ["NaN", "Infinity"])

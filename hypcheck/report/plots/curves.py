@@ -84,11 +84,13 @@ def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
 
     Points of few cases each would hide the curve behind their scatter.
     """
-    finite = [exponent for exponent in octaves if exponent != TANGENT]
+    finite = [exponent for exponent in octaves if math.isfinite(exponent)]
     width = STEP if finite and max(finite) - min(finite) > MANY else 1
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for exponent, (cases, errors) in octaves.items():
+        if exponent == math.inf:  # no change of the inputs alters the answer: on no scale is there a place for it
+            continue
         start = exponent if exponent == TANGENT else exponent // width * width
         asked[start] += cases
         wrong[start] += errors
