@@ -30,12 +30,17 @@ class Certificate:
 
 
 def check_certificate(pair: Pair, certificate: Certificate) -> bool:
-    """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone."""
+    """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
+
+    Numbers of other types are taken as the rationals that they are: with one float all would be rounded, and g > 0
+    could come of that. Raises ValueError for a claim that is no position, and for NaN.
+    """
     alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
     A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
-    at, m = certificate.multiplier, certificate.double_root
-    if certificate.position is not Position.CONTACT:
-        if at is None or not (0 < at < B if certificate.position is Position.EXTERIOR else -A < at < 0):
+    at, m = (None if each is None else Fraction(each) for each in (certificate.multiplier, certificate.double_root))
+    claim = Position(certificate.position)
+    if claim is not Position.CONTACT:
+        if at is None or not (0 < at < B if claim is Position.EXTERIOR else -A < at < 0):
             return False
         return (A + at) * (B - at) * (P + Q - 1 - at) - A * P * (B - at) - B * Q * (A + at) > 0
     if m is not None:
@@ -44,7 +49,7 @@ def check_certificate(pair: Pair, certificate: Certificate) -> bool:
         ring = m == B and -c2 - 2 * m < B
         return double and m != 0 and -A <= m <= B and not ring
     sides = set()
-    for u, v, w in certificate.points:
+    for u, v, w in (map(Fraction, point) for point in certificate.points):
         if ((u - x) ** 2 + (v - y) ** 2) / b**2 + ((w - z) / d) ** 2 > 1:
             return False
         height = (u * u + v * v) / alpha**2 - (w / gamma) ** 2 - 1

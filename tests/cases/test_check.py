@@ -91,6 +91,12 @@ def _proves(case, witness):
     return P * at / (A + at) - Q * at / (B - at) - 1 - at > 0
 
 
+def test_a_clear_pair_is_not_tangent_whatever_else_is_in_its_certificate():
+    for case in (CLEAR, INSIDE):
+        both = replace(case.witness, double_root=Fraction(1))
+        assert any("the certificate" in sentence for sentence in sentences(case, tangent=True, witness=both))
+
+
 @pytest.mark.parametrize(
     "offsets",
     [
@@ -240,6 +246,15 @@ def test_the_command_goes_on_after_a_wrong_label_and_ends_at_a_malformed_file(tm
     found = capsys.readouterr()
     assert "case tangent-0000" in found.out
     assert found.err.startswith(f"hypcheck: error: {bad}, line 1: ")
+
+
+@pytest.mark.parametrize("name", ["tangent", "invalid"])
+def test_a_file_without_cases_is_no_file_whose_labels_hold(tmp_path, capsys, name):
+    document = json.loads(vectors.path_of(name).read_text(encoding="utf-8"))
+    path = tmp_path / "empty.json"
+    path.write_text(json.dumps({**document, "count": 0, "cases": []}), encoding="utf-8")
+    assert main(["cases", "check", str(path)]) == 2
+    assert capsys.readouterr().err == f"hypcheck: error: {path} has no cases; nothing was checked\n"
 
 
 def test_the_command_checks_rows_to_be_refused_as_well(tmp_path, capsys):

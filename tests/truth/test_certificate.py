@@ -65,6 +65,24 @@ def test_a_flawed_proof_is_refused(pair, certificate, flaw):
     assert not check_certificate(pair, certificate), flaw
 
 
+def test_what_rounding_makes_positive_is_no_proof():
+    """At the double root −4/7 of a tangency g is 0, and above 0 in floats: a float must not spoil the arithmetic."""
+    tangent = Pair(14.0, 0.109375, 7.0, 0.109375, -18.0, -12.0, -0.2578125)
+    root = Fraction(-4, 7)
+    assert check_certificate(tangent, Certificate(Position.CONTACT, double_root=root))
+    assert not check_certificate(tangent, Certificate(Position.INTERIOR, multiplier=float(root)))
+    assert not check_certificate(tangent, Certificate(Position.CONTACT, double_root=float(root)))
+
+
+def test_a_position_given_as_a_bare_integer_is_that_position():
+    inside = Pair(4, 4, 1, 1, 0, 0, 0)
+    assert check_certificate(inside, Certificate(-1, multiplier=Fraction(-8)))
+    assert not check_certificate(inside, Certificate(1, multiplier=Fraction(-8)))
+    assert not check_certificate(inside, Certificate(0, multiplier=Fraction(-8)))
+    with pytest.raises(ValueError, match="7 is not a valid Position"):
+        check_certificate(inside, Certificate(7, multiplier=Fraction(-8)))
+
+
 @given(pairs)
 def test_a_proof_of_one_position_proves_no_other(pair):
     certificate = prove(pair)

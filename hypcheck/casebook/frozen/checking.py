@@ -78,7 +78,7 @@ def _unproved(case: Vector, pair: Pair) -> Iterator[str]:
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     if not check_certificate(pair, case.witness.certificate(pair, case.position)):
         yield f"the certificate does not prove {claim}"
-    elif case.tangent != (case.witness.double_root is not None):
+    elif case.tangent != (case.position is Position.CONTACT and case.witness.double_root is not None):
         yield f"the certificate is not one of a pair that is {claim}"
     elif case.position is Position.CONTACT and not case.tangent and not shows_crossing(pair, case.witness.offsets):
         yield "the certificate proves contact, but does not rule tangency out"

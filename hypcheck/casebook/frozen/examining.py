@@ -11,6 +11,7 @@ from hypcheck.casebook.frozen.checking import Fault, faults_of_refusals, faults_
 from hypcheck.casebook.frozen.reading import REFUSALS, content_of, vectors_of
 from hypcheck.casebook.frozen.refusals import refusals_of
 from hypcheck.casebook.frozen.scanning import scan
+from hypcheck.errors import NothingJudgedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +29,18 @@ def shipped() -> list[str]:
 
 
 def examine(paths: Iterable[str]) -> Iterator[Report]:
-    """A report on each file in turn. Raises InputError where one is not wholly as its schema demands."""
+    """A report on each file in turn.
+
+    Raises InputError where one is not wholly as its schema demands, NothingJudgedError where it has no cases.
+    """
     for path in paths:
         document = scan(path)
         if content_of(document, path) == REFUSALS:
             bad = refusals_of(document, path)
-            yield Report(path, len(bad.cases), tuple(faults_of_refusals(bad)))
+            report = Report(path, len(bad.cases), tuple(faults_of_refusals(bad)))
         else:
             file = vectors_of(document, path)
-            yield Report(path, len(file.cases), tuple(faults_of_vectors(file)))
+            report = Report(path, len(file.cases), tuple(faults_of_vectors(file)))
+        if not report.count:
+            raise NothingJudgedError(f"{path} has no cases; nothing was checked")
+        yield report
