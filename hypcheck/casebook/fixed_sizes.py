@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 import re
+import struct
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import partial
 
 import numpy as np
@@ -198,21 +198,29 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
-    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 where it never is."""
+    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 or the last of all where it never does."""
 
     def outward(x: float) -> bool:
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
         return position is Position.EXTERIOR if side is Position.EXTERIOR else position is not Position.INTERIOR
 
-    alpha, gamma, b, _ = sizes
-    low, high = 0.0, min(alpha * (1 + abs(z) / gamma) + b, sys.float_info.max)
-    if outward(low):
-        return low
-    while not outward(high):
-        low, high = high, 2 * high
-    while low < (middle := float((Fraction(low) + Fraction(high)) / 2)) < high:
-        low, high = (low, middle) if outward(middle) else (middle, high)
-    return high
+    if outward(0.0):
+        return 0.0
+    # Halving how many floats lie between them takes 63 steps at any scale; halving their distance up to two thousand.
+    first, last = 0, _ordinal(sys.float_info.max)
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (first, middle) if outward(_float_at(middle)) else (middle, last)
+    return _float_at(last)
+
+
+def _ordinal(x: float) -> int:
+    """How many floats lie between 0 and x ≥ 0."""
+    return int.from_bytes(struct.pack(">d", x), "big")
+
+
+def _float_at(ordinal: int) -> float:
+    return float(struct.unpack(">d", ordinal.to_bytes(8, "big"))[0])
 
 
 TRAPS = (

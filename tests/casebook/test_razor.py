@@ -1,0 +1,63 @@
+"""The last float before contact and the first in it, for sizes of any scale, found without a long search."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.casebook import fixed_sizes
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import exact
+
+SIDES = (Position.EXTERIOR, Position.INTERIOR)
+SIZES = (
+    (2.0, 17.8, 0.25, 0.15),
+    (2.0, 17.8, 0.25, 1.1e307),
+    (1e-300, 1e300, 1e-308, 5e-324),
+    (1e300, 1e-300, 1e290, 1e-10),
+)
+
+
+def position(sizes, x, z):
+    return exact.position(Pair(*sizes, x, 0.0, z).lengths)
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("z", [0.0, -1.0, 17.8])
+def test_a_step_inward_from_the_edge_is_on_the_other_side_of_it(sizes, z):
+    for side in SIDES:
+        x = fixed_sizes._edge(sizes, z, side)
+        assert x == sys.float_info.max or is_beyond(sizes, x, z, side)
+        assert x == 0.0 or not is_beyond(sizes, math.nextafter(x, 0.0), z, side)
+
+
+def is_beyond(sizes, x, z, side):
+    """Whether it is exterior, or no longer interior."""
+    return (position(sizes, x, z) is side) == (side is Position.EXTERIOR)
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypatch):
+    asked = []
+
+    def counted(lengths):
+        asked.append(lengths)
+        return decide(lengths)
+
+    decide = exact.position
+    monkeypatch.setattr(fixed_sizes.exact, "position", counted)
+    for side in SIDES:
+        asked.clear()
+        fixed_sizes._edge(sizes, 1.0, side)
+        assert len(asked) <= 64
+
+
+@given(st.floats(0.0, sys.float_info.max))
+def test_a_float_s_ordinal_is_its_own(x):
+    ordinal = fixed_sizes._ordinal(x)
+    assert fixed_sizes._float_at(ordinal) == x
+    assert ordinal == 0 or fixed_sizes._float_at(ordinal - 1) == math.nextafter(x, 0.0)
