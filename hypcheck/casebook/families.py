@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
 from hypcheck.casebook import (
@@ -24,6 +23,7 @@ from hypcheck.casebook import (
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair
+from hypcheck.suggesting import advice
 
 FAMILIES: dict[str, Family] = {
     family.name: family
@@ -59,7 +59,7 @@ def select(patterns: Sequence[str] = ()) -> tuple[Family, ...]:
         known = FAMILIES if len(pattern) <= _LONGEST_PATTERN else {}
         named = {name for name, family in known.items() if _asks_for(pattern, family)}
         if not named:
-            raise InputError(f"there is no family {pattern!r}; {_hint(pattern)}")
+            raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
         chosen |= named
     return tuple(family for name, family in FAMILIES.items() if name in chosen)
 
@@ -82,7 +82,7 @@ def parse_case_id(text: str) -> CaseId:
     name, version, seed, index = match.group(1), *map(int, match.groups()[1:])
     family = fixed_sizes.family_at(name) if fixed_sizes.MARK in name else FAMILIES.get(name)
     if family is None:
-        raise InputError(f"case {text!r}: there is no family {name!r}; {_hint(name)}")
+        raise InputError(f"case {text!r}: there is no family {name!r}; {_advice(name)}")
     if version != family.version:
         raise InputError(f"case {text!r}: this version makes {name} by generator {family.version}, not {version}")
     return CaseId(family, seed, index)
@@ -103,6 +103,5 @@ def _asks_for(pattern: str, family: Family) -> bool:
     return fnmatchcase(family.name, pattern)
 
 
-def _hint(name: str) -> str:
-    near = get_close_matches(name[:_LONGEST_PATTERN], [*FAMILIES, EXTREME], n=3, cutoff=0.5)
-    return f"near to it: {', '.join(near)}" if near else f"there are: {', '.join(FAMILIES)}"
+def _advice(name: str) -> str:
+    return advice(name, [*FAMILIES, EXTREME])

@@ -7,7 +7,6 @@ neither sympy nor mpmath.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from hypcheck.casebook.frozen.reading import read_vectors
 from hypcheck.casebook.frozen.refusals import RefusalFile, read_refusals
 from hypcheck.errors import InputError
 from hypcheck.rows import Positions, Rows
+from hypcheck.suggesting import advice
 
 NAMES = (*FAMILIES, cancellation.NAME)
 """The files of cases with answers; refusals.NAME is the one of rows without."""
@@ -43,9 +43,7 @@ def path_of(name: str) -> Path:
     """The file of that name, NAMES or refusals.NAME. Raises InputError where there is none of that name."""
     known = (*NAMES, refusals.NAME)
     if name not in known:
-        near = get_close_matches(name, known, n=3, cutoff=0.5)
-        hint = f"near to it: {', '.join(near)}" if near else f"there are: {', '.join(known)}"
-        raise InputError(f"there are no frozen vectors {name!r}; {hint}")
+        raise InputError(f"there are no frozen vectors {name!r}; {advice(name, known)}")
     return folder() / f"{name}.json"
 
 

@@ -8,8 +8,10 @@ from typing import Any
 import click
 
 from hypcheck.cli.exits import Exit
+from hypcheck.cli.options import Number
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
+from hypcheck.errors import InputError
 
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
@@ -25,7 +27,7 @@ from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 @click.option("--rounds", type=Whole(1), help="Rounds in each process.  [default: 5; quick: 3]")
 @click.option("--workers", type=Whole(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to be held to.")
-@click.option("--max-slowdown", type=float, default=1.1, show_default=True, help="What --baseline allows.")
+@click.option("--max-slowdown", type=Number(1), help="What --baseline allows.  [default: 1.1]")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
 @click.option(
@@ -47,11 +49,13 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from tempfile import TemporaryDirectory
 
     from hypcheck.bench import run
-    from hypcheck.bench.plan import FULL, QUICK, BenchPlan
+    from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
     from hypcheck.cli.verify import names_in
     from hypcheck.processes import usable_processors
 
     quick = options["quick"]
+    if options["max_slowdown"] is not None and options["baseline"] is None:
+        raise InputError("--max-slowdown holds a run to an earlier one; name that one with --baseline")
     plan = BenchPlan(
         specs=specs,
         methods=names_in(options["methods"]),
@@ -63,7 +67,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         rounds=options["rounds"] or (3 if quick else 5),
         workers=options["workers"] or usable_processors(),
         baseline=options["baseline"],
-        max_slowdown=options["max_slowdown"],
+        max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
         kernel=options["kernel"],
         forest=options["forest"],
         scenes=options["scene"],
@@ -85,7 +89,6 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
 def _refuse_replacing(baseline: Path | None, out: Path) -> None:
     """A run found slower would be the baseline of the next, which would find nothing."""
-    from hypcheck.errors import InputError
     from hypcheck.record.reading import file_of
     from hypcheck.tables.streams import same_file
 

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import click
 
+from hypcheck.cli.groups import Group
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import InputError
 
 _FORMATS = ("json", "csv", "npy")
 
 
-@click.group(short_help="List, show, generate and check certified test vectors.")
+@click.group(cls=Group, short_help="List, show, generate and check certified test vectors.")
 def cases() -> None:
     """Certified test vectors: rows, right answers, and a proof of each answer.
 

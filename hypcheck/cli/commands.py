@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 
 import click
 
 from hypcheck.cli.exits import Exit
+from hypcheck.cli.groups import Group
 from hypcheck.version import VERSION
 
 COMMANDS = {
@@ -34,7 +34,7 @@ _WORDS = f"{__name__}.words"
 """Where a context keeps what stands behind the command: who asks for help gets it, whatever the settings are."""
 
 
-class LazyGroup(click.Group):
+class LazyGroup(Group):
     """A group whose commands are those of COMMANDS."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
@@ -54,19 +54,14 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does, with a better word about a command that is not there."""
-        name, ctx.meta[_WORDS] = args[0], args[1:]
-        if name in COMMANDS or name.startswith("-"):
-            return super().resolve_command(ctx, args)
-        near = get_close_matches(name, COMMANDS, n=1)
-        advice = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
-        raise click.UsageError(f"there is no command {name!r}; {advice}", ctx)
+        """As every group, keeping the words behind the command."""
+        ctx.meta[_WORDS] = args[1:]
+        return super().resolve_command(ctx, args)
 
 
 @click.group(
     cls=LazyGroup,
     epilog="Exit codes: " + "; ".join(f"{code:d} {code.meaning}" for code in Exit) + ".",
-    no_args_is_help=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 @click.version_option(VERSION, message="%(prog)s %(version)s")

@@ -14,6 +14,7 @@ from enum import IntEnum
 import click
 
 from hypcheck.errors import HypcheckError
+from hypcheck.suggesting import advice
 from hypcheck.visible import sentence
 
 
@@ -99,8 +100,7 @@ def _expected(error: BaseException) -> Ending:
 
 
 def _usage(error: BaseException) -> Ending:
-    message = error.format_message() if isinstance(error, click.ClickException) else str(error)
-    message = sentence(message).rstrip(".")
+    message = sentence(_said(error)).rstrip(".")
     context = error.ctx if isinstance(error, click.UsageError) else None
     command = context.command_path if context else "hypcheck"
     return Ending(
@@ -110,6 +110,13 @@ def _usage(error: BaseException) -> Ending:
             f"hypcheck: '{command} --help' tells what is possible",
         ),
     )
+
+
+def _said(error: BaseException) -> str:
+    if isinstance(error, click.NoSuchOption):
+        meant = advice(error.option_name, error.possibilities or (), most=1, otherwise="")
+        return f"there is no option {error.option_name!r}" + f"; {meant}" * bool(meant.strip())
+    return error.format_message() if isinstance(error, click.ClickException) else str(error)
 
 
 def _system(error: BaseException) -> Ending:

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli.exits import Exit, first_that_applies
-from hypcheck.cli.options import Command, FiniteRange, limits_of, with_limits
+from hypcheck.cli.options import Command, Number, limits_of, with_limits
+from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import NothingJudgedError
 
@@ -26,7 +27,7 @@ SUBJECT = (
     click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
     click.option("--domain", metavar="JSON", help="Where it is asked, in place of what it declares."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u."),
+    click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="In units u."),
     with_limits,
 )
 """How an implementation is opened and judged: options that every command that asks one alone has."""
@@ -85,7 +86,7 @@ Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing)
 
 @click.command(help=_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
-@click.option("--budget", type=FiniteRange(0, min_open=True), help="Seconds.  [default: 60, or none with --queries]")
+@click.option("--budget", type=Number(0, excluded=True), help="Seconds.  [default: 60, or none with --queries]")
 @click.option("--queries", type=Whole(1), help="Rows asked at most; with no --budget the same is found again.")
 @click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
 @click.option("--show", type=Whole(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
@@ -106,6 +107,10 @@ def hunt(
     """Hunt for the budget, and tell what was found; interrupted, what was found until then."""
     from hypcheck.hunt.hunting import Hunt, Plan
 
+    if out is not None:
+        from hypcheck.hunt.keep import require_keepable
+
+        require_keepable(out)
     plan = Plan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
         run = Hunt(target, plan)
@@ -120,7 +125,7 @@ def _pursue(run: Hunt) -> None:
     """Hunt, under a progress bar where a person is watching."""
     from hypcheck.hunt.search import hunt as pursue
 
-    if not sys.stderr.isatty():
+    if not is_terminal(sys.stderr):
         pursue(run)
         return
     with click.progressbar(length=1000, label="hunt", file=sys.stderr, show_pos=False, show_eta=False) as bar:

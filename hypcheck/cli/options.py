@@ -10,7 +10,7 @@ import click
 
 from hypcheck.cli.whole import Whole
 from hypcheck.errors import InputError
-from hypcheck.tables.numbers import is_number
+from hypcheck.tables.numbers import is_number, shown
 
 if TYPE_CHECKING:
     from hypcheck.methods.limits import Limits
@@ -18,22 +18,37 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class FiniteRange(click.FloatRange):
-    """A number within a range that is one: click takes nan for a number of every range, and inf for one of some."""
+class Number(click.types.FloatParamType):
+    """A finite number from `least` to `greatest`; greater than `least` where that is `excluded`."""
+
+    def __init__(self, least: float, greatest: float = math.inf, *, excluded: bool = False) -> None:
+        self.least = least
+        self.greatest = greatest
+        self.excluded = excluded
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401 - click's
         """The number. Raises click.BadParameter."""
-        number = float(super().convert(value, param, ctx))
-        if not math.isfinite(number):
-            self.fail(f"{number} is not a finite number.", param, ctx)
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        above = self.least < number if self.excluded else self.least <= number
+        if not (math.isfinite(number) and above and number <= self.greatest):
+            wanted = f"a number, {'greater than' if self.excluded else 'at least'} {self.least:g}"
+            wanted += "" if math.isinf(self.greatest) else f" and at most {self.greatest:g}"
+            self.fail(f"{shown(str(value))} must be {wanted}.", param, ctx)
         return number
 
 
 _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}
 
+_SECONDS = Number(0, excluded=True)
+
 _LIMITS = (
-    click.option("--startup-timeout", type=float, default=30.0, show_default=True, help="Seconds until it is ready."),
-    click.option("--timeout", type=float, default=10.0, show_default=True, help="Seconds without progress."),
+    click.option(
+        "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it is ready."
+    ),
+    click.option("--timeout", type=_SECONDS, default=10.0, show_default=True, help="Seconds without progress."),
     click.option("--restarts", type=Whole(0), default=20, show_default=True, help="After crashes and hangs."),
     click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
 )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import repeat
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
@@ -18,13 +19,23 @@ _SOONEST, _FIRST = 0.1, 1.0
 """Seconds between two looks of a bar, and until it foretells anything."""
 
 
+def is_terminal(stream: TextIO | None) -> bool:
+    """Whether a person may be watching; a stream whose descriptor was closed is None."""
+    return stream is not None and stream.isatty()
+
+
+def in_colour() -> bool:
+    """Whether standard output shows colours, and nobody wants none (https://no-color.org)."""
+    return is_terminal(sys.stdout) and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
 @contextmanager
 def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> Iterator[Pace]:
     """A bar of so many steps, of which some were `done` before.
 
     `length` is None where it is not known, `unit` what is counted in a second, where many pass.
     """
-    if length == 0 or not sys.stderr.isatty():
+    if length == 0 or not is_terminal(sys.stderr):
         yield Pace(None, unit)
         return
     with click.progressbar(

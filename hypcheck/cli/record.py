@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hypcheck.cli.exits import Exit
+from hypcheck.cli.groups import Group
 from hypcheck.tables.route import STREAM
 from hypcheck.visible import visible
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from hypcheck.record.repairing import Condition
 
 
-@click.group("record", short_help="Check a record's checksums, and save what is good of a damaged one.")
+@click.group("record", cls=Group, short_help="Check a record's checksums, and save what is good of a damaged one.")
 def record_() -> None:
     """Look after a record.jsonl, whose every line has a checksum."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shlex
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from hypcheck.cli.progress import watched
+from hypcheck.cli.progress import in_colour, watched
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
 from hypcheck.visible import visible
 
@@ -108,7 +107,7 @@ def report(record: Record, out: Path) -> None:
     from hypcheck.report.terminal import summary_lines
     from hypcheck.report.write import write_reports
 
-    _tell(record, summary_lines(record, write_reports(record, out), colour=sys.stdout.isatty()))
+    _tell(record, summary_lines(record, write_reports(record, out), colour=in_colour()))
 
 
 def _tell(record: Record, lines: Sequence[str]) -> None:

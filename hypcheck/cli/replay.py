@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from hypcheck.cli.exits import Exit
-from hypcheck.cli.options import FiniteRange, limits_of, with_limits
+from hypcheck.cli.options import Number, limits_of, with_limits
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
@@ -35,7 +35,7 @@ Ends with 0 when the answer is right or tolerated, 1 when it is not, 5 when SPEC
 @click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
 @click.option("--domain", metavar="JSON", help="Where it claims to be right, in place of what it declares.")
-@click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="In units u.")
 @with_limits
 @click.pass_context
 def replay(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from hypcheck.cli.progress import in_colour
 from hypcheck.errors import InputError
 from hypcheck.report.write import REPORTS, kept, write_reports
 from hypcheck.tables.streams import same_file, writing
@@ -90,7 +90,7 @@ def _print(record: Record, name: str, against: Record | None) -> None:
     from hypcheck.report.write import Around
 
     if name == "terminal":
-        for line in summary_lines(record, (), against=against, colour=sys.stdout.isatty()):
+        for line in summary_lines(record, (), against=against, colour=in_colour()):
             click.echo(line)
         return
     content = REPORTS[name].render(record, Around(against=against))

@@ -11,7 +11,6 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -19,6 +18,7 @@ from typing import Any
 from hypcheck import toml
 from hypcheck.cli.whole import LARGEST_COUNT, LARGEST_SEED, wanted
 from hypcheck.errors import InputError
+from hypcheck.suggesting import advice
 
 FILE = "hypcheck.toml"
 
@@ -62,9 +62,7 @@ def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: AN
     where = f"{path}{_line_of(text, key)}"
     check = _KEYS.get(key)
     if check is None:
-        near = get_close_matches(key[:_LONGEST_KEY].replace("-", "_"), _KEYS, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(_KEYS)}"
-        raise InputError(f"{where}: there is no setting {key!r}; {hint}")
+        raise InputError(f"{where}: there is no setting {key!r}; {advice(key, _KEYS, most=1)}")
     try:
         return check(value)
     except ValueError as error:

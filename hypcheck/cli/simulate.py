@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from hypcheck.cli.groups import Group
+from hypcheck.cli.options import Number
 from hypcheck.cli.progress import watched
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
@@ -33,7 +35,7 @@ def common(command: Command) -> Command:
     return command
 
 
-@click.group(short_help="The paper's two applications: a walker among trees, a quadcopter in a tower.")
+@click.group(cls=Group, short_help="The paper's two applications: a walker among trees, a quadcopter in a tower.")
 def simulate() -> None:
     """Simulate the applications of the paper's section 3, with every assumption in a scene file (docs/simulate.md)."""
 
@@ -66,8 +68,10 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
 @click.option("--scene", "name", default="tower", show_default=True, help="A scene file, or tower-simplest.")
 @click.option("--table", type=click.Choice(["5"]), help="Make the paper's Table 5 again.")
 @click.option("--runs", type=Whole(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
-@click.option("--speed", type=float, default=5.0, show_default=True, help="Of the flights in the figure, m/s.")
-@click.option("--time", type=float, default=0.2, show_default=True, help="Their response time, s.")
+@click.option(
+    "--speed", type=Number(1e-6, 1e6), default=5.0, show_default=True, help="Of the flights in the figure, m/s."
+)
+@click.option("--time", type=Number(1e-6, 1e6), default=0.2, show_default=True, help="Their response time, s.")
 @click.option("--workers", type=Whole(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]")
 @common
 def tower(
@@ -98,7 +102,7 @@ def tower(
     if runs is not None and table is None:
         raise InputError("--runs is of the table; it needs --table 5")
     each = (1000 if runs is None else runs) if table is not None else 0
-    plan = TowerPlan(_scene(name), seed, _length("--speed", speed), _length("--time", time), each, flags["continuous"])
+    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"])
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     _make_ready("tower", out)
     count = min(workers or usable_processors(), len(moves))
@@ -119,12 +123,6 @@ def _show(name: str) -> None:
     if name not in shipped_scenes():
         raise InputError(f"--show-scene: {name!r} is no shipped scene; there are {', '.join(shipped_scenes())}")
     click.echo(shipped_text(name), nl=False)
-
-
-def _length(option: str, value: float) -> float:
-    if not 1e-6 <= value <= 1e6:
-        raise InputError(f"{option} is {value!r}; it must be a number from 1e-6 to 1e6")
-    return value
 
 
 def _make_ready(kind: str, out: Path | None) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.options import FiniteRange, limits_of, with_limits
+from hypcheck.cli.options import Number, limits_of, with_limits
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.resuming import folder_of, resumed
 from hypcheck.cli.settings import FILE, Settings
@@ -48,7 +48,7 @@ _COUNT = Whole(1)
 @click.option("--families", help="Names and globs, separated by commas.  [default: all but the extreme ones]")
 @click.option("--count", type=Whole(0), default=400, show_default=True, help="Generated rows of each family.")
 @click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--tolerance", type=FiniteRange(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="In units u.")
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
 @click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,7 +11,19 @@ from hypcheck.casebook.frozen.labels import labelled
 from hypcheck.casebook.frozen.model import Head, Row, VectorFile
 from hypcheck.casebook.frozen.reading import read_vectors
 from hypcheck.casebook.frozen.writing import vectors_text
+from hypcheck.errors import InputError
 from hypcheck.tables.streams import writing
+
+
+def require_keepable(path: str) -> None:
+    """See, before hours are spent, that rows can be kept there. Raises InputError as `keep` would."""
+    if Path(path).exists():
+        read_vectors(path)
+    folder = Path(path).resolve().parent
+    if not folder.is_dir():
+        raise InputError(f"cannot write {path}: there is no folder {folder}")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"cannot write {path}: permission denied")
 
 
 def keep(path: str, rows: Sequence[Row], made_by: str) -> int:

@@ -19,6 +19,7 @@ from hypcheck.methods.formula import by_rows
 from hypcheck.methods.measured import measured_methods
 from hypcheck.methods.method import Answers, Method
 from hypcheck.rows import Rows
+from hypcheck.suggesting import advice
 from hypcheck.truth.mesh import availability as fcl_trouble
 
 PRECISIONS = ("float32", "float64")
@@ -85,5 +86,5 @@ def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist."""
     method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
     if method is None:
-        raise InputError(f"there is no built-in method {name!r}; there are {', '.join(builtin_methods())}")
+        raise InputError(f"there is no built-in method {name!r}; {advice(name, builtin_methods())}")
     return method

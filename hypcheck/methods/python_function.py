@@ -29,6 +29,8 @@ class PythonFunction:
     def __init__(self, target: str, name: str) -> None:
         try:
             module = _of_file(target) if is_file(target) else _of_name(target)
+        except LoadError:
+            raise
         except BaseException as error:  # noqa: BLE001 - foreign code raises anything, SystemExit too
             traceback.print_exc()
             raise LoadError(f"importing {target!r} {told(error)}") from None
@@ -62,7 +64,7 @@ class PythonFunction:
 
 def told(error: BaseException) -> str:
     """What was raised, and where, as the end of a sentence."""
-    frames = traceback.extract_tb(error.__traceback__)
+    frames = [each for each in traceback.extract_tb(error.__traceback__) if not each.filename.startswith("<frozen")]
     text = traceback.format_exception_only(type(error), error)[-1].strip()
     if isinstance(error, SyntaxError):
         return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
@@ -77,6 +79,8 @@ def _of_name(name: str) -> ModuleType:
 
 def _of_file(path: str) -> ModuleType:
     """The file run as a module, with its folder first on the path, as when Python runs it as a script."""
+    if not os.path.isfile(path):
+        raise LoadError(f"there is no file {path!r}")
     path = os.path.abspath(path)
     sys.path.insert(0, os.path.dirname(path))
     name = os.path.basename(path).removesuffix(".py")

@@ -11,6 +11,7 @@ import re
 import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from types import MappingProxyType
 
 from hypcheck.errors import InputError
@@ -37,13 +38,19 @@ class Spec:
 
 def parse_spec(text: str) -> Spec:
     """The SPEC that `text` is; raises InputError saying what would be one."""
-    kind, colon, rest = text.partition(":")
-    if not colon or kind not in _KINDS:
+    kind, _, rest = text.partition(":")
+    if not begins_as_spec(text):
         kinds = ", ".join(f"{name}:" for name in _KINDS)
         raise InputError(f"{_said(text)} begins with none of {kinds}{_meant(text)}")
     if "\0" in text or any("\ud800" <= character < "\udc80" for character in text):
         raise InputError(f"{_said(text)} holds a character that no path or argument can have")
     return Spec(text, kind, _KINDS[kind](text, rest))
+
+
+def begins_as_spec(text: str) -> bool:
+    """Whether a text begins with one of the kinds, as no case and no record does."""
+    kind, colon, _ = text.partition(":")
+    return bool(colon) and kind in _KINDS
 
 
 def _builtin(text: str, rest: str) -> tuple[str, ...]:
@@ -106,10 +113,16 @@ def _said(text: str) -> str:
 
 
 def _meant(text: str) -> str:
+    kind, _, rest = text.partition(":")
+    near = get_close_matches(kind.lower(), _KINDS, n=1)
+    if near and rest:
+        return f"; was {visible(f'{near[0]}:{rest}', 200)} meant?"
     if _LIBRARY.search(text):
         return f"; was library:{visible(text, 200)} meant?"
     if re.search(r"[\w)]:\w+$", text):
         return f"; was python:{visible(text, 200)} meant?"
+    if re.fullmatch(r"[\w-]{1,60}", text):
+        return f"; was builtin:{text} meant, or command:{text}?"
     return "; was it meant to be a command: with its arguments?" if text else ""
 
 

@@ -12,6 +12,7 @@ from hypcheck.casebook.fixed_sizes import MARK
 from hypcheck.casebook.frozen import refusals
 from hypcheck.casebook.frozen.showing import refusal_of, vector_of
 from hypcheck.errors import InputError
+from hypcheck.methods.spec import begins_as_spec
 from hypcheck.pairs import COLUMNS, Pair, trouble_with
 from hypcheck.record import read
 from hypcheck.replay.recorded import recorded_cases
@@ -42,6 +43,8 @@ def case_of(text: str) -> Case:
     RECORD:N is the N-th case of a record.jsonl as reports number them (recorded_cases). The row is as it was asked: a
     zero keeps its sign. Raises InputError saying what is wrong with the text.
     """
+    if begins_as_spec(text):
+        raise InputError(f"CASE is {text!r}, which names an implementation; replay takes CASE SPEC, minimise SPEC CASE")
     recorded = _RECORDED.fullmatch(text)
     if recorded is not None:
         return _from_record(Path(recorded[1]), int(recorded[2][:19]))

@@ -15,6 +15,7 @@ from hypcheck.scene import tables
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Part, Region, Scene
 from hypcheck.scene.moving import flight_of, walk_of
 from hypcheck.scene.tables import Source, Table
+from hypcheck.suggesting import advice
 
 SUFFIX = ".toml"
 
@@ -63,9 +64,8 @@ def _file(name: str) -> tuple[str, str]:
     try:
         return toml.text_of(name), name
     except FileNotFoundError:
-        raise InputError(
-            f"{name}: there is no such file; it must be one, or a shipped scene: {', '.join(shipped_scenes())}"
-        ) from None
+        meant = advice(name.removesuffix(SUFFIX), shipped_scenes(), otherwise="it must be one, or a shipped scene:")
+        raise InputError(f"{name}: there is no such file; {meant}") from None
 
 
 def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:

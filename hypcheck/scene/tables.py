@@ -6,13 +6,13 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
 from hypcheck.errors import InputError
 from hypcheck.scene.model import Point, Span
 from hypcheck.scene.positions import Path, lines_of, nearest_line
+from hypcheck.suggesting import advice
 
 Value = TypeVar("Value")
 Check = Callable[[object], Value]
@@ -50,8 +50,7 @@ class Table:
         self._content: dict[str, Any] = content
         for key in content:
             if key not in keys:
-                near = get_close_matches(key[:_LONGEST].replace("-", "_").lower(), keys, n=1)
-                hint = f"did you mean {near[0]}?" if near else f"it may have {_listed(keys)}"
+                hint = advice(key, keys, most=1, otherwise="it may have")
                 self.refuse(f"{title} has the key {shown(key)}, which is not known; {hint}", key)
 
     def refuse(self, sentence: str, *keys: str | int) -> NoReturn:

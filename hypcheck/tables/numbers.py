@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import re
 
-from hypcheck.pairs import trouble_with
+from hypcheck.pairs import SIZES, trouble_with
 from hypcheck.visible import visible
 
 CHARACTERS = b"0123456789+-.eE \t"
@@ -19,6 +19,8 @@ CHARACTERS = b"0123456789+-.eE \t"
 LONGEST_SHOWN = 40
 _DECIMAL = re.compile(r"[ \t]*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?[ \t]*", re.ASCII)
 """Of digits in one group alone, or the time to refuse them would grow with the square of their number."""
+_NOT_ZERO = re.compile(r"^[^eE]*[1-9]")
+"""A digit other than 0 before the exponent."""
 _UNBOUNDED = re.compile(r"\s*[+-]?(nan|inf|infinity)\s*", re.ASCII | re.IGNORECASE)
 
 
@@ -64,6 +66,8 @@ def number_of_json(name: str, value: object) -> float:
 def _valid(name: str, number: float, text: str) -> float:
     if abs(number) == float("inf"):
         raise ValueError(f"{name} is {text}, which is too large for float64")
+    if number == 0 and name in SIZES and _NOT_ZERO.search(text):
+        raise ValueError(f"{name} is {text}, which is too small for float64; it must be greater than 0")
     trouble = trouble_with(name, number)
     if trouble is not None:
         asked = trouble.partition("; ")[2]

@@ -101,9 +101,9 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; near to it: table-2-float32"),
+        (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; did you mean table-2-float32"),
         (["--workloads", "everywhere"], "there is no workload 'everywhere'"),
-        (["--max-slowdown", "0.9"], "--max-slowdown is 0.9; it must be 1 or more"),
+        (["--max-slowdown", "1.1"], "--max-slowdown holds a run to an earlier one; name that one with --baseline"),
         (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )

@@ -203,7 +203,7 @@ def test_a_case_id_names_its_row(index: int) -> None:
         ("uniform/1/0/01", "no case id"),
         ("uniform/1/0/1 ", "no case id"),
         ("uniform/1/0/٣", "no case id"),
-        ("unifrom/1/0/1", "near to it: uniform"),
+        ("unifrom/1/0/1", "did you mean uniform"),
         ("uniform/999/0/1", "generator"),
     ],
 )

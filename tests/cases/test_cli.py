@@ -97,12 +97,12 @@ def test_a_generated_case_is_shown_like_a_frozen_one(capsys):
     [
         ("ring-9999", "the last one is ring-0239"),
         ("invalid-9999", "the last one is invalid-0095"),
-        ("rnig", "near to it: ring"),
-        ("rnig-0001", "near to it: ring"),
+        ("rnig", "did you mean ring"),
+        ("rnig-0001", "did you mean ring"),
         ("ring-1", "the last one is"),
         ("zzzz", "there are forest-type-1"),
         ("ring/1/0", "no case id"),
-        ("rnig/1/0/1", "near to it: ring"),
+        ("rnig/1/0/1", "did you mean ring"),
         ("", "there are"),
     ],
 )
@@ -152,7 +152,7 @@ def test_generated_rows_can_be_classified(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["rnig"], "near to it: ring"),
+        (["rnig"], "did you mean ring"),
         (["ring*"], "is a pattern; name one family"),
         (["extreme"], "is a pattern"),
         (["worst-cancellation"], "there is no family"),

@@ -68,7 +68,7 @@ CSV = {
     bad_row("1,2,1,1,1e999,0,0"): ", row 2 (line 5): x is 1e999, which is too large for float64",
     bad_row("1,2,0,1,1,0,0"): ", row 2 (line 5): b is 0; a semi-axis must be greater than 0",
     bad_row("1,2,1,-3.0,1,0,0"): ", row 2 (line 5): d is -3.0; a semi-axis must be greater than 0",
-    bad_row("1,2,1,1e-999,1,0,0"): ", row 2 (line 5): d is 1e-999; a semi-axis must be greater than 0",
+    bad_row("1,2,1,1e-999,1,0,0"): ", row 2 (line 5): d is 1e-999, which is too small for float64; it must be greater than 0",
     f'{HEADER},n\n{GOOD},\n1,2,1,1,-,0,0,"a\r\nb\n"\n': ", row 2 (line 3): x is '-'; it must be a decimal number such as 2.5 or -1e-3",
     bad_row("1,2,1,1,1,0"): ", row 2 (line 5): 7 cells; the header has 8",
     bad_row("1,2,1,1,1,0,0,0"): ", row 2 (line 5): 9 cells; the header has 8",

@@ -166,9 +166,10 @@ def test_a_missing_option_is_named(left_out, capsys):
     [
         ((0, 2, 1, 1, 2, 0, 0), "--alpha is 0; a semi-axis must be greater than 0"),
         ((1, -2, 1, 1, 2, 0, 0), "--gamma is -2; a semi-axis must be greater than 0"),
-        ((1, 2, "1e-999", 1, 2, 0, 0), "--b is 1e-999; a semi-axis must be greater than 0"),
+        ((1, 2, "1e-999", 1, 2, 0, 0), "--b is 1e-999, which is too small for float64; it must be greater than 0"),
         ((1, 2, 1, "inf", 2, 0, 0), "--d is 'inf'; it must be finite"),
         ((1, 2, 1, 1, "nan", 0, 0), "--center: x is 'nan'; it must be finite"),
+        (("0e-9", 2, 1, 1, 0, 0, 0), "--alpha is 0e-9; a semi-axis must be greater than 0"),
         ((1, 2, 1, 1, 0, "-1e999", 0), "--center: y is -1e999, which is too large for float64"),
         ((1, 2, 1, 1, 0, 0, "1_0"), "--center: z is '1_0'; it must be a decimal number such as 2.5 or -1e-3"),
         (("٣", 2, 1, 1, 0, 0, 0), "--alpha is '٣'; it must be a decimal number such as 2.5 or -1e-3"),

@@ -7,7 +7,8 @@ import signal
 import subprocess
 import sys
 import time
-from itertools import permutations
+from io import StringIO
+from itertools import permutations, takewhile
 
 import click
 import pytest
@@ -15,6 +16,7 @@ import pytest
 from hypcheck.cli import commands, exits
 from hypcheck.cli.exits import Exit, ending_of, first_that_applies
 from hypcheck.cli.main import main
+from hypcheck.cli.progress import in_colour
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, UnavailableError
 
 HYPCHECK = [sys.executable, "-m", "hypcheck"]
@@ -68,11 +70,18 @@ def test_a_full_disk_is_no_fault_of_ours():
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["classify", "--fromat", "csv"], "--format"),
+        (["classify", "--fromat", "csv"], "there is no option '--fromat'; did you mean --format?"),
+        (["classify", "--utterly-other", "csv"], "there is no option '--utterly-other'"),
         (["clasify"], "did you mean classify?"),
-        (["nothing-like-it"], "the commands are classify, verify"),
-        ([], "missing command"),
+        (["nothing-like-it"], "there are classify, verify"),
+        ([], "missing command; there are classify, verify"),
+        (["cases"], "missing command; there are check, freeze"),
+        (["cases", "chek"], "there is no command 'chek'; did you mean check?"),
         (["classify", "--center", "1", "2"], "--center"),
+        (["hunt", "builtin:fast", "--budget", "0"], "'0' must be a number, greater than 0"),
+        (["bench", "--max-slowdown", "0.9"], "'--max-slowdown': '0.9' must be a number, at least 1"),
+        (["bench", "--max-slowdown", "nan"], "'--max-slowdown': 'nan' must be a number, at least 1"),
+        (["simulate", "tower", "--speed", "1e7"], "'1e7' must be a number, at least 1e-06 and at most 1e+06"),
         (["classify", "--format", "xml"], "'xml'"),
         (["classify", "extra"], "extra"),
     ],
@@ -84,7 +93,40 @@ def test_wrong_usage_is_one_sentence_and_where_to_look(arguments, sentence, caps
     assert output == ""
     assert message.startswith("hypcheck: error: ")
     assert sentence in message
-    assert "--help" in hint
+    assert hint == f"hypcheck: '{' '.join(['hypcheck', *_commands(arguments)])} --help' tells what is possible"
+
+
+def _commands(arguments):
+    """The commands that are named, of which the last one is at fault."""
+    named = takewhile(lambda word: word in ("classify", "bench", "hunt", "cases", "simulate", "tower"), arguments)
+    return list(named)
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_a_gate_ends_as_it_must_though_a_stream_is_closed(stream, monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, stream, None)  # as Python has it where the descriptor is closed
+    arguments = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "0", "--out", str(tmp_path)]
+    assert main(arguments) == Exit.WRONG
+    assert (tmp_path / "report.md").is_file()
+
+
+class Terminal(StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self):  # noqa: D102 - as every stream has it
+        return True
+
+
+@pytest.mark.parametrize(
+    ("environment", "coloured"),
+    [({}, True), ({"NO_COLOR": "1"}, False), ({"NO_COLOR": ""}, True), ({"TERM": "dumb"}, False)],
+)
+def test_a_terminal_is_coloured_unless_nobody_wants_that(environment, coloured, monkeypatch):
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    for name, value in ({"TERM": "xterm"} | environment).items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(sys, "stdout", Terminal())
+    assert in_colour() is coloured
 
 
 def broken(error: BaseException) -> click.Command:

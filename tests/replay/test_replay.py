@@ -201,6 +201,10 @@ def test_text_of_every_formula_can_be_printed(capsys):
         (["1,2,3", "builtin:fast"], "has 3 numbers; it must have 7"),
         (["0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0"),
         (["0x0p+0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0.0"),
+        (
+            ["builtin:fast", "ring-0007"],
+            "CASE is 'builtin:fast', which names an implementation; replay takes CASE SPEC",
+        ),
         (["0x1p+2000,2,1,1,5,0,0", "builtin:fast"], "too large for float64"),
         (["0xg,2,1,1,5,0,0", "builtin:fast"], "it must be a number"),
         (["nan,2,1,1,5,0,0", "builtin:fast"], "it must be finite"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections import Counter
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from hypcheck.casebook import vectors
 from hypcheck.casebook.families import case_id, parse_case_id
@@ -19,6 +18,7 @@ from hypcheck.casebook.frozen.writing import vector_text
 from hypcheck.classification.rationals import readable
 from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS, Position
+from hypcheck.suggesting import advice
 
 WIDTH = 100
 """Columns of a line of running text."""
@@ -178,5 +178,4 @@ def _hint(family: str) -> str:
     if family in vectors.NAMES:
         file: VectorFile = vectors.load(family)
         return f"the last one is {file.cases[-1].id}"
-    near = get_close_matches(family, vectors.NAMES, n=3, cutoff=0.5)
-    return f"near to it: {', '.join(near)}" if near else f"there are {', '.join((*vectors.NAMES, refusals.NAME))}"
+    return advice(family, (*vectors.NAMES, refusals.NAME))

@@ -1,0 +1,38 @@
+"""Groups of commands: what they say of a command that is missing or unknown, and of which command an error is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from hypcheck.suggesting import advice
+
+
+class Group(click.Group):
+    """A group that asks for one of its commands in a sentence, where click would print the whole help as an error."""
+
+    def __init__(self, *given: Any, **named: Any) -> None:  # noqa: ANN401 - click's
+        super().__init__(*given, **{**named, "no_args_is_help": False})
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does, with a better word about a command that is not there. Raises click.UsageError."""
+        name, known = args[0], self.list_commands(ctx)
+        if name in known or name.startswith("-"):
+            return super().resolve_command(ctx, args)
+        raise click.UsageError(f"there is no command {name!r}; {advice(name, known, most=1)}", ctx)
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - what the command returns
+        """As click does; an error tells what commands there are, or whose an option is, which click leaves out."""
+        try:
+            return super().invoke(ctx)
+        except click.UsageError as error:
+            name = ctx.invoked_subcommand
+            command = self.get_command(ctx, name) if name else None
+            if error.ctx is None and command is not None:
+                error.ctx = click.Context(command, parent=ctx, info_name=name)
+            if error.message != "Missing command.":
+                raise
+            raise click.UsageError(f"missing command; there are {', '.join(self.list_commands(ctx))}", ctx) from None
