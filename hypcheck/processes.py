@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
@@ -11,11 +12,14 @@ from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExec
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain, islice
-from multiprocessing import active_children, get_context, resource_tracker
+from multiprocessing import active_children, get_context, parent_process, resource_tracker
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+
+UNWINDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""The signals that end a run in good order."""
 
 
 def usable_processors() -> int:
@@ -40,7 +44,8 @@ def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 @contextmanager
 def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
     """The same, with a process of its own for a single worker too."""
-    executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
+    _begin_resource_tracker()
+    executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
         yield executor
     except BaseException:
@@ -126,9 +131,26 @@ def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers:
     """Each task with its result, in order, done by a process that has done nothing before; `workers` at a time."""
     todo = list(tasks)
     with interrupts_held():  # the thread that starts further processes holds them as long as it lives
-        pool = get_context("spawn").Pool(max(1, workers), maxtasksperchild=1)
+        pool = get_context("spawn").Pool(max(1, workers), initializer=end_with_parent, maxtasksperchild=1)
     with pool:
         yield from zip(todo, pool.imap(function, todo, chunksize=1), strict=True)
+
+
+def end_with_parent() -> None:
+    """From here on this process ends at once, whatever it is at, when the one that started it is gone.
+
+    That one may have been killed, which its processes would not see: those of a pool wait for ever for what they are to
+    do, and others would first finish what nobody asks for any more.
+    """
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def follow() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=follow, name="hypcheck-parent", daemon=True).start()
 
 
 @contextmanager
@@ -141,7 +163,7 @@ def interrupts_held() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    resource_tracker.ensure_running()  # started with the first process, it would let interrupts through again
+    _begin_resource_tracker()
     with interrupts_deferred():
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
@@ -150,9 +172,22 @@ def interrupts_held() -> Iterator[None]:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def _begin_resource_tracker() -> None:
+    """Start Python's process that removes what a killed one leaves; it is to do so without a word.
+
+    Started with the first process of ours, it would let interrupts through again.
+    """
+    quiet = "ignore:resource_tracker:UserWarning"
+    sys.warnoptions.append(quiet)  # with which it starts
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        sys.warnoptions.remove(quiet)
+
+
 @contextmanager
 def interrupts_deferred() -> Iterator[None]:
-    """Ctrl-C and SIGTERM wait until the block is done, and then do what they would have done.
+    """Ctrl-C and the like wait until the block is done, and then do what they would have done.
 
     A mask would not do: Python runs their handlers here whichever thread the system gave them to.
     """
@@ -162,7 +197,7 @@ def interrupts_deferred() -> Iterator[None]:
     came: list[int] = []
     before: dict[signal.Signals, Any] = {}
     try:
-        for each in (signal.SIGINT, signal.SIGTERM):
+        for each in UNWINDING:
             before[each] = signal.getsignal(each)
             if callable(before[each]):
                 signal.signal(each, lambda number, _: came.append(number))

@@ -1,4 +1,4 @@
-"""Processes of our own start whole or not at all, whatever interrupts their parent meanwhile."""
+"""Processes of our own start whole or not at all, whatever interrupts their parent, and none outlives it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import subprocess
 import sys
 
 import pytest
+
+from tests.miniatures import all_gone, needs_proc, token  # noqa: F401
 
 STARTS = """
 import signal, sys, threading, time
@@ -40,3 +42,45 @@ def test_a_parent_that_is_interrupted_has_told_its_processes_what_they_are(name)
     command = [sys.executable, "-c", STARTS.format(name=name)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stderr) == (130, "")
+
+
+BUSY = """
+import sys, time
+from hypcheck.processes import fresh, one_each
+if __name__ == "__main__":
+    with fresh(2) as executor:
+        executor.submit(abs, 1).result()  # the others wait for what they are to do
+        {more}
+        print("begun", flush=True)
+        time.sleep(60)
+"""
+
+
+@needs_proc
+@pytest.mark.parametrize("more", ["executor.submit(time.sleep, 60)", "next(one_each(time.sleep, [0, 60], 2))"])
+def test_no_process_outlives_a_parent_that_is_killed(more, tmp_path, token):  # noqa: F811
+    file = tmp_path / "busy.py"
+    file.write_text(BUSY.format(more=more))
+    with (tmp_path / "said").open("wb") as said:
+        parent = subprocess.Popen([sys.executable, file], stdout=subprocess.PIPE, stderr=said)
+    with parent:
+        assert parent.stdout is not None
+        assert parent.stdout.readline() == b"begun\n"
+        parent.kill()
+    assert all_gone(token) == []
+    assert (tmp_path / "said").read_bytes() == b""
+
+
+LEFT = """
+import os, sys
+from multiprocessing import get_context
+from hypcheck.processes import interrupts_held
+with interrupts_held():
+    held = get_context("spawn").Lock()
+os._exit(0)
+"""
+
+
+def test_what_a_killed_process_leaves_is_removed_without_a_word():
+    done = subprocess.run([sys.executable, "-c", LEFT], capture_output=True, timeout=60, check=True)
+    assert done.stderr == b""

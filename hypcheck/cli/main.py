@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
-from typing import NoReturn
+from typing import Any, NoReturn
 
 INTERRUPTED = (130, 143)
 
@@ -83,19 +83,43 @@ def _silence_stdout() -> None:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """While it lasts, SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed."""
+    """While it lasts, SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed.
+
+    So does SIGHUP, with which a terminal takes leave, unless it is ignored, as nohup has it.
+    """
+    wanted = [each for each in _ENDING if each == signal.SIGTERM or signal.getsignal(each) is not signal.SIG_IGN]
     try:
-        before = signal.signal(signal.SIGTERM, _terminate)
+        before = {each: signal.signal(each, _terminate) for each in wanted}
     except ValueError:  # not in the main thread, where no handler can be set
         yield
         return
+    hook, sys.unraisablehook = sys.unraisablehook, _unraisable
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        sys.unraisablehook = hook
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+
+_ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 def _terminate(_signal: int, _frame: object) -> NoReturn:
     from hypcheck.cli.exits import Terminated
 
     raise Terminated
+
+
+def _unraisable(lost: Any) -> None:  # noqa: ANN401 - its type has a name in typeshed alone
+    """An interrupt that came while an object was freed, where nothing can be raised, comes again a moment later."""
+    if issubclass(lost.exc_type, Exception) or not hasattr(signal, "pthread_kill"):
+        sys.__unraisablehook__(lost)
+        return
+    from threading import Timer, main_thread
+
+    number = signal.SIGINT if lost.exc_type is KeyboardInterrupt else signal.SIGTERM
+    Timer(_MOMENT, signal.pthread_kill, (main_thread().ident, number)).start()
+
+
+_MOMENT = 0.01

@@ -88,12 +88,14 @@ def _ended_early(error: BaseException, growing: Path, *, goes_on: bool) -> None:
         return
     out, path = growing.parent, growing.with_name(FILE)
     growing.replace(path)
-    with suppress(HypcheckError, OSError):
-        record = read(path)
-        write_reports(record, out)
-        _tell(record, [])
     then = f"with --resume {shlex.quote(str(out))} goes on" if goes_on else "begins anew"
-    _say(f"what was finished is in {visible(path)}; the same command {then}")
+    try:
+        with suppress(HypcheckError, OSError):
+            record = read(path)
+            write_reports(record, out)
+            _tell(record, [])
+    finally:  # who interrupts twice is told too
+        _say(f"what was finished is in {visible(path)}; the same command {then}")
 
 
 def _say(sentence: str) -> None:

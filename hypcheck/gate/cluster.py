@@ -169,8 +169,11 @@ def _versions(machine: Mapping[str, Any]) -> dict[str, str | None]:
     return {name: packages.get(name) for name in SAME} | {"python": ".".join(packages["python"].split(".")[:2])}
 
 
+_LOUD = ("distributed", "tornado", "asyncio")
+
+
 def _silence() -> None:
     """Whatever there is to say of the cluster, this process says itself, in a sentence."""
-    for name in ("distributed", *logging.root.manager.loggerDict):
-        if name.split(".")[0] == "distributed":
+    for name in (*_LOUD, *logging.root.manager.loggerDict):
+        if name.split(".")[0] in _LOUD:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -25,6 +25,7 @@ from hypcheck.judge import Criterion
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
+from hypcheck.processes import interrupts_deferred
 from hypcheck.record import Recorder
 
 if TYPE_CHECKING:
@@ -115,7 +116,7 @@ def _gate(
         except StartError:
             raise
         except BaseException:
-            with suppress(OSError):  # on a full disk, what was kept last is what is gone on from
+            with interrupts_deferred(), suppress(OSError):  # of a full disk: what was kept last is gone on from
                 keeper.keep(state)
             lines.add(state, keeper.recorder, finished=False)
             raise

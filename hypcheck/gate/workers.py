@@ -25,7 +25,7 @@ from hypcheck.methods.description import Description
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
 from hypcheck.methods.runs import Allowance
-from hypcheck.processes import interrupts_held
+from hypcheck.processes import end_with_parent, interrupts_held
 
 AHEAD = 32
 """Tasks in hand for each process, so that none is idle while cases are asked again."""
@@ -199,6 +199,7 @@ class Workers:
 
 def _serve(line: Connection, opening: Opening, rules: Rules, declared: Description) -> None:
     """What a worker does: perform the tasks that come, until there are no more or the parent is gone."""
+    end_with_parent()
     keep_memory()
     try:
         with opening.open() as implementation:

@@ -14,6 +14,7 @@ import click
 import pytest
 
 from hypcheck.cli import commands, exits
+from hypcheck.cli import main as cli_main
 from hypcheck.cli.exits import Exit, ending_of, first_that_applies
 from hypcheck.cli.main import main
 from hypcheck.cli.progress import in_colour
@@ -175,6 +176,30 @@ def test_the_handler_of_termination_is_put_back():
         signal.signal(signal.SIGTERM, before)
 
 
+def test_a_terminal_that_is_left_ends_no_run_that_is_to_go_on():
+    """As nohup has it."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with cli_main._terminable():
+            signal.raise_signal(signal.SIGHUP)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+@pytest.mark.parametrize(("name", "error"), [("SIGINT", KeyboardInterrupt), ("SIGTERM", exits.Terminated)])
+def test_an_interrupt_is_not_lost_while_an_object_is_freed(name, error, capsys):
+    class Freed:
+        def __del__(self) -> None:
+            signal.raise_signal(getattr(signal, name))
+
+    with pytest.raises(error), cli_main._terminable():  # noqa: PT012 - it is raised where nothing happens
+        freed = Freed()
+        del freed
+        for _ in range(500):  # and not once for long: a machine that stands still for a while counts that as well
+            time.sleep(0.01)
+    assert capsys.readouterr().err == ""
+
+
 def test_a_command_may_end_with_a_code_of_its_own(monkeypatch, capsys):
     @click.command()
     @click.pass_context
@@ -235,7 +260,7 @@ def test_a_full_output_is_told_in_one_line(arguments):
     assert b"no space left" in done.stderr
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 143)])
 def test_an_interrupted_run_leaves_nothing_half_written(number, code, tmp_path):
     target = tmp_path / "answers.csv"
     target.write_text("what was there")

@@ -66,6 +66,13 @@ def hangs_on_the_ring(rows):
     return exact(rows)
 
 
+def sleeps(rows):
+    """For a minute over every question, once there is a file to tell of it."""
+    Path(os.environ["GATE_TEST_SIGN"]).touch()
+    time.sleep(60)
+    return exact(rows)
+
+
 def refuses(rows):
     valid = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
     answers = np.full(len(rows), 127, dtype=np.int8)

@@ -45,3 +45,21 @@ def test_what_was_finished_is_told(tmp_path, token, number, code, workers):  # n
     assert "TRUNCATED" in (out / "report.md").read_text(encoding="utf-8")
     assert b"::error" in said
     assert all_gone(token) == []
+
+
+@needs_proc
+def test_no_process_outlives_a_run_that_is_killed(tmp_path, token):  # noqa: F811
+    """Its workers have 60 s to wait for a slow implementation, and nobody to tell the answers to."""
+    sign = tmp_path / "sign"
+    words = ["verify", "python:tests.gate.subjects:sleeps", "--out", str(tmp_path / "out"), "--families", "tower-body"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "hypcheck", *words, "--workers", "2", "--timeout", "60"],
+        env={**os.environ, "GATE_TEST_SIGN": str(sign)},
+    )
+    until = time.monotonic() + 60
+    while not sign.exists():
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    process.kill()
+    process.wait()
+    assert all_gone(token) == []

@@ -19,6 +19,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.cli.main import main
+from hypcheck.gate import progress
 from hypcheck.gate.resuming import finished_part
 from hypcheck.record import read
 from hypcheck.record.reading import FILE
@@ -121,6 +122,26 @@ def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_pa
     assert (tmp_path / "summary.json").exists()
 
 
+def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_path, here, monkeypatch):
+    def keeps_late(*some):
+        signal.raise_signal(signal.SIGINT)
+        return keep(*some)
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    keep = progress.Keeper.keep
+    with monkeypatch.context() as patch:
+        patch.setattr(progress.Keeper, "offer", interrupted)
+        patch.setattr(progress.Keeper, "keep", keeps_late)
+        code, said = here(tmp_path)
+    assert code == 130
+    assert f"the same command with --resume {tmp_path} goes on" in said
+    assert read(tmp_path / FILE).of("progress")
+    assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
+    assert came_to(tmp_path) == whole[0]
+
+
 def test_killed_twice(whole, tmp_path, here):
     for more in ([], ["--resume", str(tmp_path)]):
         process = started(tmp_path, *more)
@@ -134,10 +155,10 @@ def test_killed_twice(whole, tmp_path, here):
 def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused, whole, tmp_path, here):
     path = tmp_path / FILE
     path.write_bytes(paused)
-    progress = read(path).lines[-1]
-    assert progress["number"] == 1
-    assert progress["state"]["done"] > 0
-    assert violations(progress, RECORD["$defs"]["progress"], RECORD, closed=True) == []
+    kept = read(path).lines[-1]
+    assert kept["number"] == 1
+    assert kept["state"]["done"] > 0
+    assert violations(kept, RECORD["$defs"]["progress"], RECORD, closed=True) == []
     assert here(tmp_path, "--resume", str(path))[0] == CODE
     assert came_to(tmp_path) == whole[0]
 
