@@ -25,6 +25,7 @@ from hypcheck.tables.streams import Reader, Writer
 
 WIDTH = len(COLUMNS)
 _COPIED_AT_ONCE = 1 << 20
+_BEYOND = 1 << 63
 
 
 def read_npy(reader: Reader, *, mark: bool) -> Table:
@@ -75,6 +76,8 @@ def _layout(reader: Reader) -> _Layout:
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
+    if max(map(abs, shape), default=0) >= _BEYOND:  # which could have more digits than Python writes
+        raise InputError(f"{reader.name} has a shape beyond 2^63; it must be (n, 7): {', '.join(COLUMNS)}")
     if len(shape) != 2 or shape[1] != WIDTH or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be (n, 7): {', '.join(COLUMNS)}")
     if shape[0] == 0:

@@ -25,6 +25,7 @@ from hypcheck.report.write import REPORTS
 from hypcheck.scene.reading import read_scene
 from hypcheck.tables.route import Route
 from tests.fuzz.judging import require_sentence
+from tests.fuzz.tables import require_agreement
 from tests.fuzz.workplace import folder, kept
 from tests.records import resealed
 
@@ -126,11 +127,12 @@ def settings(data: bytes) -> None:
 
 
 def table(kind: str) -> Callable[[bytes], None]:
-    """A table that is classified, invalid rows refused or marked."""
+    """A table that is classified, invalid rows refused or marked; what is written of it is what it says."""
 
     def classified(data: bytes) -> None:
         source, target = kept(data, f"table.{kind}"), folder() / f"answers.{kind}"
         classify_table(Route(str(source), kind, str(target), kind), mark=len(data) % 2 == 0)
+        require_agreement(kind, data, target.read_bytes())
         target.unlink()
 
     return classified

@@ -1,4 +1,4 @@
-"""From real input to damaged input: bytes, tokens, lines and whole files are changed, and bombs put in."""
+"""From real input to damaged input: bytes, tokens, trees, lines and whole files are changed, and bombs put in."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from random import Random
 
 from tests.fuzz.nasty import NUMBERS, TEXTS
+from tests.fuzz.trees import tree
 
 DEPTHS = (3, 30, 300, 3000, 100_000)
 OPENERS = (
@@ -167,7 +168,7 @@ WHOLE: tuple[Callable[[bytes], bytes], ...] = (
 
 MUTATIONS: dict[Mutation, float] = {
     **dict.fromkeys((number, text), 12),
-    **dict.fromkeys((token,), 14),
+    **dict.fromkeys((token, tree), 14),
     **dict.fromkeys((flip, put_byte), 9),
     **dict.fromkeys((lose, splice, line), 6),
     **dict.fromkeys((cut, repeat), 4),
