@@ -187,6 +187,14 @@ def in_units(error: float, unit: Fraction) -> float:
     return error / float(unit) if unit else math.inf
 
 
+def in_words(answer: int, question: str) -> str:
+    """An answer as people read it: a position's name, or yes or no to the question about one; else the number."""
+    meanings = {each.value: each.label for each in Position}
+    if question != "position":
+        meanings = {1: f"{question}: yes", 0: f"{question}: no"}
+    return meanings.get(answer, str(answer))
+
+
 def mistake_of(truth: Position, answer: int, question: str) -> Mistake:
     """What a wrong answer means; `answer` is neither right nor CANNOT_SAY."""
     if question == "position":

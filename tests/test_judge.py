@@ -115,3 +115,19 @@ def test_octaves_of_rows_are_distances_to_the_nearest_other_position():
     """CROSS: exterior after 1/11 (see test_flip), interior only later; TOUCH: 0."""
     assert judge.flip_octaves(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
     assert Position.CONTACT not in judge.right_positions(Position.CONTACT, 0, "contact")
+
+
+@pytest.mark.parametrize(
+    ("answer", "question", "words"),
+    [
+        (1, "position", "exterior"),
+        (0, "position", "contact"),
+        (-1, "position", "interior"),
+        (1, "contact", "contact: yes"),
+        (0, "exterior", "exterior: no"),
+        (7, "position", "7"),
+        (-1, "interior", "-1"),
+    ],
+)
+def test_an_answer_has_words_and_what_is_none_stays_a_number(answer, question, words):
+    assert judge.in_words(answer, question) == words

@@ -11,8 +11,9 @@ from hypcheck.hunt.findings import Cluster, Finding
 from hypcheck.hunt.hunting import Hunt
 from hypcheck.hunt.minimise import Minimised
 from hypcheck.hunt.target import Target
+from hypcheck.judge import in_words
 from hypcheck.methods.faults import Outcome
-from hypcheck.pairs import COLUMNS, Pair, Position
+from hypcheck.pairs import COLUMNS, Pair
 
 
 def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
@@ -52,13 +53,14 @@ def _cluster(number: int, cluster: Cluster, target: Target) -> Iterator[str]:
     yield f"{number}. {worst.case.mistake.value}, {_u(worst)}, {worst.place.words}"
     yield from _finding(worst, target)
     tolerated = f", and {cluster.tolerated:,} within tolerance" if cluster.tolerated else ""
-    yield _titled("met", f"{cluster.beyond:,} times{tolerated}; the worst from {worst.source}")
+    times = "once" if cluster.beyond == 1 else f"{cluster.beyond:,} times"
+    yield _titled("met", f"{times}{tolerated}; the worst from {worst.source}")
     yield _titled("simplify", _command(target, "minimise", target.spec, decimals(worst.case.row)))
 
 
 def _finding(finding: Finding, target: Target) -> Iterator[str]:
     case = finding.case
-    answer = _answer(case.answer, target.criterion.question)
+    answer = in_words(case.answer, target.criterion.question)
     yield _titled("row", f"{decimals(case.row)}  ({', '.join(COLUMNS)})")
     yield _titled("hex", ",".join(map(hex_of, case.row)))
     yield _titled("truth", f"{case.truth.label}; answered: {answer}, which is a {case.mistake.value} by {_u(finding)}")
@@ -84,12 +86,6 @@ def _command(target: Target, *words: str) -> str:
 def decimals(row: Sequence[float]) -> str:
     """A row as the command line reads it back."""
     return ",".join(repr(value).removesuffix(".0") for value in Pair.from_row(row).row)
-
-
-def _answer(answer: int, question: str) -> str:
-    if question == "position":
-        return Position(answer).label
-    return f"{question}: {'yes' if answer else 'no'}"
 
 
 def _u(finding: Finding) -> str:

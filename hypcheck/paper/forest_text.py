@@ -36,7 +36,8 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
     yield from _stops(result["stops"])
     if result["ways"] is not None:
         ways = result["ways"]
-        yield f"{ways['made']:,} made steps: {ways['touching']:,} touch a tree on the way"
+        touching = "1 touches" if ways["touching"] == 1 else f"{ways['touching']:,} touch"
+        yield f"{ways['made']:,} made steps: {touching} a tree on the way"
         for contact in ways["contacts"][:SHOWN]:
             start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
             yield f"  ({start}) to ({end}): {contact['tree']} first at {contact['first_upper']:.3g} of the way"

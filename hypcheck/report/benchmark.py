@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hypcheck.judge import in_words
 from hypcheck.pairs import Position
 from hypcheck.record import Line, Record
 from hypcheck.report.failure import Failure
@@ -54,7 +55,7 @@ def _broken(each: Measured) -> Iterator[Failure]:
                 yield Failure(SUBJECT, each.name, workload, "wrong", message)
                 continue
             truth = Position(case["truth"]).label
-            message += f"; {case['case']} is {truth}, and the answer was {case['answer']}"
+            message += f"; {case['case']} is {truth}; answered: {in_words(case['answer'], each.line['question'])}"
             replay = classify_command(from_hex(case["row"]))
             yield Failure(SUBJECT, each.name, workload, "wrong", message, case["case"], replay=replay)
 

@@ -51,11 +51,9 @@ def method_facts(record: Record) -> Iterator[str]:
         methods = [each for each in found if each.precision == precision and not each.exact]
         wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
         worst = max(methods, key=lambda each: worst_error_u(each.worst))
-        error, case = worst_error_u(worst.worst), worst.worst["case"] if worst.worst else "none"
-        yield (
-            f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond the tolerance;"
-            f" farthest off: {worst.name}, {figure(error)} u at {case}"
-        )
+        farthest = f"farthest off: {worst.name}, {figure(worst_error_u(worst.worst))} u"
+        farthest = f"{farthest} at {worst.worst['case']}" if worst.worst else "no answer is wrong"
+        yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond the tolerance; {farthest}"
 
 
 def claim_facts(record: Record) -> Iterator[str]:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 
+from hypcheck.judge import in_words
 from hypcheck.pairs import Position
 from hypcheck.record import Line, Record
 from hypcheck.report import benchmark
@@ -140,7 +141,8 @@ def _broken(name: str, line: Line, status: str, number: int, replays: Replays) -
     if fault is not None:
         message += f"; {fault['case']}: {fault['reason']}"
     elif first is not None:
-        message += f"; {first['case']} is {Position(first['truth']).label}, and the answer was {first['answer']}"
+        said = in_words(first["answer"], line["question"])
+        message += f"; {first['case']} is {Position(first['truth']).label}; answered: {said}"
         message += f" ({first['mistake']}, wrong by {figure(float(first['backward_error_u']))} u)"
     case = first if fault is None else fault
     if case is None:

@@ -47,8 +47,8 @@ def test_a_promise_that_is_broken():
     (failure,) = failures(bench_record(lines("accuracy", wrong=2, abstained=1, worst=worst), 1))
     assert (failure.subject, failure.name, failure.group, failure.kind) == ("measurement", "fast", "uniform", "wrong")
     assert failure.message == (
-        "fast promises to be exact, but of 2,500 answers 2 wrong and 1 not told; uniform/1/1/7 is interior,"
-        " and the answer was 1"
+        "fast promises to be exact, but of 2,500 answers 2 wrong and 1 not told; uniform/1/1/7 is interior;"
+        " answered: exterior"
     )
     assert failure.replay.startswith("hypcheck classify --alpha 1.0")
 

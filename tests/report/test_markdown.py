@@ -82,7 +82,7 @@ def test_the_oracles():
 
 def test_equations_and_their_corrections():
     text = report()
-    assert "1 of 2 hold ((1))" in text
+    assert "1 of 2 hold: (1)." in text
     start = text.index("- **(12)** misprint: the coefficient of λ² lacks − z\\_c².")
     assert text[start:].splitlines()[1:3] == [
         "  - printed: `g = λ³ + x_c²`",

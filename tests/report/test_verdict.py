@@ -72,7 +72,7 @@ def test_each_failure_is_named(line, code, says, case):
 
 def test_a_replay_line_is_the_command_that_decides_the_row():
     (failure,) = failures(of(EXACT_WRONG))
-    assert "tangent/1/1/0 is contact, and the answer was 1 (false-clear, wrong by " in failure.message
+    assert "tangent/1/1/0 is contact; answered: exterior (false-clear, wrong by " in failure.message
     assert failure.replay == "hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0"
 
 

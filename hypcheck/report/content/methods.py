@@ -75,7 +75,7 @@ def _introduction(record: Record, methods: Sequence[Implementation]) -> Section:
 def _glossary(methods: Sequence[Implementation]) -> Block:
     """What the methods are; one that runs in several precisions is described once."""
     titles = {_plain_name(each): each.title.removesuffix(f", {each.precision}") for each in methods}
-    return bullets([(Code(name), f": {title}") for name, title in titles.items()])
+    return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
 
 
 def _plain_name(each: Implementation) -> str:

@@ -52,7 +52,7 @@ def _equations(lines: list[Line]) -> Section:
         for line in lines
         if not line["holds"]
     ]
-    named = f" ({', '.join(holding)})." if holding else "."
+    named = f": {', '.join(holding)}." if holding else "."
     said = f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
     return Section("The paper's equations", (Paragraph(said), bullets(items)))
 

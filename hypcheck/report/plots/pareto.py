@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from hypcheck.record import Record
 from hypcheck.report.measured import BATCH, TIERS, Measured, lost, measured, principal, workloads
 from hypcheck.report.plots import labels
-from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, new_figure, power_of_ten
+from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, log_axis, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
 from hypcheck.report.text import figure
 from hypcheck.visible import visible
@@ -190,11 +190,7 @@ def _axes(axes: Axes, found: Sequence[Point], timed: str) -> dict[float, float]:
     axes.set_ylabel("at most 1 in 1000 wrong above this flip distance")
     times = [point.time_ns for point in found]
     least, most = min(times) / 2, max(times) * 3
-    exponents = decades(least, most)
-    axes.set_xscale("log")
-    axes.set_xlim(least, most)
-    axes.set_xticks([10.0**k for k in exponents], [power_of_ten(k) for k in exponents])
-    axes.set_xticks([], minor=True)
+    log_axis(axes, "x", least, most)
     axes.set_xlabel(f"time of a query in a batch{', ' if timed else ''}{visible(timed, 18)} (ns)")
     return heights
 
