@@ -63,9 +63,9 @@ def record_and_report(
             _run(parts(recorder))
             record = recorder.close(exit_code())
         except BaseException as error:
-            _ended_early(error, growing, goes_on=recorder.goes_on)
+            _ended_early(error, growing, recorder)
             raise
-        growing.replace(out / FILE)
+        recorder.settle(out / FILE)
         try:
             report(record, out)
         except BaseException:
@@ -77,18 +77,18 @@ def record_and_report(
     return record
 
 
-def _ended_early(error: BaseException, growing: Path, *, goes_on: bool) -> None:
+def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> None:
     """Keep what was finished, make reports of it, and tell where it is; of a run that proves nothing, leave nothing."""
     from hypcheck.record import read
     from hypcheck.record.reading import FILE
     from hypcheck.report.write import write_reports
 
-    if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not goes_on):
-        growing.unlink()
+    if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
+        growing.unlink(missing_ok=True)
         return
     out, path = growing.parent, growing.with_name(FILE)
-    growing.replace(path)
-    then = f"with --resume {shlex.quote(str(out))} goes on" if goes_on else "begins anew"
+    recorder.settle(path)
+    then = f"with --resume {shlex.quote(str(out))} goes on" if recorder.goes_on else "begins anew"
     try:
         with suppress(HypcheckError, OSError):
             record = read(path)

@@ -131,10 +131,14 @@ def _require_scheduler(address: str) -> None:
         raise InputError(f"--cluster {address}: a dask {kind.lower()} is there, and no scheduler; name its scheduler")
 
 
-def _nobody(address: str, error: Exception) -> InputError:
-    while error.__cause__ is not None and isinstance(error.__cause__, Exception):  # dask wraps errors of connections
-        error = error.__cause__
-    if isinstance(error, (TimeoutError, asyncio.TimeoutError)):
+def _nobody(address: str, error: BaseException) -> InputError:
+    chain = [error]
+    while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:  # dask wraps errors of connections, and
+        chain.append(before)  # goes on trying until it is out of time
+    told = [each.strerror for each in chain if isinstance(each, OSError) and each.strerror]
+    if told:
+        reason = told[-1].lower()
+    elif isinstance(error, (TimeoutError, asyncio.TimeoutError)):
         reason = f"nothing was said within {CONNECT:.0f} s"
     elif isinstance(error, MemoryError):
         reason = "what is said there is not what dask says"

@@ -11,7 +11,8 @@ from typing import BinaryIO
 class Growing:
     """A context manager. Whatever moment the program is killed at, the file holds what stood there or what was new.
 
-    Raises OSError where the system refuses; the file is then as it was, but for a line that may be cut off.
+    Raises OSError where the system refuses; the file is then as it was, but for a line that may be cut off. A folder
+    that somebody removed is made again.
     """
 
     def __init__(self, path: Path) -> None:
@@ -35,6 +36,7 @@ class Growing:
 
     def renew(self, data: bytes) -> None:
         """Let `data` take the place of all that stands there, when it is on the disk."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
         try:
             with self._beside.open("wb") as file:
                 file.write(data)
@@ -49,3 +51,15 @@ class Growing:
                 self._file.close()
         self._beside.replace(self._path)
         self._file = self._path.open("ab")
+
+    @property
+    def is_there(self) -> bool:
+        """Whether what was written stands in its place: nobody removed it, or put something else there."""
+        try:
+            return self._file is not None and os.path.samestat(os.fstat(self._file.fileno()), self._path.stat())
+        except OSError:
+            return False
+
+    def move(self, path: Path) -> None:
+        """Take another place, for good."""
+        self._path.replace(path)

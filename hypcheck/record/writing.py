@@ -53,6 +53,7 @@ class Recorder:
         self._lines = [line for line in carried if line["type"] != PROGRESS]
         self._progress: Line | None = next((line for line in carried if line["type"] == PROGRESS), None)
         self._place = len(self._lines)
+        self._ending: tuple[Line, ...] = ()
         self._check = 0
         self._header = plain(header(options, self._started, files))
         if isinstance(stream, Growing):
@@ -86,12 +87,20 @@ class Recorder:
         """Write the footer; the record as it would be read back."""
         seconds = (datetime.now(timezone.utc) - self._started).total_seconds()
         footer: Line = {"type": "footer", "lines": len(self._lines) + 2, "exit_code": exit_code, "seconds": seconds}
+        self._ending = (footer,)
         if self._progress is None:
             self._write(footer)
         else:
             self._progress = None
-            self._renew(footer)
+            self._renew()
         return Record(self._header, tuple(self._lines), footer)
+
+    def settle(self, path: Path) -> None:
+        """Let the file that grew take another place; what somebody removed meanwhile is written anew."""
+        if isinstance(self._stream, Growing):
+            if not self._stream.is_there:
+                self._renew()
+            self._stream.move(path)
 
     def _write(self, line: Line) -> None:
         with interrupts_deferred():
@@ -102,13 +111,13 @@ class Recorder:
                 self._stream.write(data.decode())
                 self._stream.flush()
 
-    def _renew(self, *ending: Line) -> None:
+    def _renew(self) -> None:
         """Write all lines anew."""
         if not isinstance(self._stream, Growing):
             raise TypeError("only a file can be renewed")
         progress = [] if self._progress is None else [self._progress]
         data, check = b"", 0
-        for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *ending):
+        for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *self._ending):
             text, check = sealed(line, check)
             data += text
         with interrupts_deferred():
