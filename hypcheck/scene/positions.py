@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import sys
-from bisect import bisect_right
 from collections.abc import Mapping
 
 if sys.version_info >= (3, 11):
@@ -18,15 +17,13 @@ else:
 Path = tuple[str | int, ...]
 """How to get to a value: keys of tables, and places in arrays counted from 0."""
 
-_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+_BLANK = re.compile(r"[ \t\r\n]*")
+_COMMENT = re.compile(r"#[^\n]*")
 _SPACE = re.compile(r"[ \t]*")
-_KEY = re.compile(r"""[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*'""")
-_SCALAR = re.compile(
-    r'''"""(?:[^\\]|\\.)*?"""(?:"{0,2})'''  # a text may end with two quotation marks of its own
-    r"""|'''.*?'''(?:'{0,2})"""
-    r"""|"(?:[^"\\]|\\.)*"|'[^']*'|[^,\]}#\n]+""",
-    re.DOTALL,
-)
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_BARE_VALUE = re.compile(r"[^,\]}#\n]+")
+_WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
+"""What stands in a text between its marks and escapes. No pattern repeats a group: that takes memory each time."""
 
 
 def lines_of(text: str) -> dict[Path, int]:
@@ -48,17 +45,18 @@ class _Scanner:
         self._lines: dict[Path, int] = {}
         self._counts: dict[Path, int] = {}
         """How many tables each array of tables has so far."""
-        self._newlines = [match.start() for match in re.finditer("\n", text)]
+        self._counted, self._line_there = 0, 1
+        """Up to where lines were counted, and the line there."""
 
     def scan(self) -> dict[Path, int]:
         table: Path = ()
-        self._skip(_BLANK)
+        self._blank()
         while self._at < len(self._text):
             if self._text[self._at] == "[":
                 table = self._header()
             else:
                 self._pair(table)
-            self._skip(_BLANK)
+            self._blank()
         return self._lines
 
     def _header(self) -> Path:
@@ -102,23 +100,23 @@ class _Scanner:
         elif opening == "{":
             self._sequence("}", path)
         else:
-            self._skip(_SCALAR)
+            self._quoted() if opening in _WITHIN else self._skip(_BARE_VALUE)
 
     def _sequence(self, closing: str, path: Path) -> None:
         """What stands between brackets, with commas between."""
         place = 0
         self._at += 1
-        self._skip(_BLANK)
+        self._blank()
         while self._text[self._at] != closing:
             if closing == "]":
                 self._value((*path, place))
             else:
                 self._pair(path)
             place += 1
-            self._skip(_BLANK)
+            self._blank()
             if self._text[self._at] == ",":
                 self._at += 1
-                self._skip(_BLANK)
+                self._blank()
         self._at += 1
 
     def _keys(self) -> tuple[str, ...]:
@@ -126,14 +124,47 @@ class _Scanner:
         keys = []
         while True:
             self._skip(_SPACE)
-            keys.append(_plain(self._take(_KEY)))
+            keys.append(self._key())
             self._skip(_SPACE)
             if self._text[self._at] != ".":
                 return tuple(keys)
             self._at += 1
 
+    def _key(self) -> str:
+        """A key without its quotation marks and escapes."""
+        begin = self._at
+        if self._text[begin] not in _WITHIN:
+            return self._take(_BARE_KEY)
+        self._quoted()
+        return str(tomllib.loads(f"key = {self._text[begin : self._at]}")["key"])
+
+    def _quoted(self) -> None:
+        """A text in one quotation mark, or in three and with one or two of its own before the last three."""
+        quote = self._text[self._at]
+        mark = 3 * quote if self._text.startswith(3 * quote, self._at) else quote
+        self._at += len(mark)
+        while not self._text.startswith(mark, self._at):
+            if self._text[self._at] == "\\" and quote == '"':
+                self._at += 2
+            elif self._text[self._at] == quote:
+                self._at += 1
+            else:
+                self._skip(_WITHIN[quote])
+        self._at += len(mark)
+        for _ in range(len(mark) - 1):
+            self._at += self._text.startswith(quote, self._at)
+
+    def _blank(self) -> None:
+        """Blanks, ends of lines and comments."""
+        self._skip(_BLANK)
+        while self._text.startswith("#", self._at):
+            self._skip(_COMMENT)
+            self._skip(_BLANK)
+
     def _line(self) -> int:
-        return bisect_right(self._newlines, self._at - 1) + 1
+        self._line_there += self._text.count("\n", self._counted, self._at)
+        self._counted = self._at
+        return self._line_there
 
     def _take(self, pattern: re.Pattern[str]) -> str:
         match = pattern.match(self._text, self._at)
@@ -144,8 +175,3 @@ class _Scanner:
 
     def _skip(self, pattern: re.Pattern[str]) -> None:
         self._take(pattern)
-
-
-def _plain(key: str) -> str:
-    """A key without its quotation marks and escapes."""
-    return str(tomllib.loads(f"key = {key}")["key"]) if key[0] in "\"'" else key

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import tracemalloc
 
 import pytest
 from hypothesis import given
@@ -183,3 +184,17 @@ def test_every_value_of_any_text_is_found_on_its_line(written):
     found = lines_of(written.text)
     assert {path: found.get(path) for path in written.lines} == written.lines
     assert set(leaves(tomllib.loads(written.text))) <= set(found)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["#\n" * 100_000, "\n" * 200_000, 'a = "%s"' % (r"\n" * 100_000), "'%s' = 1" % ("a " * 100_000)],
+    ids=["comments", "blank lines", "a text of escapes", "a long key"],
+)
+def test_what_holds_few_values_takes_little_memory(text):
+    tracemalloc.start()
+    try:
+        assert len(lines_of(text)) <= 1
+        assert tracemalloc.get_traced_memory()[1] < 10 * len(text)
+    finally:
+        tracemalloc.stop()
