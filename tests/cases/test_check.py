@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from dataclasses import replace
@@ -267,6 +268,21 @@ def test_the_command_checks_rows_to_be_refused_as_well(tmp_path, capsys):
     path.write_text(json.dumps(document), encoding="utf-8")
     assert main(["cases", "check", str(path)]) == 1
     assert "case invalid-0000: columns x are said to be at fault, but alpha is" in capsys.readouterr().out
+
+
+def test_a_pipe_without_end_is_refused_in_time(monkeypatch, capsys):
+    class Endless(io.RawIOBase):
+        def readinto(self, buffer):
+            buffer[:] = b"\n" * len(buffer)
+            return len(buffer)
+
+        def readable(self):
+            return True
+
+    monkeypatch.setattr("hypcheck.casebook.frozen.scanning.LARGEST", 2 << 20)
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Endless())))
+    assert main(["cases", "check", "-"]) == 2
+    assert "standard input has more than 2 MiB; it must be divided" in capsys.readouterr().err
 
 
 def test_a_frozen_file_that_is_missing_is_an_error(tmp_path, capsys, monkeypatch):

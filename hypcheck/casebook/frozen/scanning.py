@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.errors import InputError
 from hypcheck.tables.lines import BYTE_ORDER_MARK, text_lines
 from hypcheck.tables.numbers import Literal, shown
-from hypcheck.tables.streams import reading
+from hypcheck.tables.streams import Reader, reading
 from hypcheck.tables.strict_json import object_of, strict_decoder
 
 CASES = "cases"
+LARGEST = 256 << 20
+"""Bytes of a document, which is held in memory: two hundred thousand cases, or the beginning of a pipe without end."""
+
 _BLANKS = re.compile(r"[ \t\n\r]*")
 
 
@@ -46,7 +49,7 @@ class Document:
 def scan(path: str) -> Document:
     """The document in the file at `path` ("-" is standard input). Raises InputError where it is none."""
     with reading(path) as reader:
-        text = "".join(text_lines(reader))
+        text = "".join(_bounded(reader))
         return _Scanner(text.removeprefix(BYTE_ORDER_MARK), reader.name).document()
 
 
@@ -54,6 +57,13 @@ def fields_of(value: Any, names: tuple[str, ...], place: Place, what: str) -> tu
     """The members of an object that has these and no others, in the order of `names`. Raises InputError."""
     members = object_of(value, f"{place}: {what}", names)
     return tuple(members[name] for name in names)
+
+
+def _bounded(reader: Reader) -> Iterator[str]:
+    for line in text_lines(reader):
+        if reader.taken > LARGEST:
+            raise InputError(f"{reader.name} has more than {LARGEST >> 20} MiB; it must be divided into smaller files")
+        yield line
 
 
 class _Scanner:
