@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from functools import partial
 from itertools import chain
 from operator import itemgetter
+from typing import NoReturn
 
 import numpy as np
 
@@ -87,7 +88,9 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
         places = Places(records.name, count, lines)
         while len(texts) < CHUNK and (record := records.next()) is not None:
             lines.append(records.line)
-            _require_width(record, width, places, len(texts))
+            if len(record) != width:
+                yield partial(_broken, cells, texts, places, record, width, mark=mark)
+                return
             cells.append(pick(record))
             texts.append(records.text.rstrip("\r\n"))
             if records.at_block:
@@ -100,12 +103,6 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
         raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")
 
 
-def _require_width(record: Sequence[str], width: int, places: Places, index: int) -> None:
-    if len(record) != width:
-        noun = "cell" if len(record) == 1 else "cells"
-        raise InputError(f"{places.of(index)}: {len(record)} {noun}; the header has {width}")
-
-
 def _chunk_of_block(
     block: Block, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: Places, *, mark: bool
 ) -> Chunk:
@@ -113,8 +110,18 @@ def _chunk_of_block(
     texts = block.plain_lines()
     records = [text.split(",") for text in texts]
     for index, record in enumerate(records):
-        _require_width(record, width, places, index)
+        if len(record) != width:
+            _broken([pick(good) for good in records[:index]], texts, places, record, width, mark=mark)
     return _chunk(list(map(pick, records)), texts, places, mark=mark)
+
+
+def _broken(
+    cells: Sequence[tuple[str, ...]], texts: list[str], places: Places, record: list[str], width: int, *, mark: bool
+) -> NoReturn:
+    """Raise InputError about the first of these rows that is bad, or about the record of another width behind them."""
+    _chunk(cells, texts, places, mark=mark)
+    noun = "cell" if len(record) == 1 else "cells"
+    raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")
 
 
 def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: Places, *, mark: bool) -> Chunk:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -31,7 +31,7 @@ class Places:
 
 
 def examine(
-    values: Sequence[Sequence[Value]],
+    values: Iterable[Sequence[Value]],
     number_of: Callable[[str, Value], float],
     places: Places,
     *,
@@ -43,13 +43,14 @@ def examine(
     `mark` the first such row raises InputError; with it the row becomes NaN and is refused.
     """
     rows: list[list[float]] = []
-    refused = np.zeros(len(values), dtype=np.bool_)
+    refused: list[bool] = []
     for index, row in enumerate(values):
         try:
             rows.append([number_of(name, value) for name, value in zip(COLUMNS, row, strict=True)])
+            refused.append(False)
         except ValueError as trouble:  # noqa: PERF203 - each row has its own
             if not mark:
                 raise InputError(f"{places.of(index)}: {trouble}") from None
             rows.append([math.nan] * len(COLUMNS))
-            refused[index] = True
-    return np.array(rows, dtype=np.float64).reshape(len(rows), len(COLUMNS)), refused
+            refused.append(True)
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(COLUMNS)), np.array(refused, dtype=np.bool_)

@@ -111,7 +111,7 @@ def _chunk(texts: list[str], places: Places, *, mark: bool) -> Chunk:
     rows = _quickly(texts)
     if rows is not None:
         return Chunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
-    values = [_values(text, places.of(index)) for index, text in enumerate(texts)]
+    values = (_values(text, places.of(index)) for index, text in enumerate(texts))
     return Chunk(*examine(values, number_of_json, places, mark=mark), texts)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
@@ -18,8 +17,6 @@ LONGEST = 1 << 20
 BYTE_ORDER_MARK = "\ufeff"
 
 _LONGEST_PLAIN = 1 << 16
-_AMISS = re.compile(rb"(?:\A|\n)[\x00-\x20]|\x00|\r(?!\n)")
-"""A line that is blank or begins as one, a NUL, a carriage return that ends no line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +32,14 @@ class Block:
         return self.data.count(b"\n") + (not self.data.endswith(b"\n"))
 
     def is_plain(self, avoiding: bytes) -> bool:
-        """Whether every line is short, ASCII, and not blank, and none of these bytes is in them."""
+        """Whether every line is short, ASCII, and does not begin as a blank one, and none of these bytes is in them."""
         data = self.data
-        if not data.isascii() or (avoiding and avoiding in data) or _AMISS.search(data):
+        if not data.isascii() or b"\0" in data or (avoiding and avoiding in data):
             return False
-        return max(map(len, data.split(b"\n"))) <= _LONGEST_PLAIN
+        if b"\r" in data and data.count(b"\r") != data.count(b"\r\n"):
+            return False
+        lines = data.removesuffix(b"\n").split(b"\n")
+        return max(map(len, lines)) <= _LONGEST_PLAIN and all(line[:1] > b" " for line in lines)
 
     def plain_lines(self) -> list[str]:
         """The lines of a plain block without their ends."""
