@@ -20,9 +20,9 @@ def text_of(path: str) -> str:
     except FileNotFoundError:
         raise
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {(error.strerror or str(error)).lower()}") from None
+        raise InputError(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError as error:  # a NUL in the name
-        raise InputError(f"{path}: cannot be read: {error}") from None
+        raise InputError(f"cannot read {path}: {error}") from None
     if len(content) > LARGEST:
         raise InputError(f"{path}: has more than {LARGEST >> 20} MiB; it must be smaller")
     try:

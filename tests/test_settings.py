@@ -201,7 +201,7 @@ def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
     Path(FILE).unlink()
     Path(FILE).mkdir()
     assert main(["verify", "builtin:fast"]) == 2
-    assert "cannot be read" in capsys.readouterr().err
+    assert "cannot read hypcheck.toml: " in capsys.readouterr().err
 
 
 @given(

@@ -38,9 +38,9 @@ def test_what_cannot_be_read_is_one_sentence(tmp_path):
     for path, message in (
         (large, "has more than 64 MiB"),
         (other, r"line 2: is not UTF-8 text: invalid start byte at byte 11"),
-        (tmp_path, "cannot be read: is a directory"),
-        (tmp_path / "a\0b", "cannot be read: embedded null byte"),
-        (tmp_path / ("a" * 5000), "cannot be read: file name too long"),
+        (tmp_path, "cannot read .*: is a directory"),
+        (tmp_path / "a\0b", "cannot read .*: embedded null byte"),
+        (tmp_path / ("a" * 5000), "cannot read .*: file name too long"),
     ):
         with pytest.raises(InputError, match=message):
             toml.text_of(str(path))

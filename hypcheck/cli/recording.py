@@ -58,7 +58,7 @@ def record_and_report(
             stack.enter_context(owning(out))
             recorder = Recorder(stack.enter_context(Growing(growing)), options, files, carried)
         except OSError as error:
-            raise InputError(f"--out {out}: cannot be written: {error.strerror}") from None
+            raise InputError(f"--out {out} cannot be written: {(error.strerror or str(error)).lower()}") from None
         try:
             _run(parts(recorder))
             record = recorder.close(exit_code())

@@ -49,7 +49,7 @@ def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
     try:
         content = toml.parsed(toml.text_of(str(path)), str(path))
     except FileNotFoundError:
-        raise InputError(f"{path}: cannot be read: there is no such file") from None
+        raise InputError(f"cannot read {path}: no such file or directory") from None
     unknown = [key for key in content if key != "known_failure"]
     entries = content.get("known_failure", [])
     if unknown or not isinstance(entries, list):

@@ -80,7 +80,8 @@ def _line(text: str) -> str:
 def _failures(record: Record) -> Iterator[str]:
     found = failures(record)
     for each in found[:MOST_FAILURES]:
-        yield f"  ✗ {each.case}: {each.message}" if each.case else f"  ✗ {each.message}"
+        named = each.case is None or each.case in each.message
+        yield f"  ✗ {each.message}" if named else f"  ✗ {each.case}: {each.message}"
     if len(found) > MOST_FAILURES:
         yield f"  ✗ … and {counted(len(found) - MOST_FAILURES, 'more failure')}"
 

@@ -135,7 +135,7 @@ def test_a_folder_has_one_owner_at_a_time(tmp_path):
 def test_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
     (tmp_path / FILE).write_bytes(paused)
     said = refused(tmp_path, capsys, "--resume", str(tmp_path), "--out", "/proc/nowhere")
-    assert "--out /proc/nowhere: cannot be written" in said
+    assert "--out /proc/nowhere cannot be written" in said
 
 
 def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_path):
