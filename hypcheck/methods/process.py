@@ -1,8 +1,8 @@
 """A foreign program in a process group of its own, and its three pipes.
 
 Writing, reading and listening to standard error happen in one loop, so that neither a large question nor a flood on
-standard error can bring both sides to wait for each other. The group is ended as a whole: by us, or, should we be
-killed ourselves, by a guard that notices.
+standard error can bring both sides to wait for each other. The group is ended as a whole, with what has left it: by us,
+or, should we be killed ourselves, by a guard that notices.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
+from hypcheck.methods.detached import GUARD, end_marked, new_mark
 from hypcheck.methods.evidence import Tail
 from hypcheck.methods.faults import FaultError, Outcome, StartError
 from hypcheck.methods.limits import Limits
@@ -49,14 +50,13 @@ _ROOM = 1 << 18
 """Bytes that a pipe holds where the system lets it: both sides wait for each other less often than with 64 KiB."""
 _GOODBYE = 1.0
 _LAST_WORDS = 0.5
-_GUARD = 'read -r _; kill -s KILL -- "-$1"'
-"""Reads until its standard input ends, which only we hold open, and then kills the group."""
 
 
 class Process:
     """One run of a program. Raises StartError where the system cannot run it."""
 
     def __init__(self, words: Sequence[str], limits: Limits) -> None:
+        self._mark = new_mark()
         try:
             self._popen = subprocess.Popen(  # noqa: S603 - what the user asked to run
                 words,
@@ -65,11 +65,11 @@ class Process:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 start_new_session=True,
-                env={**os.environ, **ONE_THREAD},
+                env={**os.environ, **ONE_THREAD, self._mark: "1"},
             )
         except OSError as error:
             raise StartError(_not_run(words[0], error)) from None
-        self._guard = _guard(self._popen.pid)
+        self._guard = _guard(self._popen.pid, self._mark)
         self._memory = MemoryWatch(self._popen.pid, limits.memory)
         self._tail = Tail()
         self._outgoing: Iterator[bytes | memoryview] = iter(())
@@ -196,12 +196,16 @@ class Process:
         self.kill()
 
     def kill(self) -> None:
-        """End the whole group now, and leave neither a zombie nor an open pipe; nothing happens the second time."""
+        """End the whole group now, with what has left it, and leave neither a zombie nor an open pipe.
+
+        Nothing happens the second time.
+        """
         if self._closed:
             return
         self._closed = True
         with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter is macOS's word for a zombie
             os.killpg(self._popen.pid, signal.SIGKILL)
+        end_marked(self._mark)
         if self._guard:
             _dismiss(self._guard)
         with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the kernel; it will go when that lets it
@@ -227,11 +231,11 @@ def _widen(pipe: int) -> None:
             fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, _ROOM)
 
 
-def _guard(group: int) -> subprocess.Popen[bytes] | None:
+def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
     """The guard of a group; None where the system has no shell."""
     try:
         return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
-            ("/bin/sh", "-c", _GUARD, "hypcheck-guard", str(group)),
+            ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark),
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

@@ -101,8 +101,9 @@ def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
 
 
 @needs_proc
-def test_who_ignores_goodbye_is_killed_with_its_children(token):  # noqa: F811
-    with open_implementation(command("ignores_goodbye"), LIMITS) as it:
+@pytest.mark.parametrize("name", ["ignores_goodbye", "detaches"])
+def test_who_does_not_leave_is_killed_with_its_children(name, token):  # noqa: F811
+    with open_implementation(command(name), LIMITS) as it:
         it.classify(rows())
         eventually(lambda: len(living(token)) == 3)  # the command, its child, the guard
         start = time.monotonic()
@@ -126,7 +127,7 @@ def test_an_error_of_ours_in_the_middle_of_a_question_leaves_nothing(token):  # 
 
 
 @needs_proc
-@pytest.mark.parametrize("name", ["loops", "ignores_goodbye"])
+@pytest.mark.parametrize("name", ["loops", "ignores_goodbye", "detaches"])
 def test_nothing_outlives_us_even_if_we_are_killed(name, token):  # noqa: F811
     """An endless loop does not see that its input ended, nor does a child: the guard does."""
     code = (

@@ -1,0 +1,50 @@
+"""What a foreign program starts and lets go of: a daemon in a session of its own is in no group that we could end.
+
+It keeps the environment that its program was given, though, and there a mark tells whose it is. Only Linux shows us
+environments; elsewhere what detaches itself outlives the run.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import signal
+from collections.abc import Iterator
+from contextlib import suppress
+
+GUARD = (
+    'read -r _; kill -s KILL -- "-$1";'
+    ' grep -ls "$2" /proc/[0-9]*/environ | while IFS=/ read -r _ _ each _; do kill -s KILL "$each"; done'
+)
+"""For a shell: it reads until its standard input ends, which only we hold open, and then kills the group $1 and whoever
+has the mark $2."""
+
+_ROUNDS = 5
+"""Looks for who was started while others were ended."""
+
+
+def new_mark() -> str:
+    """The name of a variable for an environment; with those of others it can stand in one."""
+    return f"HYPCHECK_{secrets.token_hex(16)}"
+
+
+def end_marked(mark: str) -> None:
+    """Kill all processes that have the mark and that we may kill."""
+    for _ in range(_ROUNDS):
+        found = list(_marked(mark.encode() + b"="))
+        for process in found:
+            with suppress(OSError):
+                os.kill(process, signal.SIGKILL)
+        if not found:
+            return
+
+
+def _marked(beginning: bytes) -> Iterator[int]:
+    try:
+        names = os.listdir("/proc")
+    except OSError:
+        return
+    for name in filter(str.isdigit, names):
+        with suppress(OSError), open(f"/proc/{name}/environ", "rb") as file:  # it ended meanwhile, or is another's
+            if beginning in file.read():
+                yield int(name)
