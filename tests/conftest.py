@@ -4,9 +4,18 @@ from __future__ import annotations
 
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.undrawn import draw_nothing
 
 # In CI the examples are the same in every run, so that a red build means the change and not the dice.
 settings.register_profile("ci", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("developer", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("ci" if os.environ.get("CI") else "developer")
+
+
+@pytest.fixture
+def text_reports(monkeypatch):
+    """Runs of the test write their reports in text alone."""
+    draw_nothing(monkeypatch)

@@ -20,6 +20,8 @@ from hypcheck.cli.settings import _KEYS, ABOUT_ONE, COMMANDS, FILE, read_setting
 from hypcheck.errors import InputError
 from hypcheck.record import read
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 ALL = """
 specs = ["builtin:table-2-float64", "builtin:procedure-1-float64"]
 out = "build/report"

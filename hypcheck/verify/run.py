@@ -21,11 +21,10 @@ from hypcheck.verify.opinions import ORACLES
 from hypcheck.verify.plan import Batch, Plan, batches, chosen_families
 
 ROUNDS = 9
+"""Timing rounds: enough for a median that one disturbed round does not move."""
 
 MESH = "mesh"
 """The oracle without which nothing of FCL is loaded."""
-
-"""Timing rounds: enough for a median that one disturbed round does not move."""
 
 Advance = Callable[[int], object]
 

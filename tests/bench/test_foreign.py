@@ -19,6 +19,8 @@ SUBJECT = """
 import numpy as np
 from hypcheck.kernel.classify import classify as exact
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 hypcheck = {{"name": "subject"}}
 
 

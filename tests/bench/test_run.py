@@ -16,6 +16,8 @@ from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, read
 from hypcheck.report.json_schema import violations
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 SMALL = ["--quick", "--processes", "2", "--rounds", "2", "--workers", "1"]
 FEW = replace(plan.QUICK, judged=300, cell=2, map_lines=9, timed=8192)
 METHODS = ["--methods", "fast-numpy,table-2-float16,bounding-cylinder"]

@@ -22,6 +22,8 @@ from hypcheck.record import SCHEMA, read
 from hypcheck.report.json_schema import violations
 from tests.specialise.scenes import HILLS, PLAIN
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 DEFINITIONS = json.loads(
     resources.files("hypcheck.report").joinpath("schemas", f"record-{SCHEMA}.json").read_text(encoding="utf-8")
 )

@@ -11,6 +11,8 @@ import pytest
 from hypcheck.cli.main import main
 from tests.emission.building import COMMANDS, skip_without
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 
 def emit(path, language, *options, scene="tower"):
     assert main(["emit", "--scene", scene, "--language", language, "--output", str(path), *options]) == 0

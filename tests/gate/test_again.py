@@ -8,6 +8,8 @@ from hypcheck.cli.main import main
 from hypcheck.gate.again import FULL
 from hypcheck.record import read
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 
 def gate(tmp_path, name, *options):
     out = tmp_path / "out"

@@ -7,6 +7,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.record import read
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 FAMILY = "extreme-magnitude"
 
 

@@ -11,6 +11,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.record import read
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 
 def gate(tmp_path, spec, *options, count="40"):
     out = tmp_path / "out"

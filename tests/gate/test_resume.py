@@ -9,7 +9,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -45,11 +44,9 @@ SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 
 
 @pytest.fixture
-def here(monkeypatch, capsys):
+def here(monkeypatch, capsys, text_reports):
     """Performs the run in this process, which saves the time to load everything; its exit code and what it said."""
     in_small_steps(monkeypatch.setattr)
-    for name in ("matplotlib", "jinja2"):
-        monkeypatch.setitem(sys.modules, name, None)
 
     def run(out, *more):
         code = main(words(out, *more))

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import io
 import tempfile
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
+
+import pytest
 
 from hypcheck import judge
 from hypcheck.cli.main import main
@@ -17,6 +19,7 @@ from hypcheck.record import read
 from hypcheck.rows import Rows
 from tests.mutants.collection import Mutant
 from tests.mutants.expectation import Options
+from tests.undrawn import draw_nothing
 
 HARMLESS = frozenset({"right", "tolerated", "skipped", "refused"})
 """How a case may end without anybody minding."""
@@ -67,8 +70,11 @@ def gate(mutant: Mutant, options: Options = ()) -> Result:
 def run(spec: str, options: Options) -> Ruling:
     """`hypcheck verify SPEC` with these options."""
     said = io.StringIO()
-    remembering = patch.object(judge, "flip_octaves", _remembered)
-    with tempfile.TemporaryDirectory() as folder, redirect_stdout(said), redirect_stderr(said), remembering:
+    with ExitStack() as stack:
+        folder = stack.enter_context(tempfile.TemporaryDirectory())
+        for each in (redirect_stdout(said), redirect_stderr(said), patch.object(judge, "flip_octaves", _remembered)):
+            stack.enter_context(each)
+        draw_nothing(stack.enter_context(pytest.MonkeyPatch.context()))  # a ruling is in the record alone
         code = main(["verify", spec, "--out", folder, *options])
         path = Path(folder) / "record.jsonl"
         groups = read(path).of("group") if path.exists() else []

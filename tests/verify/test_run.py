@@ -36,19 +36,33 @@ def derived():
     return run.check_equations(), run.prove_formulas()
 
 
-@pytest.fixture(autouse=True)
-def quick(monkeypatch, derived):
+def shorten(monkeypatch, derived):
     equations, proofs = derived
     monkeypatch.setattr(run, "check_equations", lambda: equations)
     monkeypatch.setattr(run, "prove_formulas", lambda: proofs)
     monkeypatch.setattr(run, "ROUNDS", 1)
 
 
-def test_a_run_ends_with_0_and_leaves_its_reports(tmp_path):
-    ended(tmp_path)
-    assert exit_code(tmp_path) == 0
-    assert {path.name for path in tmp_path.iterdir()} >= {"record.jsonl", "summary.json", "report.md", "junit.xml"}
-    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory, derived):
+    """The folder of a run in which nothing goes wrong, with all its reports."""
+    folder = tmp_path_factory.mktemp("whole")
+    with pytest.MonkeyPatch.context() as patch:
+        shorten(patch, derived)
+        ended(folder)
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch, derived, text_reports):
+    shorten(monkeypatch, derived)
+
+
+def test_a_run_ends_with_0_and_leaves_its_reports(whole):
+    assert exit_code(whole) == 0
+    files = {path.name for path in whole.iterdir()}
+    assert files >= {"record.jsonl", "summary.json", "report.md", "junit.xml", "report.html", "map.svg"}
+    summary = json.loads((whole / "summary.json").read_text(encoding="utf-8"))
     assert summary["exit_code"] == 0
     assert set(summary["oracles"]) == {"exact", "nearest", "roots", "mesh"}
 
@@ -113,14 +127,13 @@ def test_a_formula_that_is_not_the_derivation_ends_with_6(tmp_path, monkeypatch)
     assert exit_code(tmp_path) == 6
 
 
-def test_the_same_seed_gives_the_same_record_but_for_times(tmp_path):
-    def lines(name, workers):
-        ended(tmp_path / name, "--workers", workers)
-        record = read(tmp_path / name / "record.jsonl")
+def test_the_same_seed_gives_the_same_record_but_for_times(whole, tmp_path):
+    def lines(folder):
         return [
             {key: value for key, value in line.items() if key != "seconds"}
-            for line in record.lines
+            for line in read(folder / "record.jsonl").lines
             if line["type"] not in ("timing",)
         ]
 
-    assert lines("one", "1") == lines("two", "2")
+    ended(tmp_path, "--workers", "2")
+    assert lines(whole) == lines(tmp_path)

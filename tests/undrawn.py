@@ -1,0 +1,11 @@
+"""Runs that write their reports in text alone: drawing takes most of a small run, and tests/report sees to that."""
+
+from __future__ import annotations
+
+import sys
+
+
+def draw_nothing(patch):
+    """From here on, until `patch` is undone, matplotlib and jinja2 are not there."""
+    for name in ("matplotlib", "jinja2"):
+        patch.setitem(sys.modules, name, None)
