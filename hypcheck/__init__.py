@@ -4,6 +4,7 @@
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z) -> int8 (n,)
     hypcheck.position(alpha, gamma, b, d, x, y, z) -> int
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
+    hypcheck.InputError: what they raise, with a sentence, about rows, scenes and files that cannot be
 
 They are loaded when first used, and numpy with all but position.
 """
@@ -14,15 +15,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from hypcheck.errors import InputError
     from hypcheck.kernel.classify import classify, classify_scene
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.world.scene import Scene
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
-__all__ = ["Scene", "__version__", "classify", "classify_scene", "position"]
+__all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "position"]
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
+    "InputError": ("hypcheck.errors", "InputError"),
     "Scene": ("hypcheck.kernel.world.scene", "Scene"),
     "classify": ("hypcheck.kernel.classify", "classify"),
     "classify_scene": ("hypcheck.kernel.classify", "classify_scene"),

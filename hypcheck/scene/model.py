@@ -10,9 +10,6 @@ from dataclasses import dataclass
 
 QUESTIONS = ("position", "exterior", "interior", "contact")
 
-OUTSIDE_HEIGHT = "outside the modelled height"
-"""The answer about a mover whose centre is above or below the part of a hyperboloid that stands in the world."""
-
 Point = tuple[float, float, float]
 
 

@@ -85,6 +85,9 @@ def test_a_public_name_is_found_and_no_other():
     assert {"classify", "classify_scene", "__version__"} <= set(dir(hypcheck))
     assert callable(hypcheck.classify)
     assert callable(hypcheck.classify_scene)
+    with pytest.raises(hypcheck.InputError, match="row 0: b is -1"):
+        hypcheck.classify([[1, 2, -1, 1, 2.5, 0, 0]])
+    assert all(hasattr(hypcheck, name) for name in hypcheck.__all__)
     with pytest.raises(AttributeError, match="clasify"):
         hypcheck.clasify  # noqa: B018 - the look-up is the test
 

@@ -1,30 +1,19 @@
-"""Right answers to the wrong row, or to some rows of a question and not to others; state that outlives a question."""
+"""Right answers to the wrong row, or to some rows of a question and not to others."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from tests.mutants.exactly import position
+from tests.mutants.exactly import moved, position
 from tests.mutants.expectation import wrong
 
-_calls = [0]
-_rows = [0]
-_kept = np.zeros(1 << 17, dtype=np.int8)
-_kept_sizes = np.ones(4)
-_seen: set[bytes] = set()
-_last = [np.zeros(1, dtype=np.int8)]
 _random = np.random.Generator(np.random.Philox(5))
-
-
-def _moved(answers):
-    """Other answers than these."""
-    return np.where(answers == 0, 1, 0).astype(np.int8)
 
 
 def _flipped(rows, part):
     """Right answers, but for this part of them on average."""
     answers = position(rows)
-    return np.where(_random.random(len(rows)) < part, _moved(answers), answers).astype(np.int8)
+    return np.where(_random.random(len(rows)) < part, moved(answers), answers).astype(np.int8)
 
 
 @wrong()
@@ -64,7 +53,7 @@ def lanes_of_8_read_beyond(rows):
 def blocks_of_256(rows):
     """Every 256th row is not computed: a loop over blocks begins with 1."""
     answers = position(rows)
-    answers[::256] = _moved(answers[::256])
+    answers[::256] = moved(answers[::256])
     return answers
 
 
@@ -87,52 +76,11 @@ def sorted_by_position(rows):
 
 
 @wrong()
-def question_before(rows):
-    """Each question gets the answers of the one before it."""
-    answers, _last[0] = np.resize(_last[0], len(rows)), position(rows)
-    return answers
-
-
-@wrong()
-def after_ten_questions(rows):
-    """Everything is contact from the eleventh question on."""
-    _calls[0] += 1
-    return position(rows) if _calls[0] <= 10 else np.zeros(len(rows), dtype=np.int8)
-
-
-@wrong()
-def after_ten_thousand_rows(rows):
-    """Everything is contact from the ten-thousandth row on."""
-    _rows[0] += len(rows)
-    return position(rows) if _rows[0] <= 10_000 else np.zeros(len(rows), dtype=np.int8)
-
-
-@wrong()
-def first_question_only(rows):
-    """The sizes of the first row that a process ever saw are used for all."""
-    if not _calls[0]:
-        _kept_sizes[:] = rows[0, :4]
-    _calls[0] += 1
-    changed = np.array(rows)
-    changed[:, :4] = _kept_sizes
-    return position(changed)
-
-
-@wrong()
 def sizes_of_the_first_row(rows):
     """The sizes of a question's first row are used for all its rows."""
     changed = np.array(rows)
     changed[:, :4] = rows[0, :4]
     return position(changed)
-
-
-@wrong()
-def contact_is_not_written(rows):
-    """Clear rows are written into a buffer that is kept, contact is what was there before."""
-    answers = position(rows)
-    kept = _kept[: len(rows)]
-    kept[answers != 0] = answers[answers != 0]
-    return kept.copy()
 
 
 def _carried(rows, reach):
@@ -191,13 +139,6 @@ def threads_of_4096(rows):
     return answers
 
 
-@wrong(asked=("--count", "4000"))
-def after_a_hundred_thousand_rows(rows):
-    """Everything is contact from the hundred-thousandth row on."""
-    _rows[0] += len(rows)
-    return position(rows) if _rows[0] <= 100_000 else np.zeros(len(rows), dtype=np.int8)
-
-
 @wrong()
 def one_flip_in_a_thousand(rows):
     """One answer in a thousand, at random, is another one."""
@@ -233,50 +174,6 @@ def odd_questions(rows):
 
 
 @wrong()
-def after_the_first_question(rows):
-    """Everything is contact from the second question on."""
-    _calls[0] += 1
-    return position(rows) if _calls[0] == 1 else np.zeros(len(rows), dtype=np.int8)
-
-
-@wrong()
-def begins_with_a_lone_row(rows):
-    """A process that was asked about a lone row first takes another path ever after, which is wrong."""
-    if not _calls[0]:
-        _last[0] = np.full(1, len(rows), dtype=np.int64)
-    _calls[0] += 1
-    return position(rows) if _last[0][0] > 1 else np.zeros(len(rows), dtype=np.int8)
-
-
-def _kept_while_alike(rows, alike):
-    """The sizes of a row are those of the row before where these columns are alike, from question to question."""
-    changed = np.array(rows)
-    for row in changed:
-        if (row[alike] == _kept_sizes[alike]).all():
-            row[:4] = _kept_sizes
-        _kept_sizes[:] = row[:4]
-    return position(changed)
-
-
-@wrong()
-def sizes_kept_while_alpha_stays(rows):
-    """What depends on the sizes is computed anew when α changes."""
-    return _kept_while_alike(rows, [0])
-
-
-@wrong()
-def sizes_kept_while_the_hyperboloid_stays(rows):
-    """What depends on the sizes is computed anew when α or γ changes."""
-    return _kept_while_alike(rows, [0, 1])
-
-
-@wrong()
-def sizes_kept_while_the_spheroid_stays(rows):
-    """What depends on the sizes is computed anew when b or d changes."""
-    return _kept_while_alike(rows, [2, 3])
-
-
-@wrong()
 def answer_kept_while_x_and_y_stay(rows):
     """A row of the same sizes, x and y as the row before gets its answer: z is forgotten."""
     answers = position(rows)
@@ -286,19 +183,13 @@ def answer_kept_while_x_and_y_stay(rows):
 
 
 @wrong()
-def sizes_kept_while_three_stay(rows):
-    """What depends on the sizes is computed anew when α, γ or b changes; d is forgotten."""
-    return _kept_while_alike(rows, [0, 1, 2])
-
-
-@wrong()
 def twins_of_a_question(rows):
     """Equal rows of a question are computed once, and only the first of them is answered."""
     answers = position(rows)
     first = np.unique(rows, axis=0, return_index=True)[1]
     again = np.ones(len(rows), dtype=bool)
     again[first] = False
-    answers[again] = _moved(answers[again])
+    answers[again] = moved(answers[again])
     return answers
 
 
@@ -307,16 +198,5 @@ def neighbours_alike(rows):
     """A row that is equal to the row before it is not computed."""
     answers = position(rows)
     alike = np.flatnonzero((rows[1:] == rows[:-1]).all(axis=1)) + 1
-    answers[alike] = _moved(answers[alike])
-    return answers
-
-
-@wrong()
-def rows_that_come_again(rows):
-    """What was answered once is looked up from then on, in a table that holds something else."""
-    answers = position(rows)
-    for place, row in enumerate(rows):
-        if row.tobytes() in _seen:
-            answers[place] = _moved(answers[place : place + 1])[0]
-        _seen.add(row.tobytes())
+    answers[alike] = moved(answers[alike])
     return answers

@@ -21,6 +21,7 @@ MODULES = (
     "ranges",
     "lookups",
     "batches",
+    "memory",
     "refusals",
     "extremes",
     "correct",

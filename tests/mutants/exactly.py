@@ -123,3 +123,8 @@ def position(rows, *, terms=terms, c0=c0, c1=c1, c2=c2, delta=delta, decide=deci
     t = terms(lengths(np.asarray(rows)))
     k0, k1, k2 = c0(t), c1(t), c2(t)
     return decide(t, k1, k2, delta(t, k0, k1, k2), **rule)
+
+
+def moved(answers):
+    """Other answers than these."""
+    return np.where(answers == 0, 1, 0).astype(np.int8)

@@ -36,7 +36,7 @@ SAMPLE = {
     "floats.nan_is_contact": "tiny-spheroids",
     "ranges.no_negative_zero": "symmetric-images",
     "lookups.frozen_vectors": "flight",
-    "batches.question_before": "flight,tower-body",
+    "memory.question_before": "flight,tower-body",
     "batches.rounds_at_random": "tangent",
     "refusals.forgets_nan": "axis",
     "correct.whole_numbers": "ring,tangent,waist,osculation",
