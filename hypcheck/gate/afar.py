@@ -10,7 +10,6 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import queue
-import time
 import uuid
 from collections import deque
 from contextlib import suppress
@@ -19,6 +18,9 @@ from typing import TYPE_CHECKING
 from distributed import KilledWorker
 
 from hypcheck.errors import InputError
+from hypcheck.gate.cluster import CLOSE, CONNECT
+from hypcheck.gate.ourselves import own_sha256
+from hypcheck.gate.patience import within
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
 from hypcheck.gate.shipped import files_to_ship, module_sha256
@@ -36,8 +38,11 @@ FIRST = 10
 """dask's priority of tasks that others wait for."""
 
 TICK = 1.0
-PATIENCE = 60.0
-"""Seconds without a result between two looks at the cluster, and that it may be without any worker."""
+PATIENCE = 60
+"""Seconds without a result between two looks at the cluster, and looks in turn that may find no worker there."""
+
+SILENCES = 6
+"""Looks in turn to which the scheduler may say nothing within the seconds of CONNECT."""
 
 _CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 
@@ -52,7 +57,7 @@ class Afar:
         self._most = implementation.most
         self._name = f"hypcheck-{uuid.uuid4().hex}"
         files, module = files_to_ship(opening.spec), module_sha256(opening.spec)
-        self._job = Job(self._name, opening, rules, implementation.declared, files, module)
+        self._job = Job(self._name, opening, rules, implementation.declared, files, module, own_sha256())
         self.ahead = AHEAD * max(1, sum(client.nthreads().values()))
         self._tasks: dict[int, tuple[Task, Allowance]] = {}
         self._urgent: set[int] = set()
@@ -62,17 +67,20 @@ class Afar:
         self._finished: queue.SimpleQueue[int] = queue.SimpleQueue()
         self._done: dict[int, Performed] = {}
         self._count = 0
-        self._seen = time.monotonic()
+        self._alone = self._silent = 0
 
     def __enter__(self) -> Afar:
-        self._client.register_plugin(Station(self._job))
+        try:
+            within(CONNECT, lambda: self._client.register_plugin(Station(self._job)))
+        except TimeoutError:
+            raise self._lost(f"it said nothing within {CONNECT} s") from None
         return self
 
     def __exit__(self, *_: object) -> None:
         self._running.clear()
         if self._client.status == "running":
             with suppress(Exception):  # it is lost meanwhile, and workers close what is idle by themselves
-                self._client.unregister_worker_plugin(self._name)
+                within(CLOSE, lambda: self._client.unregister_worker_plugin(self._name))
 
     def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:
         """Put a task in line, before all others if it is `first`."""
@@ -115,18 +123,21 @@ class Afar:
         except queue.Empty:
             self._require_workers()
             return
-        self._seen = time.monotonic()
+        future = self._running[number]
         try:
-            performed = self._running[number].result(timeout=TICK)
+            performed = future.result(timeout=TICK)
         except KilledWorker as killed:
             self._suspect(number, killed.allowed_failures + 1)
             return
-        except asyncio.TimeoutError:  # it was computed, but its worker is gone with it: it is computed again
-            self._finished.put(number)
+        except (*_CANCELLED, asyncio.TimeoutError, OSError) as error:
+            if future.status == "error":  # what the task itself ended with
+                raise
+            if not isinstance(error, asyncio.TimeoutError):
+                raise self._lost("its scheduler is not there any more") from None
+            self._finished.put(number)  # it was computed, but its worker is gone with it: it is computed again
             self._require_workers()
             return
-        except (*_CANCELLED, OSError):
-            raise self._lost("its scheduler is not there any more") from None
+        self._alone = self._silent = 0
         self._finish(number, performed)
 
     def _finish(self, number: int, performed: Performed) -> None:
@@ -147,15 +158,20 @@ class Afar:
         self._finish(number, perform(task, Crashed(self._most, reason, allowance), self._rules, allowance))
 
     def _require_workers(self) -> None:
-        """Raise InputError where the scheduler is gone, or has been without workers for too long."""
+        """Raise InputError where the scheduler is gone or silent, or has been without workers for too long."""
         try:
-            workers = self._client.nthreads()
+            workers = within(CONNECT, self._client.nthreads)
+        except TimeoutError:
+            self._silent += 1
+            if self._silent == SILENCES:
+                raise self._lost(f"its scheduler has said nothing for {SILENCES * CONNECT} s") from None
+            return
         except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
             raise self._lost("its scheduler is not there any more") from None
-        if workers:
-            self._seen = time.monotonic()
-        elif time.monotonic() > self._seen + PATIENCE:
-            raise self._lost(f"it has had no worker for {PATIENCE:.0f} s")
+        self._silent = 0
+        self._alone = 0 if workers else self._alone + 1
+        if self._alone > PATIENCE:
+            raise self._lost(f"it has had no worker for {PATIENCE} s")
 
     def _lost(self, why: str) -> InputError:
         kept = "what was finished is in the record"

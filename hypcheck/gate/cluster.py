@@ -15,7 +15,10 @@ from multiprocessing import active_children
 from typing import TYPE_CHECKING, Any
 
 from hypcheck.errors import InputError, UnavailableError
+from hypcheck.gate.ourselves import own_sha256
+from hypcheck.gate.patience import within
 from hypcheck.processes import interrupts_held
+from hypcheck.version import VERSION
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -23,15 +26,18 @@ if TYPE_CHECKING:
 LOCAL = re.compile(r"local:([1-9]\d{0,3})")
 """`local:N`: a scheduler here, with N workers."""
 
-CONNECT = 10.0
+CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
-CLOSE = 5.0
+CLOSE = 5
 ALLOWED_FAILURES = 1
 """Of a scheduler that is started here: a task may cost this many workers and one more, and then is tried alone."""
 
 SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
 """What must be of one version everywhere, of Python its first two numbers."""
+
+
+OTHER_FILES = f"has other files of hypcheck {VERSION} than there are here; install the same there"
 
 
 def check_address(address: str) -> None:
@@ -107,7 +113,11 @@ def _client(address: str) -> Iterator[Client]:
         raise _nobody(address, error) from None
     try:
         _require_workers(client, address)
-        _require_versions(client.get_versions(packages=["hypcheck"]), address)
+        try:
+            _require_versions(within(CONNECT, lambda: client.get_versions(packages=["hypcheck"])), address)
+            _require_same_files(within(CONNECT, lambda: client.run(own_sha256, on_error="return")), address)
+        except TimeoutError:
+            raise InputError(f"--cluster {address}: not all of its workers answered within {CONNECT} s") from None
         yield client
     finally:
         with suppress(Exception):
@@ -115,20 +125,26 @@ def _client(address: str) -> Iterator[Client]:
 
 
 def _require_scheduler(address: str) -> None:
-    """Raise InputError where nobody answers as dask does: a Client that fails so prints tracebacks when it is freed."""
+    """Raise InputError where nobody answers as dask does, or dask of another version.
+
+    A Client would find that out by errors of its own, some of them printed as tracebacks when it is freed.
+    """
     from distributed.core import rpc  # noqa: PLC0415
     from distributed.security import Security  # noqa: PLC0415
+    from distributed.versions import get_versions  # noqa: PLC0415
 
-    async def who() -> str:
+    async def who() -> tuple[str, Any]:
         async with rpc(address, CONNECT, connection_args=Security().get_connection_args("client")) as there:
-            return str((await there.identity())["type"])
+            kind = str((await there.identity())["type"])
+            return kind, await there.versions(packages=["hypcheck"]) if kind == "Scheduler" else None
 
     try:
-        kind = asyncio.run(asyncio.wait_for(who(), CONNECT + 3))  # dask waits longer for one who is silent
+        kind, versions = asyncio.run(asyncio.wait_for(who(), CONNECT + 3))  # dask waits longer for one who is silent
     except Exception as error:  # noqa: BLE001 - a stranger's answer may lead to any, a MemoryError too
         raise _nobody(address, error) from None
     if kind != "Scheduler":
         raise InputError(f"--cluster {address}: a dask {kind.lower()} is there, and no scheduler; name its scheduler")
+    _require_same_versions("the scheduler", versions, get_versions(packages=["hypcheck"]), address)
 
 
 def _nobody(address: str, error: BaseException) -> InputError:
@@ -139,7 +155,7 @@ def _nobody(address: str, error: BaseException) -> InputError:
     if told:
         reason = told[-1].lower()
     elif isinstance(error, (TimeoutError, asyncio.TimeoutError)):
-        reason = f"nothing was said within {CONNECT:.0f} s"
+        reason = f"nothing was said within {CONNECT} s"
     elif isinstance(error, MemoryError):
         reason = "what is said there is not what dask says"
     else:
@@ -158,14 +174,25 @@ def _require_workers(client: Client, address: str) -> None:
 
 def _require_versions(found: Mapping[str, Any], address: str) -> None:
     """Raise InputError naming the first difference between here and the scheduler or a worker."""
-    here = _versions(found["client"])
     there = {"the scheduler": found["scheduler"], **{f"worker {name}": each for name, each in found["workers"].items()}}
     for who, each in there.items():
-        versions = _versions(each)
-        for package in SAME:
-            if versions[package] != here[package]:
-                had = f"has {package} {versions[package]}" if versions[package] else f"has no {package}"
-                raise InputError(f"--cluster {address}: {who} {had}, and here it is {here[package]}; both must be one")
+        _require_same_versions(who, each, found["client"], address)
+
+
+def _require_same_versions(who: str, there: Mapping[str, Any], here: Mapping[str, Any], address: str) -> None:
+    ours, theirs = _versions(here), _versions(there)
+    for package in SAME:
+        if theirs[package] != ours[package]:
+            had = f"has {package} {theirs[package]}" if theirs[package] else f"has no {package}"
+            raise InputError(f"--cluster {address}: {who} {had}, and here it is {ours[package]}; both must be one")
+
+
+def _require_same_files(found: Mapping[str, Any], address: str) -> None:
+    """Raise InputError where a worker has other files of ours, though by its version they should be the same."""
+    here = own_sha256()
+    for worker, there in found.items():
+        if there != here:
+            raise InputError(f"--cluster {address}: worker {worker} {OTHER_FILES}")
 
 
 def _versions(machine: Mapping[str, Any]) -> dict[str, str | None]:

@@ -12,9 +12,11 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from distributed import Worker, WorkerPlugin
+from distributed import Worker, WorkerPlugin, get_worker
 
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import HypcheckError, InputError
+from hypcheck.gate.cluster import OTHER_FILES
+from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
 from hypcheck.gate.shipped import Shipped, module_sha256, require_same, spec_there
@@ -33,7 +35,7 @@ class Job:
     """What every worker is told once: a name for the run, what to open and how to judge.
 
     `declared` is what the implementation must say of itself, `files` what its SPEC names, `module` the sha256 of its
-    Python module.
+    Python module, `ours` that of our own files.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Job:
     declared: Description
     files: tuple[Shipped, ...]
     module: str
+    ours: str
 
 
 class Station(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
@@ -64,7 +67,12 @@ class Station(WorkerPlugin):  # type: ignore[misc]  # of a package that is not c
 
 
 def perform_at_station(name: str, task: Task, allowance: Allowance) -> Performed:
-    """Perform a task of the run of that name, on whichever worker this is."""
+    """Perform a task of the run of that name, on whichever worker this is.
+
+    Raises InputError where the worker, which may have come later, has other files than where the run began.
+    """
+    if name not in _HELD:  # it could not be made ready
+        raise InputError(f"worker {get_worker().address} {OTHER_FILES}")
     return _HELD[name].perform(task, allowance)
 
 
@@ -112,10 +120,16 @@ class _Held:
     def _opening_here(self) -> Opening:
         job = self._job
         spec = job.opening.spec
+        if own_sha256() != job.ours:
+            raise InputError(f"worker {self._worker} {OTHER_FILES}")
         if job.module:
             require_same(f"the module of {spec}", job.module, module_sha256(spec), self._worker)
-        self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
-        return replace(job.opening, spec=spec_there(spec, job.files, self._worker, self._folder))
+        try:
+            self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
+            return replace(job.opening, spec=spec_there(spec, job.files, self._worker, self._folder))
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
 
     def _close_idle(self) -> None:
         while not self._over.wait(IDLE / 4):

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 ALLOWED_FAILURES = 1
+HOME = Path(__file__).parents[2]
 
 
 class Cluster:
@@ -23,34 +24,43 @@ class Cluster:
         allowed = {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": str(ALLOWED_FAILURES)}
         self._environment = {**os.environ, **allowed, **environment}
         self.processes: list[subprocess.Popen[bytes]] = []
-        self._start("dask_scheduler", "--host", "127.0.0.1", "--port", "0")
+        self._start(HOME, {}, "dask_scheduler", "--host", "127.0.0.1", "--port", "0")
         until = time.monotonic() + 60
         while not self._file.exists() or not self._file.read_text():
             assert time.monotonic() < until
             time.sleep(0.05)
         self.address = json.loads(self._file.read_text())["address"]
 
-    def start_workers(self, count: int) -> None:
-        """Workers, each of which is started again when it ends."""
-        home = ["--local-directory", str(self._folder)]
-        self._start("dask_worker", "--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0", *home)
+    def start_workers(self, count: int, environment: dict[str, str] | None = None, home: Path = HOME) -> None:
+        """Workers, each of which is started again when it ends, with the hypcheck in the folder `home`."""
+        place = ["--local-directory", str(self._folder)]
+        each = ["--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0"]
+        self._start(home, environment or {}, "dask_worker", *each, *place)
 
-    def _start(self, program: str, *options: str) -> None:
+    def _start(self, home: Path, environment: dict[str, str], program: str, *options: str) -> None:
         words = [sys.executable, "-m", f"distributed.cli.{program}", "--scheduler-file", str(self._file)]
         self.processes.append(
             subprocess.Popen(
                 [*words, "--no-dashboard", *options],
-                env=self._environment,
-                cwd=Path(__file__).parents[2],
+                env={**self._environment, **environment},
+                cwd=home,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 start_new_session=True,
             )
         )
 
+    def kill_workers(self, number: int) -> None:
+        """Those that were started by the call of that number, counted from 1, with who would start them again."""
+        os.killpg(self.processes[number].pid, signal.SIGKILL)
+
     def kill_scheduler(self) -> None:
         """As the system does when memory runs out."""
         os.killpg(self.processes[0].pid, signal.SIGKILL)
+
+    def stop_scheduler(self) -> None:
+        """As a machine does that has no memory left to work with."""
+        os.killpg(self.processes[0].pid, signal.SIGSTOP)
 
     def end(self) -> None:
         """All of it, now."""

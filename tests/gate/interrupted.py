@@ -27,6 +27,14 @@ def in_small_steps(put):
     put(schedule, "ROUND", 600)
 
 
+def with_little_patience(put):
+    """Let it be soon lost when a scheduler is silent."""
+    from hypcheck.gate import afar
+
+    put(afar, "CONNECT", 1)
+    put(afar, "SILENCES", 2)
+
+
 def words(out, *more):
     return ["verify", *SPECS, *WORDS, "--out", str(out), *more]
 
@@ -86,4 +94,6 @@ def came_to(out):
 if __name__ == "__main__":
     sys.modules["matplotlib"] = sys.modules["jinja2"] = None  # whose reports are no part of what is looked at
     in_small_steps(setattr)
+    if "--cluster" in sys.argv:
+        with_little_patience(setattr)
     sys.exit(main())

@@ -44,6 +44,23 @@ def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
     assert came_to(out) == whole
 
 
+def test_a_scheduler_that_stands_still_is_waited_for_and_then_lost(tmp_path):
+    """Its system goes on to say that it is there."""
+    cluster = Cluster(tmp_path, {})
+    out = tmp_path / "out"
+    try:
+        cluster.start_workers(1)
+        process = started(out, "--cluster", cluster.address)
+        wait_for(process, out, b"progress")
+        cluster.stop_scheduler()
+        said = "".join(process.communicate(timeout=60))
+    finally:
+        cluster.end()
+    assert process.returncode == 2
+    assert "the cluster was lost: its scheduler has said nothing for 2 s; what was finished is in the record" in said
+    assert read(out / FILE).of("progress")
+
+
 def test_an_interrupted_run_on_workers_here_leaves_none_of_them_and_goes_on(tmp_path, whole, token):  # noqa: F811
     process = started(tmp_path, "--cluster", "local:2", start_new_session=True)
     wait_for(process, tmp_path, b"progress")

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import os
+import shutil
+import signal
 import socket
 import sys
 import threading
@@ -14,9 +17,16 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.gate import cluster as ways
 from hypcheck.gate.cluster import check_address, connected
+from hypcheck.gate.patience import within
+from hypcheck.gate.schedule import State, states
+from hypcheck.gate.work import Opening
+from hypcheck.methods.limits import Limits
 from tests.gate.clusters import Cluster
+from tests.gate.killing import rules_of, steps_of
 
 pytest.importorskip("distributed")
+
+from hypcheck.gate.afar import Afar
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +59,7 @@ def server(says):
 
 def refusal(address, monkeypatch):
     """What is said of an address that must answer within a second."""
-    monkeypatch.setattr(ways, "CONNECT", 1.0)
+    monkeypatch.setattr(ways, "CONNECT", 1)
     with pytest.raises(InputError) as said, connected(address):
         pass
     return str(said.value)
@@ -67,6 +77,14 @@ def test_what_is_no_address(address):
 @pytest.mark.parametrize("address", ["host:8786", "tcp://10.0.0.1:8786", "tls://[::1]:65535", "local:1", "local:9999"])
 def test_what_is_an_address(address):
     check_address(address)
+
+
+def test_a_call_is_waited_for_no_longer_than_said():
+    assert within(9, lambda: 3) == 3
+    with pytest.raises(ZeroDivisionError):
+        within(9, lambda: 1 // 0)
+    with pytest.raises(TimeoutError, match="it took longer than 1 s"):
+        within(1, threading.Event().wait)
 
 
 def test_nobody_is_there(monkeypatch):
@@ -89,6 +107,27 @@ def test_a_worker_is_there(cluster, monkeypatch):
     with connected(cluster.address) as client:
         (worker,) = client.scheduler_info()["workers"]
     assert "a dask worker is there, and no scheduler; name its scheduler" in refusal(worker, monkeypatch)
+
+
+def test_a_worker_that_cannot_write(cluster):
+    opening = Opening("builtin:fast", Limits())
+    with connected(cluster.address) as client, opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+        client.run(lambda dask_worker: shutil.rmtree(dask_worker.local_directory))
+        with pytest.raises(InputError, match=r"worker tcp://\S+ cannot write into its folder \S+: no such file"):
+            list(states(steps_of(["ring"], 100), crew, State(it.allowance)))
+
+
+def test_a_worker_that_says_nothing(tmp_path, monkeypatch):
+    """Its system goes on to say that it is there."""
+    found = Cluster(tmp_path, {})
+    try:
+        found.start_workers(1)
+        with connected(found.address) as client:
+            (worker,) = client.run(os.getpid).values()
+        os.kill(worker, signal.SIGSTOP)
+        assert "not all of its workers answered within 1 s" in refusal(found.address, monkeypatch)
+    finally:
+        found.end()
 
 
 def test_a_scheduler_without_workers(tmp_path, monkeypatch):
