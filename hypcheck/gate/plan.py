@@ -27,7 +27,7 @@ class GatePlan:
     `specs` name the implementations; `families` are names and globs (none: all but the extreme ones), of each of which
     the frozen vectors and `count` generated rows are asked. `precision`, `question` and `domain` stand for what an
     implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only one that claims clear in contact.
-    `workers` is how many processes ask; None: one, but for a large run as many as there are processors.
+    `workers` is how many processes ask; None: this one, but for a large run as many as there are processors.
     `cluster` is the address of a scheduler whose workers ask instead.
     """
 
@@ -59,9 +59,9 @@ class GatePlan:
             if self.workers is not None:
                 raise InputError("--workers is for a run on this machine; a cluster has workers of its own")
 
-    def crew(self, cases: int) -> int:
-        """How many processes ask so many cases."""
-        return self.workers or (usable_processors() if cases >= LARGE else 1)
+    def crew(self, cases: int) -> int | None:
+        """How many processes of our own ask so many cases; None: none but this one, which takes no time to begin."""
+        return self.workers or (usable_processors() if cases >= LARGE else None)
 
     def opening(self, number: int) -> Opening:
         """How one of its implementations is opened."""

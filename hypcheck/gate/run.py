@@ -135,12 +135,12 @@ def _crew(
     rules: Rules,
     client: Client | None,
 ) -> Crew:
-    """Who asks: this process; for large runs several, or a cluster: then the implementation here has done its part."""
+    """Who asks: this process; for large runs others, or a cluster: then the implementation here has done its part."""
     count = plan.crew(size(plan))
-    if client is None and count == 1:
+    if client is None and count is None:
         return Here(implementation, rules)
     implementation.close()
-    if client is None:
+    if count is not None and client is None:
         return stack.enter_context(Workers(count, opening, rules, implementation))
     from hypcheck.gate.afar import Afar  # noqa: PLC0415 - loads dask.distributed, which no other run needs
 

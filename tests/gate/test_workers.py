@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 
 import pytest
 
 from hypcheck.gate import chunks, schedule, workers
 from hypcheck.gate.schedule import State, states
 from hypcheck.gate.workers import LostError, Workers
+from hypcheck.record import read
 from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 
 
@@ -45,3 +48,14 @@ def test_processes_that_cannot_begin_end_the_run(monkeypatch):
         Workers(2, KILLS, rules_of(it), it) as crew,
     ):
         list(states(some, crew, State(it.allowance)))
+
+
+def test_one_worker_may_end_as_well(tmp_path):
+    """Who asks for one has it in a process of its own, so that the run does not end with it."""
+    words = ["verify", KILLS.spec, "--families", "uniform", "--count", "2501", "--workers", "1", "--out", str(tmp_path)]
+    command = [sys.executable, "-m", "hypcheck", *words]
+    done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
+    assert done.returncode == 1, done.stderr
+    (group,) = read(tmp_path / "record.jsonl").of("group")
+    assert group["counts"]["crash"] == 2501
+    assert "3 processes of hypcheck ended while they asked these cases" in group["faults"][0]["reason"]
