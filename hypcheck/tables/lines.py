@@ -97,7 +97,8 @@ def _blocks(reader: Reader) -> Iterator[Block]:
         rest = data[cut:]
         if len(rest) > LONGEST:
             line = number + data.count(b"\n", 0, cut)
-            raise InputError(f"{reader.name}, line {line}: longer than {LONGEST} bytes; a row is one short line")
+            where = f"{reader.name}, line {line}"
+            raise InputError(f"{where}: longer than {LONGEST} bytes; a row, or a case, is one short line")
         if cut:
             block = Block(number, data[:cut])
             number += block.count

@@ -107,7 +107,7 @@ def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]
     except InputError:
         raise
     except Exception as error:  # noqa: BLE001 - numpy evaluates the header's text, which may hold anything
-        reason = str(error).partition("\n")[0]
+        reason = str(error).partition("\n")[0] or "it cannot be read"
         raise InputError(f"{reader.name} is no .npy file, or one cut off in its header: {reason}") from None
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
 

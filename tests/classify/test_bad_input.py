@@ -78,7 +78,7 @@ CSV = {
     f"{HEADER}\r{GOOD}\r": ", line 1: a carriage return stands within a row; lines must end with LF or CRLF",
     f"{HEADER}\n{GOOD}\n1,2,1\0,1,1,0,0\n": ", line 3: a NUL byte; it must be UTF-8 text",
     f'{HEADER},n\n{GOOD},"{"a" * 200_000}"\n': ", line 2: a cell is longer than 131072 characters; a quote may have been left open",
-    f"{HEADER},n\n{GOOD},{'a,' * (1 << 20)}\n": ", line 2: longer than 1048576 bytes; a row is one short line",
+    f"{HEADER},n\n{GOOD},{'a,' * (1 << 20)}\n": ", line 2: longer than 1048576 bytes; a row, or a case, is one short line",
 }  # fmt: skip
 
 
