@@ -15,11 +15,11 @@ from tests.bench.test_run import ended
 from tests.miniatures import QUICK, command, compiled
 
 ROWS = WORKLOADS["uniform"].rows(1, 50)
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 SUBJECT = """
 import numpy as np
 from hypcheck.kernel.classify import classify as exact
-
-pytestmark = pytest.mark.usefixtures("text_reports")
 
 hypcheck = {{"name": "subject"}}
 
