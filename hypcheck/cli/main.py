@@ -19,12 +19,20 @@ def process() -> NoReturn:
     An interrupt can come while a pool of workers holds a lock, which nobody will then let go, and Python waits for the
     pool's threads as it ends. Everything is written by now, and the workers are gone, so there is no waiting.
     """
+    _fill_closed_descriptors()
     code = main()
     if code not in INTERRUPTED:
         sys.exit(code)
     with suppress(OSError, ValueError, AttributeError):
         sys.stderr.flush()
     os._exit(code)
+
+
+def _fill_closed_descriptors() -> None:
+    """Let no file of ours take the place of a closed standard stream, into which a library may write."""
+    while (number := os.open(os.devnull, os.O_RDWR)) < 3:
+        os.set_inheritable(number, True)
+    os.close(number)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -66,7 +74,7 @@ def _end(error: BaseException, *, debug: bool) -> int:
             import traceback
 
             traceback.print_exception(error)
-        for line in ending.lines:
+        for line in ending.lines if sys.stderr is not None else ():  # print would take standard output then
             print(line, file=sys.stderr)  # noqa: T201 - the one place that speaks of errors
     _silence_stdout()
     return int(ending.code)

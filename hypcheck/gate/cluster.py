@@ -160,7 +160,8 @@ def _nobody(address: str, error: BaseException) -> InputError:
         reason = "what is said there is not what dask says"
     else:
         reason = str(error) or type(error).__name__
-    return InputError(f"--cluster {address}: no dask scheduler answers there: {reason}")
+    tls = "; certificates are told by dask's settings distributed.comm.tls" if address.startswith("tls:") else ""
+    return InputError(f"--cluster {address}: no dask scheduler answers there: {reason}{tls}")
 
 
 def _require_workers(client: Client, address: str) -> None:

@@ -103,6 +103,10 @@ def test_somebody_else_is_there(monkeypatch, says, reason):
         assert reason in refusal(address, monkeypatch)
 
 
+def test_certificates_are_missing(monkeypatch):
+    assert "certificates are told by dask's settings" in refusal("tls://127.0.0.1:9", monkeypatch)
+
+
 def test_a_worker_is_there(cluster, monkeypatch):
     with connected(cluster.address) as client:
         (worker,) = client.scheduler_info()["workers"]

@@ -1,0 +1,33 @@
+"""Standard streams that whoever started us has closed."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+
+def test_what_cannot_be_told_on_a_closed_standard_error_is_not_told_on_standard_output():
+    words = [sys.executable, "-m", "hypcheck", "classify", "--input", "no-such-file.csv", "--output", "-"]
+    done = subprocess.run(words, stdout=subprocess.PIPE, preexec_fn=lambda: os.close(2), check=False)
+    assert (done.returncode, done.stdout) == (2, b"")
+
+
+TELLS = """
+import os
+from hypcheck.cli import main
+main.main = lambda: os.write(7, str(os.fstat(2).st_rdev).encode())
+main.process()
+"""
+
+
+def test_no_file_takes_the_place_of_a_closed_standard_stream():
+    read, write = os.pipe()
+
+    def begin():
+        os.dup2(write, 7)
+        os.closerange(0, 3)
+
+    with subprocess.Popen([sys.executable, "-c", TELLS], pass_fds=[7], preexec_fn=begin), os.fdopen(read) as told:  # noqa: PLW1509
+        os.close(write)
+        assert told.read() == str(os.stat(os.devnull).st_rdev)
