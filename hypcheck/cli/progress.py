@@ -8,9 +8,11 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import repeat
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 import click
+
+from hypcheck.cli.leaving import Leaving
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
@@ -42,7 +44,7 @@ def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> It
         map(str, repeat("")) if length is None else None,  # it has no length, by which click knows of none
         length=length,
         label=label,
-        file=sys.stderr,
+        file=cast("TextIO", Leaving(sys.stderr)),
         show_eta=False,
         item_show_func=lambda said: said,
     ) as bar:
