@@ -6,7 +6,7 @@ So a part's `angle` is g_i − heading + 45°, and with (T1, T2) of g1 the four 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +25,9 @@ Point = tuple[Floats, Floats, Floats]
 
 SHORTEST, LONGEST = 1e-6, 1e6
 """Lengths of bodies: Δ, of degree 12 in their ratios, is far from overflow then."""
+
+FARTHEST = 1e12
+"""Coordinates of places, whose squares and fourth powers occur."""
 
 ROTORS = 4
 _FORMAT = "float64"
@@ -110,7 +113,7 @@ def craft_of(scene: Scene) -> Craft:
 
 
 def require_ordinary(scene: Scene) -> None:
-    """Raise InputError where lengths are so long or so short that what is printed overflows in float64."""
+    """Raise InputError where lengths are so long or short, or places so far, that what is printed overflows."""
     for body in (*scene.hyperboloids, scene.mover, *scene.mover.parts):
         for name in ("alpha", "gamma", "b", "d"):
             length = getattr(body, name, 1.0)
@@ -119,6 +122,32 @@ def require_ordinary(scene: Scene) -> None:
                     f"the scene {scene.name!r}: {name} is {length!r}; a simulation takes lengths from {SHORTEST:g} "
                     f"to {LONGEST:g}"
                 )
+
+    for what, value in _places(scene):
+        if abs(value) > FARTHEST:
+            raise InputError(
+                f"the scene {scene.name!r}: {what} is at {value!r}; a simulation takes places as far as {FARTHEST:g}"
+            )
+
+
+def _places(scene: Scene) -> Iterator[tuple[str, float]]:
+    """Every coordinate that a simulation begins with or is bounded by, and what is there."""
+    for body in scene.hyperboloids:
+        yield from ((f"the centre of {body.name!r}", value) for value in body.center)
+        yield from _ends(f"the height of {body.name!r}", body.height)
+    for span in (scene.region.x, scene.region.y, scene.region.z):
+        yield from _ends("the region", span)
+    if scene.flight is not None:
+        start = scene.flight.start
+        yield from _ends("the flights' start", start.z)
+        yield "the flights' start", start.radius or start.margin or 0.0
+    if scene.walk is not None:
+        yield from (("the walk's start", value) for value in scene.walk.start)
+
+
+def _ends(what: str, span: Span | None) -> Iterator[tuple[str, float]]:
+    if span is not None:
+        yield from ((what, value) for value in (span.low, span.high))
 
 
 def _require_regime(scene: Scene, tower: Hyperboloid) -> None:

@@ -13,6 +13,7 @@ from hypcheck.errors import InputError
 from hypcheck.paper.flights_circle import EIGHTH, any_angle, quarter_turns, small_angle, turned
 from hypcheck.paper.flights_craft import Procedures, craft_of
 from hypcheck.paper.flights_ways import valid
+from hypcheck.scene.model import Span, Start
 from hypcheck.scene.reading import read_scene
 
 SCENES = {name: read_scene(name) for name in ("tower", "tower-simplest")}
@@ -101,3 +102,25 @@ def test_turns_add_up_and_keep_their_length():
     for _ in range(1000):
         direction = turned(direction, small_angle(np.array([0.3, -0.3])))
     assert np.allclose(np.hypot(*direction), 1, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        (
+            lambda tower: {"hyperboloids": (replace(tower.hyperboloids[0], center=(0.0, -1e300, 0.0)),)},
+            "centre of 'tower'",
+        ),
+        (
+            lambda tower: {"hyperboloids": (replace(tower.hyperboloids[0], height=Span(0.0, 1e13)),)},
+            "height of 'tower'",
+        ),
+        (lambda tower: {"region": replace(tower.region, z=Span(-1e308, 0.0))}, "the region is at -1e\\+308"),
+        (lambda tower: {"flight": replace(tower.flight, start=Start(Span(0.0, 1e308), 1.0))}, "start is at 1e\\+308"),
+        (lambda tower: {"flight": replace(tower.flight, start=Start(Span(0.0, 1.0), 1e20))}, "start is at 1e\\+20"),
+    ],
+)
+def test_places_whose_squares_would_overflow_are_refused(changed, message):
+    tower = SCENES["tower"]
+    with pytest.raises(InputError, match=message):
+        craft_of(replace(tower, **changed(tower)))

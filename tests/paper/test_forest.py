@@ -224,6 +224,7 @@ def test_the_scene_says_how_many_steps():
         (FOREST, 10**7, "10,000,000 steps were asked for; it must be 1,000,000 at most"),
         (replace(FOREST, mover=replace(FOREST.mover, b=1e-9)), 5, "a simulation takes lengths from 1e-06"),
         (replace(FOREST, walk=replace(FOREST.walk, start=(0.0, 30.0, 0.0))), 5, "outside the scene's region"),
+        (replace(FOREST, walk=replace(FOREST.walk, start=(0.0, 1e308, 0.0))), 5, "the walk's start is at 1e\\+308"),
     ],
 )
 def test_what_cannot_be_simulated_is_refused(scene, steps, message):
