@@ -175,13 +175,18 @@ def interrupts_held() -> Iterator[None]:
 def _begin_resource_tracker() -> None:
     """Start Python's process that removes what a killed one leaves; it is to do so without a word.
 
-    Started with the first process of ours, it would let interrupts through again.
+    Started with the first process of ours, it would let interrupts through again. It is to outlive all of us, for which
+    Python lets it ignore every signal but the one that a closed terminal sends.
     """
+    if not hasattr(signal, "pthread_sigmask"):
+        return
     quiet = "ignore:resource_tracker:UserWarning"
-    sys.warnoptions.append(quiet)  # with which it starts
+    sys.warnoptions.append(quiet)  # with which it starts, as with what is blocked here
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGHUP})
     try:
         resource_tracker.ensure_running()
     finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
         sys.warnoptions.remove(quiet)
 
 

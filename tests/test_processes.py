@@ -84,3 +84,24 @@ os._exit(0)
 def test_what_a_killed_process_leaves_is_removed_without_a_word():
     done = subprocess.run([sys.executable, "-c", LEFT], capture_output=True, timeout=60, check=True)
     assert done.stderr == b""
+
+
+CLOSED = """
+import os, signal, time
+from multiprocessing import get_context
+from hypcheck.processes import interrupts_held
+signal.signal(signal.SIGHUP, lambda *_: None)
+with interrupts_held():
+    held = get_context("spawn").Lock()
+time.sleep(0.5)  # the process that looks after it has begun
+os.killpg(0, signal.SIGHUP)
+time.sleep(0.2)
+del held
+"""
+
+
+def test_a_terminal_that_is_closed_leaves_what_looks_after_us():
+    """It gets the signal as all of us do, and would be begun again, knowing nothing."""
+    command = [sys.executable, "-c", CLOSED]
+    done = subprocess.run(command, capture_output=True, timeout=60, check=True, start_new_session=True)
+    assert done.stderr == b""
