@@ -182,7 +182,7 @@ def _named(found: list[Failure]) -> str:
         "oracle": "disagreement of oracles|disagreements of oracles",
         "proof": "failed proof|failed proofs",
         "implementation": "implementation failure|implementation failures",
-        "findings": "drift from the known findings|drifts from the known findings",
+        "findings": "drift from what is known|drifts from what is known",
         "measurement": "failed measurement|failed measurements",
     }
     counts = [(sum(each.count for each in found if each.subject == subject), noun) for subject, noun in nouns.items()]

@@ -58,7 +58,7 @@ def test_what_the_papers_formulas_get_wrong_fails_nothing():
         (EXACT_WRONG, 1, "1 implementation failure", "tangent/1/1/0"),
         (EXACT_ABSTAINS, 1, "1 implementation failure", None),
         (CRASHED, 1, "1 implementation failure", None),
-        (DRIFT, 1, "1 drift from the known findings", None),
+        (DRIFT, 1, "1 drift from what is known", None),
     ],
 )
 def test_each_failure_is_named(line, code, says, case):
@@ -80,7 +80,7 @@ def test_several_failures_are_counted_worst_first():
     record = of(DRIFT, EXACT_WRONG, UNPROVED, DISAGREEMENT, DISAGREEMENT, exit_code=6)
     assert verdict(record).sentence == (
         "FAILED with exit code 6: 2 disagreements of oracles, 1 failed proof, 1 implementation failure and"
-        " 1 drift from the known findings."
+        " 1 drift from what is known."
     )
 
 
