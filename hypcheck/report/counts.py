@@ -16,8 +16,9 @@ _OCTAVE = re.compile(r"-?\d{1,4}|-?inf", re.ASCII)
 
 def trouble_with(line: Line) -> str | None:
     """What is wrong with the counts of a line that fits its schema; None where nothing is."""
-    kind = line["type"]
-    return next(_of_group(line) if kind == "group" else _of_accuracy(line) if kind == "accuracy" else iter(()), None)
+    checks = {"group": _of_group, "accuracy": _of_accuracy, "bounding": _of_bounding}
+    check = checks.get(line["type"])
+    return next(check(line), None) if check else None
 
 
 def _of_group(line: Line) -> Iterator[str]:
@@ -38,6 +39,14 @@ def _of_accuracy(line: Line) -> Iterator[str]:
             yield f"{where} has a count that is no number"
         else:
             yield from _of_counts(asked, wrong, where)
+
+
+def _of_bounding(line: Line) -> Iterator[str]:
+    for number, (ratio, asked, wrong, _) in enumerate(line["overlap"]):
+        if None in (ratio, asked, wrong):
+            yield f"overlap[{number}] has null where only its last number may be that"
+        else:
+            yield from _of_counts(asked, wrong, f"overlap[{number}]")
 
 
 def _of_places(places: Sequence[int], where: str) -> Iterator[str]:
