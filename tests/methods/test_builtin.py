@@ -53,5 +53,7 @@ def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones():
-    with pytest.raises(InputError, match=r"no built-in method 'table2'; there are .*table-2-float32"):
-        builtin("table2")
+    with pytest.raises(InputError, match=r"no built-in method 'tabel-2-float32'; did you mean table-2-float32"):
+        builtin("tabel-2-float32")
+    with pytest.raises(InputError, match=r"no built-in method 'xyzzy'; there are .*table-2-float32"):
+        builtin("xyzzy")
