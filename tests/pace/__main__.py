@@ -18,7 +18,7 @@ from hypcheck.cli.main import main as hypcheck
 from hypcheck.cli.whole import Whole
 from hypcheck.gate.lines import GateOutcome
 from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.run import run
+from hypcheck.gate.run import run, size
 from hypcheck.record import Recorder
 
 FAMILY = "tower-body"
@@ -46,19 +46,22 @@ class Pace:
 
 @click.command(context_settings={"show_default": True})
 @click.argument("counts", nargs=-1, type=Whole(10**6))
-@click.option("--workers", type=Whole(1, 64), default=1)
+@click.option("--workers", type=Whole(1, 64), help="Processes that ask.  [default: as verify has it, by the count]")
 @click.option("--seconds", type=float, default=10.0, help="A run is made again until so many have passed.")
-def main(counts: tuple[int, ...], workers: int, seconds: float) -> None:
+def main(counts: tuple[int, ...], workers: int | None, seconds: float) -> None:
     """Time verify of a C program asked in binary, with so many rows (by default 1e6 1e7 1e8 1e9)."""
     with tempfile.TemporaryDirectory() as folder:
         spec = f"command:{_adapter(Path(folder))}"
         paces = []
-        click.echo(f"{'rows':>13} {'runs':>5} {'start':>8} {'behind it':>10} {'rows a second and process':>26}")
+        click.echo(
+            f"{'rows':>13} {'runs':>5} {'processes':>9} {'start':>8} {'behind it':>10} {'rows a second each':>19}"
+        )
         for count in counts or (10**6, 10**7, 10**8, 10**9):
             some = list(_repeated(spec, count, workers, seconds))
             middle = sorted(some, key=lambda pace: pace.each)[len(some) // 2]
             paces.append(median(pace.each for pace in some))
-            click.echo(f"{count:13,} {len(some):5} {middle.start:6.2f} s {middle.seconds:8.2f} s {paces[-1]:26,.0f}")
+            times = f"{middle.start:6.2f} s {middle.seconds:8.2f} s"
+            click.echo(f"{count:13,} {len(some):5} {middle.workers:9} {times} {paces[-1]:19,.0f}")
     behind = 1 - min(paces) / max(paces)
     click.echo(f"the slowest is {behind:.0%} behind the fastest (at most {SPREAD:.0%})")
     sys.exit(1 if behind > SPREAD else 0)
@@ -73,22 +76,23 @@ def _adapter(folder: Path) -> Path:
     return folder / "adapter"
 
 
-def _repeated(spec: str, count: int, workers: int, seconds: float):
+def _repeated(spec: str, count: int, workers: int | None, seconds: float):
     until = time.perf_counter() + seconds
     yield _timed(spec, count, workers)
     while time.perf_counter() < until:
         yield _timed(spec, count, workers)
 
 
-def _timed(spec: str, count: int, workers: int) -> Pace:
+def _timed(spec: str, count: int, workers: int | None) -> Pace:
     """A run; it has begun once each process has had time to judge its first chunk."""
     marks: list[tuple[float, int]] = []
     plan = GatePlan((spec,), families=(FAMILY,), count=count, workers=workers)
     begun = time.perf_counter()
     run(plan, Recorder(io.StringIO(), {}), GateOutcome(), lambda rows: marks.append((time.perf_counter(), rows)))
-    first = 1 if workers == 1 else 2 * workers
+    asking = plan.crew(size(plan)) or 1
+    first = 1 if asking == 1 else 2 * asking
     behind = sum(rows for _, rows in marks[first + 1 :])
-    return Pace(count, marks[first][0] - begun, behind, marks[-1][0] - marks[first][0], workers)
+    return Pace(count, marks[first][0] - begun, behind, marks[-1][0] - marks[first][0], asking)
 
 
 if __name__ == "__main__":
