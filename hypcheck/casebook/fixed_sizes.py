@@ -198,7 +198,7 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
-    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 or the last of all where it never does."""
+    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 where it never is, FARTHEST where always."""
 
     def outward(x: float) -> bool:
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
@@ -206,6 +206,8 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
 
     if outward(0.0):
         return 0.0
+    if not outward(sys.float_info.max):
+        return FARTHEST
     # Halving how many floats lie between them takes 63 steps at any scale; halving their distance up to two thousand.
     first, last = 0, _ordinal(sys.float_info.max)
     while last - first > 1:

@@ -28,10 +28,7 @@ class Number(click.types.FloatParamType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401 - click's
         """The number. Raises click.BadParameter."""
-        try:
-            number = float(value)
-        except ValueError:
-            number = math.nan
+        number = float(value) if is_number(str(value)) else math.nan
         above = self.least < number if self.excluded else self.least <= number
         if not (math.isfinite(number) and above and number <= self.greatest):
             wanted = f"a number, {'greater than' if self.excluded else 'at least'} {self.least:g}"

@@ -51,7 +51,7 @@ class Lines:
     """A text by lines: one after the other, or where a block begins, if it is plain, the block as a whole."""
 
     def __init__(self, reader: Reader) -> None:
-        self.name = reader.name
+        self._name = reader.name
         self._blocks = _blocks(reader)
         self._ahead: Block | None = None
         self._given = 0
@@ -81,7 +81,7 @@ class Lines:
         while (block := self._ahead or next(self._blocks, None)) is not None:
             self._ahead = None
             self._given += block.count
-            yield _lines(block.data, self.name, block.first)
+            yield _lines(block.data, self._name, block.first)
 
 
 def text_lines(reader: Reader) -> Iterator[str]:

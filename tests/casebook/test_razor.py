@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -31,7 +32,9 @@ def position(sizes, x, z):
 def test_a_step_inward_from_the_edge_is_on_the_other_side_of_it(sizes, z):
     for side in SIDES:
         x = fixed_sizes._edge(sizes, z, side)
-        assert x == sys.float_info.max or is_beyond(sizes, x, z, side)
+        assert is_beyond(sizes, x, z, side) or (
+            x == fixed_sizes.FARTHEST and not is_beyond(sizes, sys.float_info.max, z, side)
+        )
         assert x == 0.0 or not is_beyond(sizes, math.nextafter(x, 0.0), z, side)
 
 
@@ -53,7 +56,13 @@ def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypat
     for side in SIDES:
         asked.clear()
         fixed_sizes._edge(sizes, 1.0, side)
-        assert len(asked) <= 64
+        assert len(asked) <= 65
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+def test_all_rows_are_finite(sizes):
+    family = fixed_sizes.family_at("razor@" + ",".join(map(repr, sizes)))
+    assert np.isfinite(family.block(1, 0)).all()
 
 
 @given(st.floats(0.0, sys.float_info.max))

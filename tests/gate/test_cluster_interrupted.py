@@ -24,41 +24,36 @@ def whole(tmp_path_factory):
     return came_to(out)
 
 
-def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
+def lost(tmp_path, out, strike):
+    """What a run says that loses its cluster, whose scheduler is struck once progress is kept."""
     cluster = Cluster(tmp_path, {})
-    out = tmp_path / "out"
     try:
         cluster.start_workers(1)
         process = started(out, "--cluster", cluster.address)
         wait_for(process, out, b"progress")
-        cluster.kill_scheduler()
-        said = "".join(process.communicate())
+        strike(cluster)
+        said = "".join(process.communicate(timeout=60))
     finally:
         cluster.end()
     assert process.returncode == 2
+    assert read(out / FILE).of("progress")
+    return said
+
+
+def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
+    out = tmp_path / "out"
+    said = lost(tmp_path, out, Cluster.kill_scheduler)
     assert "the cluster was lost: its scheduler is not there any more; what was finished is in the record" in said
     assert f"the same command with --resume {out} goes on" in said
     assert "Traceback" not in said
-    assert read(out / FILE).of("progress")
     assert ended(out, "--resume", str(out))[0] == CODE
     assert came_to(out) == whole
 
 
 def test_a_scheduler_that_stands_still_is_waited_for_and_then_lost(tmp_path):
     """Its system goes on to say that it is there."""
-    cluster = Cluster(tmp_path, {})
-    out = tmp_path / "out"
-    try:
-        cluster.start_workers(1)
-        process = started(out, "--cluster", cluster.address)
-        wait_for(process, out, b"progress")
-        cluster.stop_scheduler()
-        said = "".join(process.communicate(timeout=60))
-    finally:
-        cluster.end()
-    assert process.returncode == 2
+    said = lost(tmp_path, tmp_path / "out", Cluster.stop_scheduler)
     assert "the cluster was lost: its scheduler has said nothing for 2 s; what was finished is in the record" in said
-    assert read(out / FILE).of("progress")
 
 
 def test_an_interrupted_run_on_workers_here_leaves_none_of_them_and_goes_on(tmp_path, whole, token):  # noqa: F811
