@@ -75,8 +75,11 @@ def _family(trap: _Trap, setting: FixedSizes) -> Family:
 
 
 def _require_room(setting: FixedSizes) -> None:
-    """Raise InputError where centres about the hyperboloid, or in the spans, are beyond float64."""
+    """Raise InputError where float64 has no room for centres about the hyperboloid or in the spans, or for a² or c²."""
     alpha, gamma, b, d = setting.sizes
+    squares = [ratio * ratio for ratio in (alpha / b, gamma / d)]
+    if not all(sys.float_info.min <= square <= sys.float_info.max for square in squares):
+        raise InputError(f"of the sizes {_written(setting)}, α/b or γ/d has a square beyond float64")
     widths = [2 * OPEN * (alpha + b), 2 * OPEN * (gamma + d), *(span[1] - span[0] for span in setting.spans if span)]
     if not all(map(math.isfinite, widths)):
         raise InputError(f"the sizes {_written(setting)} leave no room in float64 for the centres about them")
@@ -198,7 +201,7 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
-    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side; 0 where it never is, FARTHEST where always."""
+    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side: 0 if it never is, FARTHEST if always."""
 
     def outward(x: float) -> bool:
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)

@@ -68,7 +68,8 @@ def beside(draw: Draw, size: Sizes, height: Floats, offset: Floats) -> Rows:
 def beside_surface(a: Floats, c: Floats, height: Floats, offset: Floats) -> tuple[Floats, Floats]:
     """The radius and height of `beside`; no intermediate overflows while a, c and a·height/c do not."""
     share = height / c
-    stretch = np.where(share > 2.0**30, share, np.sqrt(1 + share * np.minimum(share, 2.0**30)))
+    small = np.minimum(share, 2.0**30)
+    stretch = np.where(share > 2.0**30, share, np.sqrt(1 + small * small))
     # The normal is (ρ/a², −ζ/c²), here over the larger of its two parts.
     across, along = 1 / a, share / stretch / c
     larger = np.maximum(across, along)
