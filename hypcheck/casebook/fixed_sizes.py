@@ -70,16 +70,19 @@ def _family(trap: _Trap, setting: FixedSizes) -> Family:
         game="a kernel made for one level is wrong where that level is played",
         drone="a kernel made for one mission is wrong on it",
         regimes="that of the sizes",
-        make=partial(trap.make, setting),
+        make=partial(_made, trap, setting),
     )
 
 
+def _made(trap: _Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The trap's rows; where sizes are so far apart that its formulas leave float64, `_rows` puts finite centres."""
+    with np.errstate(all="ignore"):
+        return trap.make(setting, draw, n)
+
+
 def _require_room(setting: FixedSizes) -> None:
-    """Raise InputError where float64 has no room for centres about the hyperboloid or in the spans, or for a² or c²."""
+    """Raise InputError where centres about the hyperboloid, or in the spans, are beyond float64."""
     alpha, gamma, b, d = setting.sizes
-    squares = [ratio * ratio for ratio in (alpha / b, gamma / d)]
-    if not all(sys.float_info.min <= square <= sys.float_info.max for square in squares):
-        raise InputError(f"of the sizes {_written(setting)}, α/b or γ/d has a square beyond float64")
     widths = [2 * OPEN * (alpha + b), 2 * OPEN * (gamma + d), *(span[1] - span[0] for span in setting.spans if span)]
     if not all(map(math.isfinite, widths)):
         raise InputError(f"the sizes {_written(setting)} leave no room in float64 for the centres about them")
@@ -123,7 +126,8 @@ def _span_or(span: Range | None, reach: float) -> Range:
 def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
     n = len(x)
     alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
-    low, high = setting.z if setting.z is not None else (-np.inf, np.inf)
+    low, high = _span_or(setting.z, FARTHEST)
+    z = np.where(np.isnan(z), 0.0, z)
     return stack(Sizes(alpha, gamma, b, d), x, y, np.clip(z, low, high))
 
 
@@ -160,7 +164,7 @@ def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """On and about r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
     alpha, gamma, b, d = setting.sizes
-    a, c = alpha / b, gamma / d
+    a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy's, which divide by a c of 0
     radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
     radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
     height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
@@ -170,11 +174,11 @@ def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """Where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
     alpha, gamma, b, d = setting.sizes
-    A, B = (alpha / b) * (alpha / b), (gamma / d) * (gamma / d)
+    a, c = np.float64(alpha) / b, np.float64(gamma) / d
+    A, B = a * a, c * c
     z = _heights(setting, draw, n)
-    with np.errstate(over="ignore", invalid="ignore"):  # of ratios near 10¹⁰⁰; see FARTHEST
-        Q = (z / d) * (z / d)
-        P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
+    Q = (z / d) * (z / d)
+    P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
     steps = draw.signs(n) * draw.log_uniform(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
     return _turned(setting, draw, b * np.sqrt(np.maximum(P * (1 + steps), 0.0)), z)
 

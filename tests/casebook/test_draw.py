@@ -33,6 +33,7 @@ ALLOWED = {
         "dtype",
         "ndarray",
         "errstate",
+        "isnan",
     ),
     *(
         "add",
