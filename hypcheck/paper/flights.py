@@ -11,7 +11,7 @@ whether they are asked for or not: so a flight depends on nothing but the name o
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from hypcheck.casebook.draw import Draw, Floats
 from hypcheck.errors import InputError
 from hypcheck.paper.flights_circle import EIGHTH, Direction, any_angle, quarter_turns, small_angle, turned
 from hypcheck.paper.flights_craft import Craft, Mask, Point, Procedures
+from hypcheck.paper.flights_start import rims
 from hypcheck.scene.model import Flight, Start
 
 LANES = 1000
@@ -28,8 +29,9 @@ LANES = 1000
 VERSION = 1
 """Of the flights: raised whenever other words, or the same in another order, come to be drawn."""
 
-_PATIENCE = 100
-"""Draws for each accepted move, and for a hundred more, after which a flight is stuck."""
+PATIENCE = 2000
+"""Draws without an accepted move after which a flight is stuck. One with a hundredth of its draws accepted, fewer than
+any that leads somewhere, waits that long with a chance of 0.99^2000 < 2e-9."""
 
 Counts = NDArray[np.int64]
 
@@ -85,13 +87,17 @@ class Tallies:
 
 @dataclass(slots=True)
 class _State:
-    """The flights under way: where they are, where they head, whether a step ahead is due."""
+    """The flights under way: where they are, where they head, whether a step ahead is due.
+
+    `left` accepted moves are still to be made; the last `idle` draws led to none.
+    """
 
     lane: NDArray[np.int64]
     at: Point
     heading: Direction
     due: Mask
-    left: Counts = field(repr=False)
+    left: Counts
+    idle: Counts
 
     def kept(self, those: Mask) -> _State:
         """The state of those flights alone."""
@@ -102,6 +108,7 @@ class _State:
             (cosine[those], sine[those]),
             self.due[those],
             self.left[those],
+            self.idle[those],
         )
 
 
@@ -132,30 +139,25 @@ def fly(
     """
     procedures, tallies = Procedures(craft), Tallies.of(lanes)
     state = _begin(craft, flight.start, draw, lanes, moves)
-    patience = _PATIENCE * (moves + 100)
-    for _ in range(patience):
-        if not len(state.lane):
-            return tallies
+    while len(state.lane):
         words = draw.words(2 * LANES).reshape(2, LANES)[:, state.lane]
         done = _advance(craft, flight, step, procedures, state, words)
         tallies.add(done)
         if observe is not None:
             observe(done)
+        if (state.idle >= PATIENCE).any():
+            raise InputError(
+                f"a flight with steps of {step!r} is stuck: {PATIENCE} draws in a row led to no accepted move; "
+                "steps must be short enough, and the scene's flight must leave it a way"
+            )
         if not state.left.all():
             state = state.kept(state.left > 0)
-    raise InputError(
-        f"a flight with steps of {step!r} is stuck: of {patience} draws fewer than {moves} led to an accepted "
-        "move; the scene's flight must leave it a way"
-    )
+    return tallies
 
 
 def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _State:
-    alpha, gamma, _, _ = craft.sizes
     z = draw.between(LANES, start.z.low, start.z.high)
-    ratio = z / gamma
-    wall = alpha * np.sqrt(1 + ratio * ratio)
-    reach = np.full(LANES, start.radius) if start.margin is None else np.maximum(wall - start.margin, 0)
-    radius = reach * np.sqrt(draw.unit(LANES))
+    radius = rims(craft, start, z) * np.sqrt(draw.unit(LANES))
     (cosine, sine), heading = _anywhere(draw), _anywhere(draw)
     return _State(
         lane=np.arange(lanes),
@@ -163,6 +165,7 @@ def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _S
         heading=(heading[0][:lanes], heading[1][:lanes]),
         due=np.zeros(lanes, dtype=np.bool_),
         left=np.full(lanes, moves, dtype=np.int64),
+        idle=np.zeros(lanes, dtype=np.int64),
     )
 
 
@@ -210,6 +213,7 @@ def _advance(
     state.heading = _turned(heading, np.where(refused, chosen.refused_turn, 0.0))
     state.due = chosen.turning & (flight.turn == "executed")
     state.left = state.left - accepted
+    state.idle = np.where(accepted, 0, state.idle + 1)
     return Moves(state.lane, start, end, before, turn, accepted, refused, vertical, chosen.turning, executed, touching)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from hypcheck.errors import InputError
 from hypcheck.paper import tower_table
 from hypcheck.paper.flights_craft import Craft, craft_of
+from hypcheck.paper.flights_start import require_valid_start
 from hypcheck.paper.tower_paths import paths
 from hypcheck.paper.tower_table import STATEMENT, Advance, Block
 from hypcheck.scene.model import Flight, Scene
@@ -38,10 +39,11 @@ class TowerPlan:
 
     @property
     def flight(self) -> Flight:
-        """The scene's rules of flight. Raises InputError where it has none."""
+        """The scene's rules of flight. Raises InputError where it has none, or they begin where no flight may be."""
         if self.scene.flight is None:
             raise InputError(f"the scene {self.scene.name!r} has no [flight]; docs/scenes.md has its keys")
         _require_room(self.scene, self.scene.flight)
+        require_valid_start(self.scene.name, self.craft, self.scene.flight.start)
         return self.scene.flight
 
     def blocks(self) -> dict[tuple[float, float], list[Block]]:
