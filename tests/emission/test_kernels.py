@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
-import subprocess
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +16,7 @@ from hypcheck.rows import CANNOT_SAY
 from hypcheck.scene.model import Hyperboloid, Mover, Region, Scene, Span
 from hypcheck.scene.reading import read_scene
 from hypcheck.truth import batch
-from tests.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, skip_without
+from tests.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs
 from tests.emission.judging import worst_error
 from tests.specialise.scenes import scene
 
@@ -65,22 +63,6 @@ def test_beyond_the_modelled_height_and_for_other_sizes_it_cannot_say(tmp_path):
 def test_fast_math_is_refused(tmp_path):
     with pytest.raises(AssertionError, match="compile without -ffast-math"):
         built(tmp_path, TOWER, "c", "float64", "-ffast-math")
-
-
-@pytest.mark.parametrize("language", DIALECTS)
-def test_a_scene_cannot_say_anything_in_a_kernel_but_its_name(language, tmp_path):
-    """Whatever a scene is called, it is one line of comment and a text."""
-    name = 'x */ int main(void) { return 1; } /* """ \' \\" ${header} \\u000a // \n#error no\n\u202e'
-    skip_without(language)
-    hostile = replace(SCENES["waist"], name=name)
-    path = built(tmp_path, hostile, language)
-    text = emitted(plan_of(hostile), language, [*COMMAND, name])
-    assert text.isascii()
-    assert language == "python" or "\n#error no" not in text
-    if language == "python":
-        compile(text, "kernel.py", "exec")
-    if language == "javascript":
-        subprocess.run([str(shutil.which("node")), "--check", str(path)], check=True)
 
 
 @pytest.mark.parametrize("language", DIALECTS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -35,7 +36,7 @@ def _wrapped(paragraph: str) -> list[str]:
 
 
 def _paragraphs(plan: Plan, command: Sequence[str]) -> Iterator[str]:
-    scene = safe(plan.scene.name)
+    scene = safe(plan.scene.name).replace('"', "'")  # beside the quotation marks about it, it could end Python's text
     yield f'Where a spheroid stands in the scene "{scene}": {_asked(plan.question)}.'
     yield f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by"
     yield "    " + safe(shlex.join(command))
@@ -62,9 +63,16 @@ def notes(plan: Plan, stages: Stages) -> list[str]:
 
 
 def safe(text: str) -> str:
-    """A foreign text as a comment can hold it in every language: ASCII, one line, nothing that ends a comment."""
-    plain = visible(text, LONGEST_NAME * 4).encode("ascii", "backslashreplace").decode("ascii")
-    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("\\u", "u+")
+    """A foreign text as a comment, a raw string of Python and the source of C can hold it: visible, on one line.
+
+    Broken by a blank is what would end a comment, open one, or be a trigraph; a backslash that ends a word, and so may
+    come to end a line, which C and C++ would join to the next, has a full stop after it.
+    """
+    plain = visible(text, LONGEST_NAME * 4)
+    for found, broken in (("*/", "* /"), ("/*", "/ *"), ('"""', "'''")):
+        plain = plain.replace(found, broken)
+    plain = re.sub(r"(?<=\?)(?=\?)", " ", plain)
+    return re.sub(r"\\(?=\s|$)", r"\\.", plain)
 
 
 def _asked(question: str) -> str:
