@@ -183,7 +183,7 @@ def _counts(status: Codes) -> dict[str, int]:
 
 def _by_octave(octaves: NDArray[np.float64], status: Codes) -> dict[str, dict[str, int]]:
     table = {}
-    for octave in np.unique(octaves).tolist():
+    for octave in sorted(set(octaves.tolist())):  # np.unique would load numpy.ma
         key = str(int(octave)) if math.isfinite(octave) else str(octave)
         table[key] = _counts(status[octaves == octave])
     return table

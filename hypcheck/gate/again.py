@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import judge
-from hypcheck.gate.chunks import Cases, cases
+from hypcheck.gate.chunks import Cases, cases_of
 from hypcheck.gate.results import Again, Open, Result, merged
 from hypcheck.gate.rules import Final, Rules, final
 from hypcheck.gate.subject import Subject
@@ -89,7 +89,7 @@ def as_they_are(some: tuple[Open, ...], rules: Rules) -> Result:
 
 
 def _sample(some: tuple[Open, ...]) -> _Sample:
-    made = tuple(cases(each.chunk) for each in some)
+    made = cases_of(each.chunk for each in some)
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,

@@ -48,6 +48,9 @@ _TICK = 0.05
 _CHUNK = 1 << 16
 _ROOM = 1 << 18
 """Bytes that a pipe holds where the system lets it: both sides wait for each other less often than with 64 KiB."""
+_TOGETHER = 1 << 12
+"""Bytes of a question that are written at one go even if they come in several parts."""
+
 _GOODBYE = 1.0
 _LAST_WORDS = 0.5
 
@@ -140,11 +143,20 @@ class Process:
         self._poll.unregister(self._in)
 
     def _next_part(self) -> bool:
-        for part in self._outgoing:
-            self._part = memoryview(part)
-            if self._part:
+        """Take what is to be written next: what a question begins with in one piece, so that it awakens once."""
+        together = bytearray()
+        for some in self._outgoing:
+            part = memoryview(some)
+            if not together and len(part) >= _TOGETHER:
+                self._part = part
                 return True
-        return False
+            room = _TOGETHER - len(together)
+            together += part[:room]
+            if len(part) > room:
+                self._outgoing = chain((part[room:],), self._outgoing)
+                break
+        self._part = memoryview(together)
+        return bool(together)
 
     def _read(self) -> bool:
         data = os.read(self._out, _CHUNK)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import zlib
 
 import pytest
 
@@ -91,6 +92,26 @@ def test_writing_and_reading_do_not_wait_for_each_other(run):
     assert hear(process, len(sent)) == sent
     assert not process.sending
     process.goodbye()
+
+
+def test_a_small_question_arrives_at_one_go_and_a_large_one_whole(run):
+    """Whoever reads its first line is awakened once, and finds the rows there too."""
+    process = run(
+        "import os, zlib; first = rest = os.read(0, 1 << 16); print(len(first), flush=True)\n"
+        "while len(rest) < 2_000_010: rest += os.read(0, 1 << 16)\n"
+        "print('%10d' % zlib.crc32(rest), flush=True)"
+    )
+
+    def slowly():
+        for part in small:
+            yield part
+            time.sleep(0.3)
+
+    small, large = (b"a line\n", b"abc"), (b"another", bytes(range(250)) * 4000, b"", b"7" * 999_993)
+    process.send(slowly())
+    assert hear(process, 3) == b"10\n"
+    process.send(large)
+    assert int(hear(process, 14)[3:]) == zlib.crc32(b"".join((*small, *large)))
 
 
 def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
