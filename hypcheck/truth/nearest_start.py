@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import cast
 
 import mpmath
 
@@ -30,9 +31,15 @@ def start(squares: Squares) -> tuple[bool, int, int]:
         tau, sigma = _iterate(squares, lambda n, d: n / d, math.sqrt)
         fraction, exponent = math.frexp(min(tau, sigma))
     else:
-        tau, sigma = _iterate(squares, lambda n, d: _WIDE.mpf(n) / _WIDE.mpf(d), _WIDE.sqrt)
+        tau, sigma = _iterate(squares, lambda n, d: _wide(n) / _wide(d), _WIDE.sqrt)
         fraction, exponent = _WIDE.frexp(min(tau, sigma))
     return tau <= sigma, int(fraction * 2**64), exponent - 64
+
+
+def _wide(number: int) -> float:
+    """The number, to 80 bits before it is rounded: mpmath takes off the zeros that a long one ends in 8 at a time."""
+    excess = max(0, number.bit_length() - 80)
+    return cast("float", _WIDE.ldexp(number >> excess, excess))
 
 
 def _fits_float(squares: Squares) -> bool:
@@ -70,13 +77,18 @@ def _above(p: float, q: float, W: float, excess: float) -> tuple[float, float]:
     """τ and σ with τ at or above the root, within a modest factor of it, and σ likewise at or below.
 
     τ < p, and τ/p < σ/q since p/τ > q/σ: both bound τ, and the smaller bound is less than twice the root. If it is over
-    W/2 the root is over W/4 and q²/σ² = (p − τ)(p + τ)/τ² ≤ (g + σ)·32p/W² with g = max(p − W, 0): that bounds σ.
+    W/2 the root is over W/4 and q²/σ² = (p − τ)(p + τ)/τ² ≤ (g + σ)·32p/W² with g = max(p − W, 0): that bounds σ. Where
+    g > 0, τ < W makes σ less than s = q W/√(p² − W²); so σ = q τ/√((g + σ)(p + τ)) is over q (W − s)/√((g + s)(p + W)),
+    which is near to it, however far the lengths are apart, unless p is about W.
     """
     tau, sigma = min(p, p * (W / (p + q))), max(-excess, W * (q / (p + q)))
     if 2 * tau <= W or not q:
         return tau, sigma
     flat = (q * W) * (q * W) / (32 * p)
     bound = (flat / 2) ** (1 / 3)
-    if excess > 0 and flat < 2 * excess * bound * bound:
-        bound = (flat / (2 * excess)) ** 0.5
+    if excess > 0:
+        if flat < 2 * excess * bound * bound:
+            bound = (flat / (2 * excess)) ** 0.5
+        most = q * W / (excess * (p + W)) ** 0.5
+        bound = max(bound, q * (W - most) / ((excess + most) * (p + W)) ** 0.5)
     return (W - bound, bound) if bound > sigma else (tau, sigma)
