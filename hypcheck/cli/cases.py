@@ -64,19 +64,25 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
 def check(context: click.Context, files: tuple[str, ...]) -> None:
     """Prove every label of every vector from its certificate, and compute the rest anew.
 
-    Ends with 1 where a label is wrong, 2 where a file is not as its schema demands.
+    What a file says of its flags, and of a family that hypcheck knows, must be what hypcheck says of them.
+
+    Ends with 1 where a label or a head is wrong, 2 where a file is not as its schema demands.
     """
     from hypcheck.casebook.frozen.examining import examine, shipped
     from hypcheck.cli.exits import Exit
 
-    checked, faulty = 0, 0
+    checked, faulty, heads = 0, 0, 0
     for report in examine(files or shipped()):
+        for wrong in report.head:
+            click.echo(f"{report.path}, line {wrong.line}: {wrong.sentence}")
         for fault in report.faults:
             click.echo(f"{report.path}, line {fault.line}, case {fault.case}: {fault.sentence}")
         checked += report.count
         faulty += len({fault.case for fault in report.faults})
-    click.echo(f"{checked} cases checked, {faulty or 'none'} with a wrong label")
-    context.exit(Exit.WRONG if faulty else Exit.HELD)
+        heads += bool(report.head)
+    at_heads = f"; what {heads} of the files say at their head is wrong" if heads else ""
+    click.echo(f"{checked} cases checked, {faulty or 'none'} with a wrong label{at_heads}")
+    context.exit(Exit.WRONG if faulty or heads else Exit.HELD)
 
 
 @cases.command(short_help="Make the frozen files anew, keeping every id.")

@@ -47,7 +47,7 @@ def refusals(data: bytes) -> None:
 def proofs(data: bytes) -> None:
     """A file of cases whose every label is put to the proof."""
     for report in examine([str(kept(data, "cases.json"))]):
-        for fault in report.faults:
+        for fault in (*report.head, *report.faults):
             require_sentence(fault.sentence)
 
 

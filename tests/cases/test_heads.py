@@ -1,0 +1,80 @@
+"""`hypcheck cases check` sees what a file says wrongly before its cases, of our flags and families and of no others."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.casebook import vectors
+from hypcheck.casebook.families import FAMILIES
+from hypcheck.casebook.frozen import refusals
+from hypcheck.casebook.frozen.heads import wrong_meanings, wrong_story
+from hypcheck.casebook.frozen.refusals import refusals_text
+from hypcheck.casebook.frozen.writing import vectors_text
+from hypcheck.cli.main import main
+
+FILE = vectors.load("tangent")
+TEXT = vectors_text(replace(FILE, cases=FILE.cases[:6]))
+
+
+def checked(tmp_path, capsys, text):
+    """How the check ends, and what it says."""
+    path = tmp_path / "mine.json"
+    path.write_text(text, encoding="utf-8")
+    code = main(["cases", "check", str(path)])
+    return code, capsys.readouterr().out.replace(f"{path}, ", "").splitlines()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ('"title":"exactly', '"title":"nearly', "line 3: family.title is 'nearly tangent, in every"),
+        ('"extreme":false', '"extreme":true', "line 3: family.extreme is True; of tangent it is False"),
+        ('"version":1', '"version":2', "line 3: family.version is 2; of tangent it is 1"),
+        ('"the surfaces touch', '"the surfaces cross', "line 4: the meaning of the flag tangent is 'the surfaces cro"),
+        ('"equality"', '"luck"', "line 4: the bug_type of the flag tangent is 'luck'; it is 'equality'"),
+    ],
+)
+def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, sentence):
+    assert old in TEXT
+    code, (said, closing) = checked(tmp_path, capsys, TEXT.replace(old, new, 1))
+    assert code == 1
+    assert said.startswith(sentence)
+    assert closing == "6 cases checked, none with a wrong label; what 1 of the files say at their head is wrong"
+
+
+def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
+    text = refusals_text(vectors.load_refusals())
+    code, lines = checked(tmp_path, capsys, text.replace(refusals.HEAD.drone, "a bad row is answered"))
+    assert (code, lines[0][:39]) == (1, "line 3: family.drone is 'a bad row is a")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {'"name":"tangent"': '"name":"mine"', '"id":"tangent-': '"id":"mine-', "exactly tangent": "nearly"},
+        {"freeze": "make"},
+    ],
+    ids=["a family of one's own", "made in another way"],
+)
+def test_what_is_not_ours_may_be_told_in_any_words(tmp_path, capsys, changes):
+    text = TEXT
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    assert checked(tmp_path, capsys, text) == (0, ["6 cases checked, none with a wrong label"])
+
+
+def test_the_words_of_an_earlier_version_are_not_compared():
+    head = replace(vectors.load("ring").head, title="another")
+    assert list(wrong_story(head)) == [f"family.title is 'another'; of ring it is {FAMILIES['ring'].title!r}"]
+    assert list(wrong_story(replace(head, version=0))) == []
+
+
+def test_what_the_shipped_files_say_is_so():
+    for name in vectors.NAMES:
+        file = vectors.load(name)
+        assert file.head.name == name
+        assert [*wrong_story(file.head), *wrong_meanings(file.flags)] == []
+    assert list(wrong_story(vectors.load_refusals().head)) == []
