@@ -53,12 +53,43 @@ def exact_in(bits: int, least: float) -> Maker:
 
 
 def small_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers as a person types them: tangencies and other exact coincidences abound."""
-    columns = [draw.integers(n, 1, 12), draw.integers(n, 1, 12), draw.integers(n, 1, 4), draw.integers(n, 1, 4)]
-    alpha, gamma, b, d = (column.astype(np.float64) for column in columns)
-    x, y, z = (draw.integers(n, 0, high) * draw.signs(n) for high in (14, 14, 10))
-    y = np.where(draw.words(n) >> np.uint64(63) == 0, 0.0, y)
-    return stack(Sizes(alpha, gamma, b, d), x, y, z)
+    """Whole numbers as a person types them: tangencies and other exact coincidences abound.
+
+    Each pair is followed by three others of the same numbers: its centre turned, both groups of sizes swapped, and α
+    and b doubled. Half of the zeros are negative.
+    """
+    count = -(-n // 4)
+    size = _equal_sizes(draw, *(draw.integers(count, 1, high).astype(np.float64) for high in (12, 12, 4, 4)))
+    x, y, z = (draw.integers(count, 0, high) * draw.signs(count) for high in (14, 14, 10))
+    y = np.where(draw.words(count) >> np.uint64(63) == 0, 0.0, y)
+    z = np.where(draw.integers(count, 0, 3) == 0, 6 * z, z)
+    row = stack(size, *_equal_coordinates(draw, size, x, y, z))
+    quartet = np.repeat(row, 4, axis=0)
+    quartet[1::4, 4:] = row[:, [6, 4, 5]]
+    quartet[2::4, :4] = row[:, [1, 0, 3, 2]]
+    quartet[3::4, [0, 2]] = 2 * row[:, [0, 2]]
+    rows = quartet[:n]
+    for column in range(4, 7):
+        rows[:, column] = np.where(rows[:, column] == 0, 0.0 * draw.signs(n), rows[:, column])
+    return rows
+
+
+def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats) -> Sizes:
+    """Half of the sizes as they are; of the others two, two pairs or all four are equal, or all are 1."""
+    kind = draw.integers(len(b), 0, 11)
+    ball, crossed = (kind >= 6) & (kind <= 9), kind == 11
+    one = np.where(kind == 9, 1.0, b)
+    waist = np.where((kind >= 8) & (kind <= 10), one, np.where(crossed, d, alpha))
+    flare = np.where((kind >= 7) & (kind <= 9), waist, np.where(kind == 10, d, np.where(crossed, b, gamma)))
+    return Sizes(waist, flare, one, np.where(ball, one, d))
+
+
+def _equal_coordinates(draw: Draw, size: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+    """Half of the centres as they are; of the others two coordinates, or three, are equal, or z is γ or d."""
+    kind, sign = draw.integers(len(x), 0, 9), draw.signs(len(x))
+    y = np.where((kind == 5) | (kind == 6), sign * x, y)
+    z = np.where((kind == 6) | (kind == 7), x, z)
+    return x, y, np.where(kind == 8, sign * size.gamma, np.where(kind == 9, sign * size.d, z))
 
 
 def symmetric_images(draw: Draw, n: int) -> Rows:
@@ -155,9 +186,9 @@ FAMILIES = (
     ),
     Family(
         name="small-integers",
-        version=1,
-        title="small whole numbers",
-        source="α and γ to 12, b and d to 4, coordinates to 14",
+        version=2,
+        title="small whole numbers, many of them equal",
+        source="α and γ to 12, b and d to 4, coordinates to 14; 4 consecutive rows have the same numbers; 0 and −0.0",
         purpose="tangencies, double roots and vanishing coefficients occur by themselves, as in hand-written tests",
         game="on a grid of tiles an exact touch is common, and blocks or frees a whole corridor",
         drone="waypoints on a metre grid touch the keep-out volume exactly",

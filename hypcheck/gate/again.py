@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import judge
+from hypcheck.gate.arranging import questions
 from hypcheck.gate.chunks import Cases, cases_of
 from hypcheck.gate.results import Again, Open, Result, merged
 from hypcheck.gate.rules import Final, Rules, final
@@ -18,19 +18,6 @@ from hypcheck.groups import CODES, STATUSES, Codes, Fault
 from hypcheck.judge import Criterion, Status
 from hypcheck.methods.faults import Outcome
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
-
-ALONE = 32
-"""Cases that are asked one by one."""
-
-ODD, MOST_IN_ODD = 7, 1536
-"""Rows of an odd question, and cases that are asked in such questions at most."""
-
-TWINS = 64
-"""Cases asked four times in one question, beside themselves and apart, for whoever keeps answers by their rows."""
-
-FULL = 4096 + 128 + 1
-"""Rows of a full question at least, of who can be asked so many: cases are repeated, so that every thread, block and
-page of whoever divides a question has some."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +52,8 @@ def ask_again(asked: Round, implementation: Subject, rules: Rules) -> Result:
         return Result()
     sample, changes, outcomes = _sample(asked.open), Changes(), set[Outcome]()
     implementation.fresh()
-    for places, batch in _questions(sample, implementation, (rules.seed, asked.number)):
+    asking = questions(sample.truth, sample.moments, lambda: implementation.stands, rules.seed, asked.number)
+    for places, batch in asking:
         answered = implementation.classify(sample.rows[places], batch=batch)
         outcomes |= answered.outcomes
         status = ended(answered)
@@ -104,29 +92,6 @@ def _moments(each: Open) -> NDArray[np.int64]:
     if each.chunk.movement == 1:
         return np.full(len(each.indices), -1)
     return (each.chunk.start + each.indices) % each.chunk.movement
-
-
-def _questions(
-    sample: _Sample, implementation: Subject, seed: tuple[int, int]
-) -> Iterator[tuple[NDArray[np.intp], int | None]]:
-    """Which cases to ask together, and in questions of how many; None: of as many as can be.
-
-    Who carries answers over from one question to the next is found where the same objects are asked moment by moment.
-    """
-    order = np.random.Generator(np.random.Philox(seed)).permutation(np.flatnonzero(sample.moments < 0))
-    odd = ALONE + min(MOST_IN_ODD, (len(order) - ALONE + 1) // 2) if len(order) > ALONE else ALONE
-    yield order[:ALONE], 1
-    yield np.tile(np.repeat(order[:TWINS], 2), 2), None
-    yield order[ALONE:odd], ODD
-    full = order[odd:]
-    if implementation.stands >= FULL and len(order):
-        full = np.resize(full if len(full) else order, max(len(full), FULL))
-    yield full, None
-    moving = np.flatnonzero(sample.moments >= 0)
-    if len(moving):
-        yield moving[: int(sample.moments.max()) + 1], 1
-        for moment in range(int(sample.moments.max()) + 1):
-            yield moving[sample.moments[moving] == moment], None
 
 
 def _change(sample: _Sample, place: int, answer: int, criterion: Criterion) -> tuple[Status, str]:

@@ -37,7 +37,7 @@ DIGESTS: dict[str, str] = {
     "tiny-spheroids": "b6e0202c50999a2c49b331dcc4c247bab4b20e1d9b990d1c3925c4cc68ab3907",
     "float32-exact": "396caf7e36668f7d1ee2bc7892b9504e26f80b486ae82b37fe20e4f9dc52173d",
     "float16-exact": "ec89ed472099f3788c18dffd5f65d01e69c12f769026f4b0b77f07f3e3468843",
-    "small-integers": "dd0418f9150885e0f5545f8094a5be7304323a813d5976b7221bd9958358359b",
+    "small-integers": "0a1ec2543585ab57ed57fd01cd5a133027dda165eac2a3d2ae29d37e5d232d1e",
     "symmetric-images": "2fa43f31c271393d6e7dabaedca470f95f64cc049e1c021c0d9ec90fa488c6a3",
     "one-number-changed": "23791ee2f2d6b9c6dac1e01c1dbfa4b3c11f07dcdb0a417d0f9c38bb968b452a",
     "tangent": "713fa7e2f00c5c74b8343f681d961a6035b2d4f92d91fe1e8c93b30fc82d44a5",

@@ -104,3 +104,21 @@ def test_one_number_changes_from_row_to_row() -> None:
     for column in range(7):
         assert (changed[:, 2 * column, column] | (turns[:, 0, column] == 0)).all()
         assert (answers[:, 2 * column] != answers[:, 2 * column + 1]).sum() >= 6
+
+
+def test_small_integers_come_in_quartets_of_the_same_numbers_many_of_them_equal() -> None:
+    rows = FAMILIES["small-integers"].rows(2, 2000)
+    first, turned, swapped, doubled = (rows[place::4] for place in range(4))
+    assert (turned[:, :4] == first[:, :4]).all()
+    assert (turned[:, 4:] == first[:, [6, 4, 5]]).all()
+    assert (swapped == first[:, [1, 0, 3, 2, 4, 5, 6]]).all()
+    assert (doubled == first * [2, 1, 2, 1, 1, 1, 1]).all()
+    positions = batch.positions(rows)
+    for alike in (
+        (rows[:, :4] == 1).all(axis=1),
+        (rows[:, :4] == rows[:, :1]).all(axis=1),
+        (rows[:, 0] == rows[:, 2]) & (rows[:, 1] == rows[:, 3]),
+        (np.abs(rows[:, 4:]) == np.abs(rows[:, 4:5])).all(axis=1),
+        *((rows[:, column] == 0) & np.signbit(rows[:, column]) for column in (4, 5, 6)),
+    ):
+        assert set(positions[alike]) == {1, 0, -1}

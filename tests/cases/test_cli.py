@@ -116,7 +116,7 @@ def test_generated_json_is_a_vector_file_whose_labels_hold(capsys, tmp_path):
     path = tmp_path / "mine.json"
     assert printed(capsys, "generate", "small-integers", "--seed", "9", "--count", "40", "--output", str(path)) == ""
     file = read_vectors(str(path))
-    assert [case.id for case in file.cases] == [f"small-integers/1/9/{index}" for index in range(40)]
+    assert [case.id for case in file.cases] == [f"small-integers/2/9/{index}" for index in range(40)]
     assert np.array_equal(file.rows, FAMILIES["small-integers"].rows(9, 40))
     assert file.head.made_by == "hypcheck cases generate small-integers --seed 9 --count 40"
     assert faults_of_vectors(file) == []

@@ -1,0 +1,61 @@
+"""Cases that are asked again stand in questions of every length, and in every place with each position."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.gate import arranging
+from hypcheck.gate.arranging import ALONE, FULL, LARGE, LENGTHS, MANY, questions
+
+N = 1100
+TRUTH = np.resize(np.array([1, 0, -1, 1], dtype=np.int8), N)
+STILL = np.full(N, -1)
+LONGEST = 20_000
+
+
+def asked(stands, truth=TRUTH, moments=STILL, number=0):
+    return list(questions(truth, moments, lambda: stands, 1, number))
+
+
+@pytest.mark.parametrize("stands", [1, 64, LARGE, FULL, LONGEST])
+@pytest.mark.parametrize("n", [0, 1, 31, 33, 40, 700])
+def test_every_case_is_asked_again(stands, n):
+    assert set(np.concatenate([places for places, _ in asked(stands, TRUTH[:n], STILL[:n])])) == set(range(n))
+
+
+def test_who_is_slow_is_asked_hardly_more_than_once():
+    once = N + 4 * arranging.TWINS
+    assert sum(len(places) for places, _ in asked(LARGE - 1)) == once
+
+
+def test_the_rounds_after_the_first_cost_little():
+    once = N + 4 * arranging.TWINS
+    assert sum(len(places) for places, _ in asked(LONGEST, number=1)) < once + FULL
+
+
+def test_each_place_of_full_and_of_longest_questions_has_each_position():
+    for size, fewest in ((FULL, FULL - 2), (LONGEST, LONGEST - 2)):
+        large = [places for places, _ in asked(LONGEST) if fewest <= len(places) <= size][-3:]
+        assert [len(places) for places in large] == [size, size, size - 2]
+        positions = np.stack([TRUTH[places[: size - 2]] for places in large])
+        assert (np.sort(positions, axis=0) == [[-1], [0], [1]]).all()
+        assert TRUTH[large[0][-1]] != TRUTH[large[1][-1]]
+
+
+def test_small_questions_leave_every_rest_of_a_vector():
+    lengths = {len(places) for places, batch in asked(LONGEST) if batch and batch > 1}
+    assert lengths >= set(LENGTHS)
+    for lanes in (2, 4, 8, 16):
+        assert {length % lanes for length in LENGTHS} == set(range(lanes))
+
+
+@pytest.mark.parametrize(("limit", "count"), [(1.0, [ALONE, MANY]), (0.0, [ALONE])])
+def test_who_is_quick_over_a_question_is_asked_many_lone_ones(monkeypatch, limit, count):
+    monkeypatch.setattr(arranging, "QUICK", limit)
+    assert [len(places) for places, batch in asked(LONGEST) if batch == 1] == count
+
+
+def test_objects_that_move_are_asked_moment_by_moment():
+    moments = np.tile(np.arange(8), 4)
+    assert [(len(places), batch) for places, batch in asked(64, TRUTH[:32], moments)][-9:] == [(8, 1), *[(4, None)] * 8]
