@@ -5,8 +5,7 @@ A chunk is a name for cases that can be made anywhere; who asks them, and in whi
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -17,8 +16,8 @@ from hypcheck import judge
 from hypcheck.casebook import fixed_sizes, vectors
 from hypcheck.casebook.families import FAMILIES, case_id
 from hypcheck.casebook.family import BLOCK, Family
+from hypcheck.gate.frozen import frozen
 from hypcheck.groups import Place
-from hypcheck.pairs import Position
 from hypcheck.rows import Positions, Rows
 from hypcheck.truth import batch
 
@@ -27,9 +26,6 @@ SIZE = 64 * BLOCK
 
 OCTAVES_OF = 2000
 """Cases of a family whose own distance to the nearest other position is recorded: the first ones."""
-
-_SMALLEST = 1e-300
-"""Distances below are too near to where floats end for a frozen vector to say them well enough."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,13 +61,13 @@ class Chunk:
     def name(self, index: int) -> str:
         """The id of its case."""
         if self.seed is None:
-            return _frozen(self.family).ids[self.start + index]
+            return frozen(self.family).ids[self.start + index]
         return case_id(_family(self.family), self.seed, self.start + index)
 
     def find(self, name: str) -> int | None:
         """Which of its cases has that id; None where none has."""
         if self.seed is None:
-            ids = _frozen(self.family).ids[self.start : self.stop]
+            ids = frozen(self.family).ids[self.start : self.stop]
             return ids.index(name) if name in ids else None
         stem, _, number = name.rpartition("/")
         if stem != self.name(0).rpartition("/")[0] or not number.isdecimal():
@@ -111,14 +107,14 @@ def chunks(family: Family, seed: int, count: int) -> Iterator[Chunk]:
 
 def frozen_cases(name: str) -> int:
     """How many vectors of a family are frozen."""
-    return len(_frozen(name).rows) if name in vectors.NAMES else 0
+    return len(frozen(name).rows) if name in vectors.NAMES else 0
 
 
 def found_by_search() -> Iterator[Chunk]:
     """The frozen vectors that no family generates: the worst cancellations, which a search has found."""
     for name in vectors.NAMES:
         if name not in FAMILIES:
-            known = len(_frozen(name).rows)
+            known = len(frozen(name).rows)
             yield Chunk(name, None, 0, known, min(known, OCTAVES_OF))
 
 
@@ -135,8 +131,8 @@ def cases_of(some: Iterable[Chunk]) -> tuple[Cases, ...]:
     found, start = [], 0
     for chunk, columns in made:
         if chunk.seed is None or decided is None:
-            frozen, part = _frozen(chunk.family), slice(chunk.start, chunk.stop)
-            found.append(Cases(chunk, frozen.rows[part], columns, frozen.positions[part]))
+            known, part = frozen(chunk.family), slice(chunk.start, chunk.stop)
+            found.append(Cases(chunk, known.rows[part], columns, known.positions[part]))
         else:
             stop = start + len(chunk)
             found.append(Cases(chunk, np.ascontiguousarray(columns.T), columns, decided[start:stop]))
@@ -146,7 +142,7 @@ def cases_of(some: Iterable[Chunk]) -> tuple[Cases, ...]:
 
 def _columns(chunk: Chunk) -> NDArray[np.float64]:
     if chunk.seed is None:
-        return np.ascontiguousarray(_frozen(chunk.family).rows[chunk.start : chunk.stop].T)
+        return np.ascontiguousarray(frozen(chunk.family).rows[chunk.start : chunk.stop].T)
     return _family(chunk.family).columns_between(chunk.seed, chunk.start, chunk.stop)
 
 
@@ -155,7 +151,7 @@ def first_unfrozen(family: Family, seed: int) -> int:
     """How many rows a seed begins with that are all among the frozen vectors."""
     if family.name not in vectors.NAMES:
         return 0
-    known = {row.tobytes() for row in _frozen(family.name).rows}
+    known = {row.tobytes() for row in frozen(family.name).rows}
     start = 0
     while all(row.tobytes() in known for row in family.block(seed, start // BLOCK)):
         start += BLOCK
@@ -174,7 +170,7 @@ def octaves(made: Cases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
         return np.empty(0)
     if chunk.seed is not None:
         return judge.flip_octaves(made.rows[measured])
-    flips = _frozen_octaves(chunk.family)[chunk.start + measured]
+    flips = frozen(chunk.family).octaves[chunk.start + measured]
     unknown = np.flatnonzero(np.isnan(flips))
     flips[unknown] = judge.flip_octaves(made.rows[measured[unknown]])
     return flips
@@ -183,24 +179,3 @@ def octaves(made: Cases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
 @lru_cache
 def _family(name: str) -> Family:
     return fixed_sizes.family_at(name) if fixed_sizes.MARK in name else FAMILIES[name]
-
-
-@lru_cache
-def _frozen(name: str) -> vectors.FrozenRows:
-    return vectors.frozen_rows(name)
-
-
-@lru_cache
-def _frozen_octaves(name: str) -> NDArray[np.float64]:
-    return np.array([_octave(vector.position, vector.flips) for vector in vectors.load(name).cases])
-
-
-def _octave(position: Position, flips: Mapping[Position, float]) -> float:
-    """From distances that are rounded up: above 2^k, and 2^(k+1) at most. NaN where floats end."""
-    nearest = min(flips.values()) if position is Position.CONTACT else flips[Position.CONTACT]
-    if nearest == 0:
-        return -math.inf
-    if nearest < _SMALLEST:
-        return math.nan
-    mantissa, exponent = math.frexp(nearest)
-    return exponent - (2 if mantissa == 0.5 else 1) if math.isfinite(nearest) else nearest

@@ -6,6 +6,7 @@ crashes, and the run goes on.
 
 from __future__ import annotations
 
+import os
 import traceback
 from collections import deque
 from contextlib import suppress
@@ -17,6 +18,7 @@ from multiprocessing.context import SpawnProcess
 import numpy as np
 
 from hypcheck.errors import HypcheckError
+from hypcheck.gate.frozen import read_here, take
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
 from hypcheck.gate.subject import Crashed
@@ -88,6 +90,7 @@ class Workers:
         self._tasks: dict[int, tuple[Task, Allowance]] = {}
         self._deaths: dict[int, int] = {}
         self._unborn = 0
+        self._begun = False
         self._waiting: deque[int] = deque()
         self._done: dict[int, Performed] = {}
         self._workers: list[_Worker] = []
@@ -129,7 +132,9 @@ class Workers:
         return self._done.pop(number)
 
     def _hand_out(self) -> None:
-        for worker in self._workers:
+        """Give tasks to whoever has none; at first not before all are ready, from whom it would take the processors."""
+        self._begun = self._begun or all(worker.ready for worker in self._workers)
+        for worker in self._workers if self._begun else ():
             if worker.ready and worker.task is None and self._waiting:
                 worker.task = self._waiting.popleft()
                 try:
@@ -146,6 +151,8 @@ class Workers:
         if isinstance(said, BaseException):
             raise said
         if worker.task is None:
+            with suppress(OSError):  # it has ended
+                worker.line.send(read_here())
             worker.ready, self._unborn = True, 0
         else:
             self._finish(worker.task, said)
@@ -205,8 +212,10 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
         with opening.open() as implementation:
             require_same_description(implementation, declared)
             line.send(None)
+            take(line.recv())
             while (task := line.recv()) is not None:
                 line.send(perform(task[0], implementation, rules, task[1]))
+        os._exit(0)  # Python takes a tenth of a second to clear what ends with the process anyway
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
     except HypcheckError as error:

@@ -51,6 +51,9 @@ _ROOM = 1 << 18
 _TOGETHER = 1 << 12
 """Bytes of a question that are written at one go even if they come in several parts."""
 
+_SOON = 1e-4
+"""Seconds in which the answer to so small a question is awaited awake: to fall asleep and be awakened takes as long."""
+
 _GOODBYE = 1.0
 _LAST_WORDS = 0.5
 
@@ -81,6 +84,7 @@ class Process:
         """Whether bytes still wait to be read by it."""
         self.sent = 0
         """Bytes of the question that have left."""
+        self._soon = 0.0
         self._ended = False
         self._closed = False
         self._listen()
@@ -117,7 +121,7 @@ class Process:
         now = time.monotonic()
         self._memory.look(now)
         grew = False
-        events = self._poll.poll(1000 * min(max(until - now, 0.0), _TICK))
+        events = self._events(until - now)
         for pipe, _ in events:
             if pipe == self._in:
                 self._write()
@@ -128,6 +132,12 @@ class Process:
         if not events and self._popen.poll() is not None:
             self._ended = True  # though one of its children holds the pipe open
         return grew
+
+    def _events(self, seconds: float) -> list[tuple[int, int]]:
+        while seconds > 0 and time.monotonic() < self._soon:
+            if events := self._poll.poll(0):
+                return events
+        return self._poll.poll(1000 * min(max(seconds, 0.0), _TICK))
 
     def _write(self) -> None:
         try:
@@ -140,6 +150,7 @@ class Process:
         except BrokenPipeError:  # it reads no more; whether it ended, or has a last word, the other pipes tell
             self._outgoing, self._part = iter(()), memoryview(b"")
         self.sending = False
+        self._soon = time.monotonic() + _SOON if self.sent <= _TOGETHER else 0.0
         self._poll.unregister(self._in)
 
     def _next_part(self) -> bool:
