@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from hypcheck import groups
 from hypcheck.gate.chunks import Chunk
 from hypcheck.groups import Tally
-from hypcheck.methods.asking import ALONE
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.runs import Allowance
 
@@ -96,13 +95,13 @@ class Performed:
         if actual.over or self.left.over:
             return False
         spent = self._spent
-        return spent.restarts <= actual.restarts and spent.lone + ALONE <= actual.lone
+        return spent.restarts <= actual.restarts and spent.faults < actual.faults
 
     def after(self, actual: Allowance) -> Allowance:
         """What is left of the `actual` allowance behind it."""
         spent = self._spent
-        return replace(self.left, restarts=actual.restarts - spent.restarts, lone=actual.lone - spent.lone)
+        return replace(self.left, restarts=actual.restarts - spent.restarts, faults=actual.faults - spent.faults)
 
     @property
     def _spent(self) -> Allowance:
-        return Allowance(self.granted.restarts - self.left.restarts, self.granted.lone - self.left.lone)
+        return Allowance(self.granted.restarts - self.left.restarts, self.granted.faults - self.left.faults)

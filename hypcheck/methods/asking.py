@@ -17,13 +17,11 @@ from hypcheck.pairs import REFUSED
 from hypcheck.rows import CANNOT_SAY, Rows, invalid
 
 ALONE = 4096
-"""Rows that are asked one by one to find the one at fault; of a larger batch, parts of this size are asked first.
+"""Rows that are asked one by one to find one that ends the process; of more, parts of this size are asked first.
 
-So one row at fault costs two restarts or three, and each further one among the same rows one.
+So finding it takes two processes besides its own at most, and one for each further such row among them. What ends no
+process is found by halving.
 """
-
-LONE_QUESTIONS = 1 << 17
-"""Rows of one implementation that are asked one by one over all: who fails always need not be asked for every row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +96,7 @@ class Asking:
         try:
             self._question(start, stop)
         except FaultError as fault:
-            self._search(start, stop, fault.outcome, self._runs.note(fault))
+            self._search(start, stop, fault, self._runs.note(fault))
 
     def leave(self, reason: str) -> None:
         """Note for the rows of which nothing was found out why that is so."""
@@ -114,33 +112,46 @@ class Asking:
         for index in np.flatnonzero(~understood).tolist():
             self._mark(start + index, Outcome.PROTOCOL, self._vocabulary.trouble_with(int(answers[index])))
 
-    def _search(self, start: int, stop: int, outcome: Outcome, reason: str) -> None:
-        """Find the row at fault by asking parts, and then each row of a part that fails."""
-        n = stop - start
-        among = f"in a question of {n} rows"
-        if n == 1 or self._runs.left.lone < min(n, ALONE):
-            for index in range(start, stop):
-                self._mark(index, outcome, reason if n == 1 else f"{among}: {reason}")
+    def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
+        """Find the rows at fault by asking parts, and parts of those that fail.
+
+        Rows at fault are charged, not what it takes to find them, which depends on how many were asked at once.
+        """
+        if stop - start == 1:
+            self._charge(start, fault, reason)
             return
-        step = 1 if n <= ALONE else ALONE
-        if step == 1:
-            self._runs.spend_lone(n)
-        found = False
-        for first in range(start, stop, step):
-            last = min(first + step, stop)
+        among = f"in a question of {stop - start} rows"
+        found, restarts = False, self._runs.left.restarts
+        size = _part(stop - start, fatal=fault.fatal)
+        for first in range(start, stop, size):
+            last = min(first + size, stop)
             try:
                 self._question(first, last)
+            except FaultError as part:
+                found = True
+                self._search(first, last, part, self._runs.note(part))
             except OverError:
                 if not found:
-                    self._mark(first, outcome, f"{among}, and it could not be asked further to find which: {reason}")
+                    unknown = f"{among}, and it could not be asked further to find which: {reason}"
+                    self._mark(first, fault.outcome, unknown)
                 raise
-            except FaultError as fault:
-                found = True
-                self._search(first, last, fault.outcome, self._runs.note(fault))
         if not found:
-            self._mark(start, outcome, f"{among} from this one on, though not in smaller ones: {reason}")
+            self._charge(start, fault, f"{among} from this one on, though not in smaller ones: {reason}")
+        elif fault.fatal and self._runs.left.restarts == restarts:  # its parts failed, but ended no process
+            self._runs.charge(fault, reason)
+
+    def _charge(self, index: int, fault: FaultError, reason: str) -> None:
+        self._mark(index, fault.outcome, reason)
+        self._runs.charge(fault, reason)
 
     def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
         self.result.answers[index] = CANNOT_SAY
         self.result.status[index] = outcome
         self.result.reasons[index] = reason
+
+
+def _part(n: int, *, fatal: bool) -> int:
+    """Rows of the parts in which n that fail are asked: halves; where failing ends a process, few parts, then rows."""
+    if not fatal:
+        return (n + 1) // 2
+    return ALONE if n > ALONE else 1

@@ -9,7 +9,7 @@ from types import TracebackType
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.methods.asking import LONE_QUESTIONS, Answered, Asking, Vocabulary
+from hypcheck.methods.asking import Answered, Asking, Vocabulary
 from hypcheck.methods.description import Description
 from hypcheck.methods.faults import FaultError, TimingError
 from hypcheck.methods.frames import LARGEST
@@ -18,6 +18,9 @@ from hypcheck.methods.runs import Allowance, OverError, Runs
 from hypcheck.methods.session import Session
 from hypcheck.methods.spec import Spec
 from hypcheck.rows import Rows, as_rows
+
+FAULTS = 1 << 14
+"""Rows of one implementation that may be at fault without ending it: who always fails is not asked for every row."""
 
 _FIRST, _GROWTH = 64, 16
 _SHARE = 10
@@ -45,7 +48,7 @@ class Implementation:
         instead: Callable[[Description], Description],
     ) -> None:
         self.spec = spec
-        self._runs = Runs(start, Allowance(limits.restarts, LONE_QUESTIONS))
+        self._runs = Runs(start, Allowance(limits.restarts, FAULTS))
         try:
             self.declared = self._runs.declared
             self.description = instead(self.declared)
@@ -174,7 +177,9 @@ class Implementation:
             times = session.time(rows, repeat, by_scene=by_scene)
             took = time.monotonic_ns() - began
         except FaultError as fault:
-            raise TimingError(f"{self.spec} could not be timed: {self._runs.note(fault)}") from None
+            reason = self._runs.note(fault)
+            self._runs.charge(fault, reason)
+            raise TimingError(f"{self.spec} could not be timed: {reason}") from None
         except OverError as error:
             raise TimingError(f"{self.spec} could not be timed: {error}") from None
         except BaseException:

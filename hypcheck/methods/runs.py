@@ -17,12 +17,12 @@ class OverError(Exception):
 class Allowance:
     """What an implementation may still cost before it is asked no more.
 
-    `restarts` that lost processes may be followed by; `lone` rows asked one by one to find those at fault. `over` says
-    why it is asked no more already; empty while it is.
+    `restarts` after rows that ended its process; `faults`, rows that ended in one without ending the process. `over`
+    says why it is asked no more already; empty while it is.
     """
 
     restarts: int
-    lone: int
+    faults: int
     over: str = ""
 
 
@@ -30,12 +30,12 @@ class Runs:
     """Holds the session that runs, and begins another where it was lost. Raises StartError where the first fails.
 
     `start` begins a session; it is given the number of sessions before. `left` is what is left of the allowance. A
-    lost process is charged when it is lost, so that what some rows cost does not depend on what is asked after them.
+    row at fault is charged when it is found, so that what some rows cost does not depend on what is asked after them.
     """
 
     def __init__(self, start: Callable[[int], Session], allowance: Allowance) -> None:
         self._start = start
-        self._most = allowance.restarts
+        self._most = allowance
         self.left = allowance
         self._count = 1
         self._session: Session | None = start(0)
@@ -68,23 +68,25 @@ class Runs:
     def _end(self, reason: str) -> None:
         self.left = replace(self.left, over=reason)
 
-    def spend_lone(self, rows: int) -> None:
-        """Take note of rows that are asked one by one."""
-        self.left = replace(self.left, lone=self.left.lone - rows)
-
     def note(self, fault: FaultError) -> str:
-        """Take note of a fault of the session that runs: what happened, with what was said on standard error."""
+        """End the session that runs where the fault is fatal: what happened, with what was said on standard error."""
         session = self._session
         if not fault.fatal or session is None:
             return fault.reason
         session.kill()
         self._session = None
-        reason = fault.reason + session.evidence
-        if self.left.restarts:
+        return fault.reason + session.evidence
+
+    def charge(self, fault: FaultError, reason: str) -> None:
+        """Take note of a row that was found to be at fault."""
+        if fault.fatal and self.left.restarts:
             self.left = replace(self.left, restarts=self.left.restarts - 1)
+        elif fault.fatal:
+            self._end(f"not asked: {self._most.restarts} restarts are used up; the last process: {reason}")
+        elif self.left.faults > 1:
+            self.left = replace(self.left, faults=self.left.faults - 1)
         else:
-            self._end(f"not asked: {self._most} restarts are used up; the last process: {reason}")
-        return reason
+            self._end(f"not asked: {self._most.faults:,} rows before were at fault; the last: {reason}")
 
     @property
     def stderr(self) -> tuple[str, ...]:

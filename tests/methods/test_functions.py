@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -45,7 +46,7 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
         reason = only_unlucky(it.classify(some), outcome, truth(some))
         assert re.search(sentence, reason), reason
         assert it.classify(rows(lucky=True)).answered.all()
-        assert it.restarts == (2 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
+        assert it.restarts == (1 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
 
 
 @pytest.mark.parametrize(
@@ -67,12 +68,28 @@ def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, se
 
 
 def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
-    monkeypatch.setattr("hypcheck.methods.implementation.LONE_QUESTIONS", 200)
+    monkeypatch.setattr("hypcheck.methods.implementation.FAULTS", 200)
     with open_implementation(function("floats"), LIMITS) as it:
         answered = it.classify(rows(3000), batch=150)
-    assert answered.count(Outcome.PROTOCOL) == 3000
-    assert answered.reasons[0].startswith("it returned")
-    assert answered.reasons[2999].startswith("in a question of 150 rows: it returned")
+    assert answered.status.tolist() == [Outcome.PROTOCOL] * 200 + [Outcome.NOT_RUN] * 2800
+    assert answered.reasons[199].startswith("it returned")
+    assert answered.reasons[2999].startswith("not asked: 200 rows before were at fault; the last: it returned")
+
+
+@pytest.mark.parametrize(("name", "restarts"), [("leaves", 3), ("raises", 0)])
+def test_what_faults_come_to_is_the_same_however_many_rows_are_asked_at_once(monkeypatch, name, restarts):
+    """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
+    monkeypatch.setattr("hypcheck.methods.implementation.FAULTS", 4)
+    some = rows(9000, lucky=True)
+    some[[70, 500, 1300, 5000, 5003, 8000]] = rows()[UNLUCKY]
+    found = []
+    for batch in (64, 1000, 9000):
+        with open_implementation(function(name), replace(LIMITS, restarts=3)) as it:
+            answered = it.classify(some, batch=batch)
+            found.append((answered.status.tolist(), answered.answers.tolist(), it.restarts))
+    assert found[0] == found[1] == found[2]
+    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [70, 500, 1300, *range(5000, 9000)]
+    assert it.restarts == restarts
 
 
 @pytest.mark.parametrize("name", ["right", "prints", "list_of_integers", "imports_us"])
