@@ -24,13 +24,14 @@ class Reader:
 
 
 READERS = {
-    "vectors": Reader(files.vectors, seeds.case_files, 75),
+    "vectors": Reader(files.vectors, seeds.case_files, 60),
     "refusals": Reader(files.refusals, seeds.refusal_files, 40),
     "proofs": Reader(files.proofs, seeds.proved_files, 15),
     "record": Reader(files.record, seeds.records, 80, files.with_checksums),
     "repair": Reader(files.repaired, seeds.records, 30, files.with_checksums),
     "reports": Reader(files.reports, seeds.report_records, 14, files.with_checksums),
-    "page": Reader(files.page, seeds.report_records, 1, files.with_checksums, seconds=30.0),  # it draws
+    "page": Reader(files.page, seeds.report_records, 14, files.with_checksums),
+    "plots": Reader(files.plots, seeds.report_records, 2, files.with_checksums, seconds=10.0),
     "scene": Reader(files.scene, seeds.scenes, 70),
     "plan": Reader(files.plan, seeds.scenes, 10),
     "known-failures": Reader(files.known_failures, lambda: (seeds.KNOWN_FAILURES,), 60),
