@@ -22,9 +22,13 @@ from hypcheck.rows import CANNOT_SAY, Positions, Rows
 
 @dataclass(frozen=True, slots=True)
 class Round:
-    """Open cases of some chunks, to be asked again together; `number` counts the rounds of a run."""
+    """Open cases of some chunks, to be asked again together.
+
+    `number` counts the rounds of a run, which have up to three parts.
+    """
 
     number: int
+    part: int
     open: tuple[Open, ...]
 
 
@@ -52,7 +56,9 @@ def ask_again(asked: Round, implementation: Subject, rules: Rules) -> Result:
         return Result()
     sample, changes, outcomes = _sample(asked.open), Changes(), set[Outcome]()
     implementation.fresh()
-    asking = questions(sample.truth, sample.moments, lambda: implementation.stands, rules.seed, asked.number)
+    asking = questions(
+        sample.truth, sample.moments, lambda: implementation.stands, rules.seed, asked.number, asked.part
+    )
     for places, batch in asking:
         answered = implementation.classify(sample.rows[places], batch=batch)
         outcomes |= answered.outcomes

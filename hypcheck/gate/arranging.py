@@ -43,33 +43,43 @@ FULL = LARGE + 128 + 1
 """Rows of a full question at least, of who can be asked so many: cases are repeated, so that every thread, block and
 page of whoever divides a question has some."""
 
+PARTS = 3
+"""Parts of a round at most, each with an order of its own."""
+
 SHORTER = (0, 0, 2)
 """By how many rows full questions fall short, so that a vector's rest is not always the same; two are whole, so that
 an answer that is always the same in the last place is wrong in one of them."""
 
 
 def questions(
-    truth: NDArray[np.int8], moments: NDArray[np.int64], stands: Callable[[], int], seed: int, number: int
+    truth: NDArray[np.int8],
+    moments: NDArray[np.int64],
+    stands: Callable[[], int],
+    seed: int,
+    number: int,
+    part: int = 0,
 ) -> Iterator[Question]:
     """The questions about n cases with these positions, each case in one at least.
 
     `moments` (n,) are those of movements, −1 of cases that follow no object: who carries answers over from one question
     to the next is found where the same objects are asked moment by moment. `stands` is how many rows of one question
     it has shown to answer well within its time so far; who stands LARGE ones is asked each case many times in the first
-    round of a run, of which `number` is 0.
+    part of the first round of a run, of which `number` and `part` are 0. Parts 1 and 2 share the small questions.
     """
-    random = np.random.Generator(np.random.Philox((seed, number)))
+    random = np.random.Generator(np.random.Philox((seed, PARTS * number + part)))
     order = random.permutation(np.flatnonzero(moments < 0))
-    yield order[:ALONE], 1
-    yield np.tile(np.repeat(order[:TWINS], 2), 2), None
-    rest = order[ALONE:]
-    some = min(IN_LENGTHS, (len(rest) + 1) // 2)
+    share = 2 if part else 1
+    alone = ALONE // share
+    yield order[:alone], 1
+    yield np.tile(np.repeat(order[: TWINS // share], 2), 2), None
+    rest = order[alone:]
+    some = min(IN_LENGTHS // share, (len(rest) + 1) // 2)
     began = time.monotonic()
     small = list(_of_every_length(rest[:some]))
     yield from small
     quick = time.monotonic() - began < QUICK * len(small)
     yield _filled(rest[some:], order, FULL if stands() >= FULL else 0), None
-    if number == 0 and stands() >= LARGE and len(order):
+    if number == part == 0 and stands() >= LARGE and len(order):
         yield from _of_every_length(np.resize(order, ROUNDS * sum(LENGTHS)))
         yield from _in_every_place(order, truth, random, min(FULL, stands()))
         yield from _in_every_place(order, truth, random, stands())

@@ -44,7 +44,7 @@ class Chunk:
     def __len__(self) -> int:
         return self.stop - self.start
 
-    def part(self, first: int, last: int) -> Chunk:
+    def between(self, first: int, last: int) -> Chunk:
         """Its cases `first` to `last` − 1 as a chunk of their own."""
         measured = min(max(self.measured - first, 0), last - first)
         return Chunk(self.family, self.seed, self.start + first, self.start + last, measured)
@@ -53,6 +53,12 @@ class Chunk:
     def movement(self) -> int:
         """So many consecutive cases follow one object from moment to moment; 1 where none do."""
         return 1 if self.seed is None else _family(self.family).movement
+
+    @property
+    def part(self) -> int:
+        """In which part of a round its cases are asked again: 0 at the beginning of a family, then 1 and 2 in turn."""
+        number = 0 if self.seed is None else self.start // SIZE
+        return 1 + number % 2 if number else 0
 
     def place(self, index: int) -> Place:
         """Where its case stands in the family."""

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import islice, takewhile
 from typing import Protocol
 
 from hypcheck.gate.again import Round
 from hypcheck.gate.chunks import SIZE, Chunk
 from hypcheck.gate.refusing import Invalid
-from hypcheck.gate.results import Performed, Result, merged
+from hypcheck.gate.results import Open, Performed, Result, merged
 from hypcheck.gate.work import Task
 from hypcheck.methods.runs import Allowance
 
@@ -29,12 +29,24 @@ Whoever asks them again holds them all at once; twice as many would cost each pr
 
 @dataclass(frozen=True, slots=True)
 class Again:
-    """The step that asks the open cases of all chunks since the last such step again."""
+    """A step that asks the open cases of the chunks since the last round again: those in one part of it.
+
+    Part 0 is of the chunks that begin a family; with it everything is asked that is asked once a run. Parts 1 and 2 are
+    of the others, so that two processes ask at the same time at the end, where nothing else is left to do.
+    """
 
     number: int
+    part: int = 0
+
+    def of(self, some: tuple[Open, ...]) -> Round:
+        """Its task, where these are open."""
+        return Round(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
 
 
 Step = Chunk | Again | Invalid
+
+_LATER = 0
+"""The number of a step that was not submitted yet; those of a crew begin with 1."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +62,9 @@ class State:
 
     def after(self, step: Step, performed: Performed) -> State:
         """The state after one more step."""
-        before = replace(self.total, open=()) if isinstance(step, Again) else self.total
+        before = self.total
+        if isinstance(step, Again):
+            before = replace(before, open=tuple(each for each in before.open if each.chunk.part != step.part))
         return State(performed.after(self.left), self.done + 1, merged([before, performed.result]))
 
 
@@ -60,7 +74,7 @@ class Crew(Protocol):
     ahead: int
 
     def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:
-        """Put a task in line, before all others if it is `first`; a number to ask for its result with."""
+        """Put a task in line, before those that are not if it is `first`; a number to ask for its result with."""
         ...
 
     def result(self, number: int) -> Performed:
@@ -70,34 +84,48 @@ class Crew(Protocol):
 
 def steps(chunks: Iterable[Chunk], *, refuses: bool) -> Iterator[Step]:
     """The steps that ask these chunks; `refuses`: and the invalid rows."""
-    rows, rounds = 0, 0
+    rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
         rows += len(chunk)
+        parts.add(chunk.part)
         if rows >= ROUND:
-            yield Again(rounds)
-            rows, rounds = 0, rounds + 1
-    if rows:
-        yield Again(rounds)
+            yield from _round(rounds, parts)
+            rows, rounds, parts = 0, rounds + 1, set()
+    yield from _round(rounds, parts)
     if refuses:
         yield Invalid()
+
+
+def _round(number: int, parts: set[int]) -> Iterator[Again]:
+    """Part 0, which takes the longest in the first round, stands last, so that the others are asked together."""
+    return (Again(number, part) for part in (1, 2, 0) if part in parts)
 
 
 def states(some: Iterable[Step], crew: Crew, state: State) -> Iterator[tuple[Step, State]]:
     """Perform the steps behind those that are done; each with the state after it."""
     coming = islice(some, state.done, None)
-    line: deque[tuple[Step, int | None]] = deque()
+    line: deque[tuple[Step, int]] = deque()
     while True:
         while len(line) < crew.ahead and (step := next(coming, None)) is not None:
-            line.append((step, None if isinstance(step, Again) else crew.submit(step, state.left)))
+            line.append((step, _LATER if isinstance(step, Again) else crew.submit(step, state.left)))
         if not line:
             return
+        if line[0][1] == _LATER:
+            _begin_round(line, crew, state)
         step, number = line.popleft()
-        task = Round(step.number, state.total.open) if isinstance(step, Again) else step
-        if number is None:  # only now all of its cases are there
-            number = crew.submit(task, state.left, first=True)
         performed = crew.result(number)
         if not performed.fits(state.left):
-            performed = crew.result(crew.submit(task, state.left, first=True))
+            performed = crew.result(crew.submit(_task(step, state), state.left, first=True))
         state = state.after(step, performed)
         yield step, state
+
+
+def _begin_round(line: deque[tuple[Step, int]], crew: Crew, state: State) -> None:
+    """Submit the parts of a round, with which the line begins: only now all of its cases are there."""
+    for place, (step, _) in enumerate(takewhile(lambda each: each[1] == _LATER, tuple(line))):
+        line[place] = step, crew.submit(_task(step, state), state.left, first=True)
+
+
+def _task(step: Step, state: State) -> Task:
+    return step.of(state.total.open) if isinstance(step, Again) else step

@@ -79,7 +79,7 @@ def _open(chunk: Chunk, indices: Indices, answers: Codes) -> tuple[Open, ...]:
     if not len(indices):
         return ()
     first, last = int(indices[0]), int(indices[-1]) + 1
-    return (Open(chunk.part(first, last), indices - first, answers),)
+    return (Open(chunk.between(first, last), indices - first, answers),)
 
 
 def _faults(chunk: Chunk, indices: Indices, rows: Rows, answered: Answered) -> Iterator[Fault]:

@@ -91,6 +91,7 @@ class Workers:
         self._deaths: dict[int, int] = {}
         self._unborn = 0
         self._begun = False
+        self._first: deque[int] = deque()
         self._waiting: deque[int] = deque()
         self._done: dict[int, Performed] = {}
         self._workers: list[_Worker] = []
@@ -115,10 +116,10 @@ class Workers:
         self._kill()
 
     def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:
-        """Put a task in line, before all others if it is `first`."""
+        """Put a task in line, before those that are not if it is `first`."""
         self._count += 1
         self._tasks[self._count] = task, allowance
-        (self._waiting.appendleft if first else self._waiting.append)(self._count)
+        (self._first if first else self._waiting).append(self._count)
         self._hand_out()
         return self._count
 
@@ -135,8 +136,9 @@ class Workers:
         """Give tasks to whoever has none; at first not before all are ready, from whom it would take the processors."""
         self._begun = self._begun or all(worker.ready for worker in self._workers)
         for worker in self._workers if self._begun else ():
-            if worker.ready and worker.task is None and self._waiting:
-                worker.task = self._waiting.popleft()
+            line = self._first or self._waiting
+            if worker.ready and worker.task is None and line:
+                worker.task = line.popleft()
                 try:
                     worker.line.send(self._tasks[worker.task])
                 except OSError:  # it has ended, which its line will tell
@@ -180,7 +182,7 @@ class Workers:
         """Let another process try a task that one ended with; where it has cost as many as it may, its cases crash."""
         self._deaths[number] = self._deaths.get(number, 0) + 1
         if self._deaths[number] < DEATHS:
-            self._waiting.appendleft(number)
+            self._first.appendleft(number)
             return
         task, allowance = self._tasks[number]
         reason = f"{DEATHS} processes of hypcheck ended while they asked these cases, the last with status {status}"

@@ -14,14 +14,24 @@ STILL = np.full(N, -1)
 LONGEST = 20_000
 
 
-def asked(stands, truth=TRUTH, moments=STILL, number=0):
-    return list(questions(truth, moments, lambda: stands, 1, number))
+def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0):
+    return list(questions(truth, moments, lambda: stands, 1, number, part))
 
 
+@pytest.mark.parametrize("part", [0, 1])
 @pytest.mark.parametrize("stands", [1, 64, LARGE, FULL, LONGEST])
-@pytest.mark.parametrize("n", [0, 1, 31, 33, 40, 700])
-def test_every_case_is_asked_again(stands, n):
-    assert set(np.concatenate([places for places, _ in asked(stands, TRUTH[:n], STILL[:n])])) == set(range(n))
+@pytest.mark.parametrize("n", [0, 1, 15, 31, 33, 40, 700])
+def test_every_case_is_asked_again(stands, n, part):
+    again = asked(stands, TRUTH[:n], STILL[:n], part=part)
+    assert set(np.concatenate([places for places, _ in again])) == set(range(n))
+
+
+def test_two_parts_of_a_round_share_the_small_questions_and_leave_the_many_to_another():
+    shares = [asked(LONGEST, np.resize(TRUTH, 3 * N), np.full(3 * N, -1), part=part) for part in (1, 2)]
+    for share in shares:
+        assert [len(places) for places, batch in share if batch == 1] == [ALONE // 2]
+        assert {len(places) for places, batch in share if batch and batch > 1} >= set(LENGTHS)
+    assert shares[0][0][0].tolist() != shares[1][0][0].tolist()
 
 
 def test_who_is_slow_is_asked_hardly_more_than_once():

@@ -57,10 +57,10 @@ def test_a_case_is_found_by_its_id_and_is_what_the_id_says(chunk):
 
 def test_a_part_of_a_chunk_names_the_same_cases():
     chunk = Chunk("flight", 1, 128, 528, measured=100)
-    part = chunk.part(90, 300)
+    part = chunk.between(90, 300)
     assert [part.name(i) for i in range(len(part))] == [chunk.name(90 + i) for i in range(210)]
     assert [part.place(i) for i in (0, 209)] == [chunk.place(90), chunk.place(299)]
-    assert (part.measured, chunk.part(100, 101).measured, chunk.part(0, 5).measured) == (10, 0, 5)
+    assert (part.measured, chunk.between(100, 101).measured, chunk.between(0, 5).measured) == (10, 0, 5)
     assert (cases(part).rows == cases(chunk).rows[90:300]).all()
 
 

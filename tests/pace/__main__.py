@@ -16,6 +16,7 @@ import click
 
 from hypcheck.cli.main import main as hypcheck
 from hypcheck.cli.whole import Whole
+from hypcheck.gate.arranging import PARTS
 from hypcheck.gate.lines import GateOutcome
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.run import run, size
@@ -30,17 +31,21 @@ BUILD = ("cc", "-std=c11", "-O2", "-ffp-contract=off", "-o")
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """A run of so many rows: how long it took until the first ones were judged, and how long for all behind them."""
+    """A run of so many rows, and its seconds: until the first ones were judged, for all behind them, and for the rest.
+
+    The rest is what is asked once a run, whatever its count, where that came last.
+    """
 
     rows: int
     start: float
     behind: int
     seconds: float
+    rest: float
     workers: int
 
     @property
     def each(self) -> float:
-        """Rows a second and process, the start apart."""
+        """Rows a second and process, apart from the start and from what is asked once a run."""
         return self.behind / self.seconds / self.workers
 
 
@@ -54,13 +59,14 @@ def main(counts: tuple[int, ...], workers: int | None, seconds: float) -> None:
         spec = f"command:{_adapter(Path(folder))}"
         paces = []
         click.echo(
-            f"{'rows':>13} {'runs':>5} {'processes':>9} {'start':>8} {'behind it':>10} {'rows a second each':>19}"
+            f"{'rows':>13} {'runs':>5} {'processes':>9} {'start':>8} {'behind it':>10} {'rest':>8} "
+            f"{'rows a second each':>19}"
         )
         for count in counts or (10**6, 10**7, 10**8, 10**9):
             some = list(_repeated(spec, count, workers, seconds))
             middle = sorted(some, key=lambda pace: pace.each)[len(some) // 2]
             paces.append(median(pace.each for pace in some))
-            times = f"{middle.start:6.2f} s {middle.seconds:8.2f} s"
+            times = f"{middle.start:6.2f} s {middle.seconds:8.2f} s {middle.rest:6.2f} s"
             click.echo(f"{count:13,} {len(some):5} {middle.workers:9} {times} {paces[-1]:19,.0f}")
     behind = 1 - min(paces) / max(paces)
     click.echo(f"the slowest is {behind:.0%} behind the fastest (at most {SPREAD:.0%})")
@@ -84,7 +90,11 @@ def _repeated(spec: str, count: int, workers: int | None, seconds: float):
 
 
 def _timed(spec: str, count: int, workers: int | None) -> Pace:
-    """A run; it has begun once each process has had time to judge its first chunk."""
+    """A run; it has begun once each process has had time to judge its first chunk.
+
+    The last part of the first round, which asks what is asked once a run, is the last step of a run of one round: all
+    processes but one are idle by then, and it takes no longer for more rows.
+    """
     marks: list[tuple[float, int]] = []
     plan = GatePlan((spec,), families=(FAMILY,), count=count, workers=workers)
     begun = time.perf_counter()
@@ -92,7 +102,9 @@ def _timed(spec: str, count: int, workers: int | None) -> Pace:
     asking = plan.crew(size(plan)) or 1
     first = 1 if asking == 1 else 2 * asking
     behind = sum(rows for _, rows in marks[first + 1 :])
-    return Pace(count, marks[first][0] - begun, behind, marks[-1][0] - marks[first][0], asking)
+    last = -2 if sum(1 for _, rows in marks if not rows) <= PARTS else -1
+    times = marks[last][0] - marks[first][0], marks[-1][0] - marks[last][0]
+    return Pace(count, marks[first][0] - begun, behind, *times, asking)
 
 
 if __name__ == "__main__":
