@@ -200,7 +200,8 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     sides = (Position.EXTERIOR, Position.INTERIOR)
     edges = [(_edge(setting.sizes, z, side), z) for z in heights.tolist() for side in sides]
     table = np.resize(np.array(edges), (n, 2))
-    x = stepped(table[:, 0], draw.integers(n, -6, 6))
+    edge, steps = np.ascontiguousarray(table[:, 0]), draw.integers(n, -6, 6)
+    x = stepped(edge, np.maximum(steps, -edge.view(np.int64)))  # not past 0, among the least of subnormals
     return _rows(setting, draw.signs(n) * x, np.zeros(n), table[:, 1])
 
 

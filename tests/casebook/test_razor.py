@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from hypcheck.casebook import fixed_sizes
 from hypcheck.pairs import Pair, Position
+from hypcheck.ranges import FixedSizes
 from hypcheck.truth import exact
 
 SIDES = (Position.EXTERIOR, Position.INTERIOR)
@@ -84,3 +85,13 @@ def test_a_float_s_ordinal_is_its_own(x):
     ordinal = fixed_sizes._ordinal(x)
     assert fixed_sizes._float_at(ordinal) == x
     assert ordinal == 0 or fixed_sizes._float_at(ordinal - 1) == math.nextafter(x, 0.0)
+
+
+@pytest.mark.parametrize(
+    "sizes", [(5e-324, 5e-324, 5e-324, 5e-324), (1e-300, 1e-300, 1e-300, 1e-300), (1.0, 1e150, 1.0, 1.0)]
+)
+def test_steps_from_the_edge_do_not_leave_the_least_of_subnormals(sizes):
+    (razor,) = (each for each in fixed_sizes.families_for((FixedSizes(sizes),)) if each.name.startswith("razor"))
+    rows = razor.rows(1, 300)
+    assert np.isfinite(rows).all()
+    assert 0 < np.abs(rows[:, 4][rows[:, 4] != 0]).min() < 1e-300

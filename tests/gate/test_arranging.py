@@ -53,6 +53,11 @@ def test_each_place_of_full_and_of_longest_questions_has_each_position():
         assert TRUTH[large[0][-1]] != TRUTH[large[1][-1]]
 
 
+def test_who_takes_long_over_full_questions_is_not_asked_the_longest(monkeypatch):
+    monkeypatch.setattr(arranging, "SOON", 0.0)
+    assert max(len(places) for places, _ in asked(LONGEST)) == FULL
+
+
 def test_small_questions_leave_every_rest_of_a_vector():
     lengths = {len(places) for places, batch in asked(LONGEST) if batch and batch > 1}
     assert lengths >= set(LENGTHS)
