@@ -39,7 +39,7 @@ def hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
 
 def _look(run: Hunt) -> Iterator[None]:
     """The strata without end: a first look at all of them, then block after block."""
-    everywhere = strata()
+    everywhere = strata(run.target.domain.settings)
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:

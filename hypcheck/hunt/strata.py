@@ -3,6 +3,8 @@
 Each family of the casebook is one: tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the
 axis, the waist, the borders of the regimes, long ratios. To these come the crossings of four surfaces, z = 0, r = 0,
 a = 1 and c² = a, with one another and with the border of contact: on them exactly, and a hair beside.
+
+Whoever was made for given sizes is asked the families that are made for these, and nothing else.
 """
 
 from __future__ import annotations
@@ -16,8 +18,10 @@ import numpy as np
 from hypcheck.casebook.draw import Draw, Floats, ldexp
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.casebook.family import Family
+from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.casebook.placing import Sizes, centred, heights, offsets
 from hypcheck.hunt.border import beside_border
+from hypcheck.ranges import FixedSizes
 from hypcheck.rows import Rows
 
 SURFACES = {
@@ -43,8 +47,10 @@ class Stratum:
     rows: Callable[[int, int], Rows]
 
 
-def strata() -> tuple[Stratum, ...]:
-    """All strata, the casebook's families first."""
+def strata(settings: tuple[FixedSizes, ...] = ()) -> tuple[Stratum, ...]:
+    """All strata, the casebook's families first; where there are given sizes alone, the families made for them."""
+    if settings:
+        return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
     return (*map(_of_family, FAMILIES.values()), *map(_of_crossing, crossings))
 

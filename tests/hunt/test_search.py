@@ -19,9 +19,11 @@ from hypcheck.hunt.target import target_of
 from hypcheck.judge import Mistake, Status, flip_octaves
 from hypcheck.methods.asking import Answered
 from hypcheck.methods.description import Description
+from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.opening import open_implementation
 from hypcheck.pairs import Position
+from hypcheck.ranges import FixedSizes
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth import batch
 from tests.fractions_truth import exact_position
@@ -85,7 +87,7 @@ def test_the_loss_of_the_local_maximum_where_a_is_about_1_and_where_c2_is_about_
 def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
     ordinary = tuple(each for each in strata.strata() if "near-tangent" in each.name)
     assert len(ordinary) == 2
-    monkeypatch.setattr(search, "strata", lambda: ordinary)
+    monkeypatch.setattr(search, "strata", lambda _: ordinary)
     first = hunted("local-maximum-float64", 2 * search.FIRST_LOOK)
     assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
     grown = hunted("local-maximum-float64", 25_000)
@@ -106,7 +108,7 @@ def test_a_search_that_finds_nothing_worse_halves_its_step_and_comes_to_rest(mon
     def answer(rows):
         return np.where((rows == ring).all(axis=1), 0, batch.positions(rows))
 
-    monkeypatch.setattr(search, "strata", lambda: (strata.Stratum("one row", lambda seed, number: block),))
+    monkeypatch.setattr(search, "strata", lambda _: (strata.Stratum("one row", lambda seed, number: block),))
     monkeypatch.setattr(search, "neighbours", watched)
     monkeypatch.setattr(climb, "LAST_STEP", 2.0**-8)
     run = Hunt(target_of("double", Double(answer)), Plan(None))
@@ -126,7 +128,7 @@ def test_a_search_goes_on_from_the_worst_and_begins_anew_with_the_first_step(mon
         stood.append((climber.row, climber.error, climber.step))
         return neighbours(draw, climbers)
 
-    monkeypatch.setattr(search, "strata", lambda: (strata.Stratum("one clear row", lambda seed, number: block),))
+    monkeypatch.setattr(search, "strata", lambda _: (strata.Stratum("one clear row", lambda seed, number: block),))
     monkeypatch.setattr(search, "neighbours", watched)
     monkeypatch.setattr(findings, "place_of", lambda pair: Place("anywhere", "anywhere", "any"))
     hunt(Hunt(target_of("double", Double(lambda rows: np.minimum(batch.positions(rows), 0))), Plan(None, 16_000)))
@@ -262,3 +264,26 @@ def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_h
     lost = Hunt(target_of("double", Double(nothing, Outcome.NOT_RUN)), Plan(None, 1000))
     hunt(lost)
     assert lost.asked < 1000
+
+
+ONE_SCENE = Domain(settings=(FixedSizes((2.5, 9.0, 0.5, 0.25), z=(-4.0, 4.0)),))
+
+
+def test_a_kernel_made_for_one_scene_is_asked_about_its_sizes_alone():
+    double = Double(lambda rows: np.zeros(len(rows)), domain=ONE_SCENE)
+    run = Hunt(target_of("double", double), Plan(None, 4000))
+    hunt(run)
+    asked = np.concatenate(double.rows)
+    assert ONE_SCENE.holds(asked).all()
+    assert len(asked) == 4000
+    assert {cluster.worst.case.mistake for cluster in run.findings.worst_first()} == {Mistake.FALSE_CONTACT}
+
+
+def test_what_is_wrong_near_contact_alone_is_found_for_given_sizes():
+    def grown(rows):
+        rows = rows * [1, 1, 1 + 2.0**-44, 1 + 2.0**-44, 1, 1, 1]
+        return batch.positions(rows)
+
+    run = Hunt(target_of("double", Double(grown, domain=ONE_SCENE)), Plan(None, 20_000))
+    hunt(run)
+    assert run.findings.worst_first()
