@@ -12,7 +12,6 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
@@ -78,12 +77,12 @@ class CommandSession:
 
     def _first_line(self) -> bytes:
         seconds = self._limits.startup_timeout
-        until = time.monotonic() + seconds
+        until = self._process.now() + seconds
         incoming = self._process.incoming
         while b"\n" not in incoming:
             if len(incoming) > LONGEST:
                 raise broken(f"its first line does not end within {LONGEST} bytes; it must be the description")
-            if time.monotonic() >= until:
+            if self._process.now() >= until:
                 raise FaultError(Outcome.TIMEOUT, f"no description came within {seconds:g} s", fatal=True)
             try:
                 self._process.pump(until)
@@ -141,7 +140,7 @@ class CommandSession:
         """The length of the reply, once it is complete, and the reply that is still to come behind it."""
         process, seconds = self._process, self._limits.timeout
         second: Reply | None = None
-        steps, heard = 0, time.monotonic()
+        steps, read, heard = 0, 0.0, process.now()
         until = heard + seconds
         while True:
             length = reply.length(process.incoming)
@@ -149,7 +148,7 @@ class CommandSession:
                 _check_order(process.incoming, length, reply, second)
             if length:
                 return length, second
-            now = time.monotonic()
+            now = process.now()
             if now >= until:
                 more = ", and hardly one more" if reply.share(process.incoming) else ""
                 so_far = reply.progress(process.incoming) + more
@@ -157,11 +156,12 @@ class CommandSession:
             if again is not None and not second and not process.sending and now >= heard + seconds / _STALL:
                 second = self._ask_behind(again)
             if process.pump(until):
-                heard = time.monotonic()
-            read = 0.0 if second or not size else min(1.0, process.sent / size)
+                heard = process.now()
+            if size and not second:  # behind whose bytes all of the question's have left
+                read = min(1.0, process.sent / size)
             come = int(_STEPS * read) + int(_STEPS * reply.share(process.incoming))
             if come > steps:
-                steps, until = come, time.monotonic() + seconds
+                steps, until = come, process.now() + seconds
 
     def _ask_behind(self, row: Rows) -> Reply:
         self._sequence += 1

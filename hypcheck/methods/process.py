@@ -21,6 +21,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
+from hypcheck.methods.clock import Clock
 from hypcheck.methods.detached import GUARD, end_marked, new_mark
 from hypcheck.methods.evidence import Tail
 from hypcheck.methods.faults import FaultError, Outcome, StartError
@@ -85,6 +86,7 @@ class Process:
         self.sent = 0
         """Bytes of the question that have left."""
         self._soon = 0.0
+        self.now = Clock().now
         self._ended = False
         self._closed = False
         self._listen()
@@ -112,16 +114,15 @@ class Process:
         self._poll.register(self._in, select.POLLOUT)
 
     def pump(self, until: float) -> bool:
-        """Move bytes once, waiting a moment at most and not beyond `until`; true where `incoming` grew.
+        """Move bytes once, waiting a moment at most and not beyond `until` of now(); true where `incoming` grew.
 
         Raises FaultError where the process ended, closed its standard output, or holds too much memory.
         """
         if self._ended:
             raise self._ending()
-        now = time.monotonic()
-        self._memory.look(now)
+        self._memory.look(time.monotonic())
         grew = False
-        events = self._events(until - now)
+        events = self._events(until - self.now())
         for pipe, _ in events:
             if pipe == self._in:
                 self._write()
@@ -211,9 +212,9 @@ class Process:
             with contextlib.suppress(KeyError):
                 self._poll.unregister(self._in)
             self._pipes[0].close()
-            until = time.monotonic() + _GOODBYE
+            until = self.now() + _GOODBYE
             with contextlib.suppress(FaultError):
-                while time.monotonic() < until:
+                while self.now() < until:
                     self.pump(until)
                     self.incoming.clear()
         self.kill()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import secrets
 import sys
-import time
 from pathlib import Path
 
 from hypcheck.errors import InputError
@@ -105,7 +104,7 @@ class WorkerSession:
         raise FaultError(outcome, _text(body), fatal=False)
 
     def _reply(self, seconds: float, mark: int = 0) -> tuple[bytes, int, bytearray]:
-        until = time.monotonic() + seconds
+        until = self._process.now() + seconds
         self._await(frames.REPLY.size, until, seconds)
         incoming = self._process.incoming
         what, width, size, marked = frames.REPLY.unpack_from(incoming)
@@ -118,7 +117,7 @@ class WorkerSession:
 
     def _await(self, size: int, until: float, seconds: float) -> None:
         while len(self._process.incoming) < size:
-            if time.monotonic() >= until:
+            if self._process.now() >= until:
                 raise FaultError(Outcome.TIMEOUT, f"no answer within {seconds:g} s", fatal=True)
             self._process.pump(until)
 

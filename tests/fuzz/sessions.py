@@ -5,6 +5,7 @@ Everything else is real: the sessions, the questions, the search for a row at fa
 
 from __future__ import annotations
 
+import time
 from random import Random
 
 from hypcheck.methods import frames
@@ -31,6 +32,10 @@ class Pipe:
         self.recent = self.stderr = ()
         self._parts, self._random = data.split(seeds.SEPARATOR)[::-1], random
         self._said = self._parts.pop()
+
+    def now(self) -> float:
+        """The time, for it is always looked at."""
+        return time.monotonic()
 
     def mark(self) -> None:
         """A question begins."""

@@ -115,9 +115,10 @@ def test_who_takes_long_over_a_row_is_not_taken_for_one_that_skips_it():
             assert it.classify(some).answers.tolist() == truth(some).tolist()
 
 
-def test_who_goes_on_answering_is_waited_for():
+@pytest.mark.parametrize("words", [("0.04",), ("0.04", "0.5")], ids=["steadily", "with a pause"])
+def test_who_goes_on_answering_is_waited_for(words):
     some = rows(lucky=True)
-    with open_implementation(command("steady", "0.04"), QUICK) as it:
+    with open_implementation(command("steady", *words), QUICK) as it:
         began = time.monotonic()
         answered = it.classify(some)
         assert time.monotonic() - began > 2 * QUICK.timeout

@@ -246,6 +246,32 @@ def test_nothing_is_held_open_after_many_runs():
         assert descriptors() == before
 
 
+ASKS = """
+import sys
+from hypcheck.methods.faults import Outcome
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.opening import open_implementation
+from tests.miniatures import rows
+with open_implementation(sys.argv[1], Limits(timeout=0.7, restarts=0)) as it:
+    print(it._runs.session()._process._popen.pid, flush=True)
+    answered = it.classify(rows(lucky=True))
+    print(answered.count(Outcome.ANSWERED), *answered.reasons.values(), flush=True)
+"""
+
+
+@pytest.mark.parametrize("spec", [command("steady", "0.02"), function("naps")], ids=["command", "function"])
+def test_the_time_for_which_everything_is_stopped_is_not_taken_from_an_implementation(spec):
+    """As a container is frozen and a virtual machine is moved."""
+    with subprocess.Popen([sys.executable, "-c", ASKS, spec], stdout=subprocess.PIPE, text=True) as asking:
+        asked = int(asking.stdout.readline())
+        time.sleep(0.2)
+        for sent, pause in ((signal.SIGSTOP, 1.2), (signal.SIGCONT, 0.0)):
+            os.kill(asked, sent)
+            asking.send_signal(sent)
+            time.sleep(pause)
+        assert asking.stdout.readline() == "40\n"
+
+
 @pytest.mark.parametrize("bad", [{"timeout": 0}, {"startup_timeout": float("inf")}, {"memory": -1}, {"restarts": -1}])
 def test_limits_that_leave_no_room_are_refused(bad):
     with pytest.raises(InputError, match="the limit"):
