@@ -30,6 +30,9 @@ CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
 CLOSE = 5
+CLOSE_LOCAL = 1
+"""Seconds that the workers of a scheduler that is started here have to close: they hold nothing that could be lost."""
+
 ALLOWED_FAILURES = 1
 """Of a scheduler that is started here: a task may cost this many workers and one more, and then is tried alone."""
 
@@ -93,7 +96,7 @@ def _started(workers: int) -> Iterator[str]:
             yield cluster.scheduler_address
         finally:
             with suppress(Exception):  # of workers that take their time
-                cluster.close(timeout=CLOSE)
+                cluster.close(timeout=CLOSE_LOCAL)
     finally:
         for process in set(active_children()) - set(others):
             process.kill()
