@@ -7,6 +7,8 @@ crashes, and the run goes on.
 from __future__ import annotations
 
 import os
+import sys
+import time
 import traceback
 from collections import deque
 from contextlib import suppress
@@ -34,6 +36,13 @@ AHEAD = 32
 
 DEATHS = 3
 """Processes of ours that one task may cost, and that may end one after the other before they have asked anything."""
+
+LOOK = 1.0
+STOPPED = 60
+"""Seconds between two looks at our processes, and looks in turn that may find one stopped before it is ended.
+
+A machine that sleeps stops whoever looks, too, so that the time does not count.
+"""
 
 _KEPT = 24 << 20
 _PATIENCE = 5.0
@@ -74,6 +83,7 @@ class _Worker:
     line: Connection
     ready: bool = False
     task: int | None = None
+    stopped: int = 0
 
 
 class Workers:
@@ -91,6 +101,7 @@ class Workers:
         self._deaths: dict[int, int] = {}
         self._unborn = 0
         self._begun = False
+        self._next_look = 0.0
         self._first: deque[int] = deque()
         self._waiting: deque[int] = deque()
         self._done: dict[int, Performed] = {}
@@ -127,10 +138,22 @@ class Workers:
         """Wait for a task's result."""
         while number not in self._done:
             lines = {worker.line: worker for worker in self._workers}
-            for line in connection.wait(lines):
+            for line in connection.wait(lines, LOOK):
                 self._hear(lines[line])  # type: ignore[index]
+            self._look()
             self._hand_out()
         return self._done.pop(number)
+
+    def _look(self) -> None:
+        """End who stands still by a signal and is not sent on, as another process ended: its line tells of that."""
+        now = time.monotonic()
+        if now < self._next_look:
+            return
+        self._next_look = now + LOOK
+        for worker in self._workers:
+            worker.stopped = worker.stopped + 1 if is_stopped(worker.process) else 0
+            if worker.stopped == STOPPED:
+                worker.process.kill()
 
     def _hand_out(self) -> None:
         """Give tasks to whoever has none; at first not before all are ready, from whom it would take the processors."""
@@ -201,7 +224,7 @@ class Workers:
         """End them all now; whoever guards the implementations ends these with them."""
         for worker in self._workers:
             worker.line.close()
-            worker.process.terminate()
+            worker.process.kill()  # who was stopped would not hear that it is to end
         for worker in self._workers:
             worker.process.join()
 
@@ -224,6 +247,16 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
         line.send(error)
     except Exception as error:  # noqa: BLE001 - whatever it is, the parent tells it
         line.send(RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+
+
+def is_stopped(process: SpawnProcess) -> bool:
+    """Whether a child of ours was stopped by a signal, as by kill -STOP, where the system tells."""
+    if sys.platform != "linux" or process.pid is None:
+        return False
+    try:
+        return os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOHANG | os.WNOWAIT) is not None
+    except ChildProcessError:  # it has ended
+        return False
 
 
 def require_same_description(implementation: Implementation, declared: Description) -> None:

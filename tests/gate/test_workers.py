@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
+from contextlib import suppress
 
 import pytest
 
 from hypcheck.gate import chunks, schedule, workers
+from hypcheck.gate.saved import saved
 from hypcheck.gate.schedule import State, states
+from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import LostError, Workers
+from hypcheck.methods.limits import Limits
 from hypcheck.record import read
 from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
+
+RIGHT = Opening("builtin:table-2-float32", Limits())
 
 
 @pytest.fixture(autouse=True)
@@ -59,3 +66,47 @@ def test_one_worker_may_end_as_well(tmp_path):
     (group,) = read(tmp_path / "record.jsonl").of("group")
     assert group["counts"]["crash"] == 2501
     assert "3 processes of hypcheck ended while they asked these cases" in group["faults"][0]["reason"]
+
+
+STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us who was stopped")
+
+
+@STOPS
+def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
+    monkeypatch.setattr(workers, "LOOK", 0.01)
+    monkeypatch.setattr(workers, "STOPPED", 3)
+    some = steps_of(["uniform"], 6000)
+    expected = here(RIGHT, some)
+    with RIGHT.open() as it, Workers(2, RIGHT, rules_of(it), it) as crew:
+        found = states(some, crew, State(it.allowance))
+        next(found)
+        first = [worker.process for worker in crew._workers]
+        for process in first:
+            os.kill(process.pid, signal.SIGSTOP)
+        *_, (_, state) = found
+        assert [process.exitcode for process in first] == [-signal.SIGKILL] * 2
+    assert saved(state) == saved(expected)
+
+
+@STOPS
+def test_who_is_sent_on_in_time_goes_on(monkeypatch):
+    monkeypatch.setattr(workers, "LOOK", 0)
+    with RIGHT.open() as it, Workers(1, RIGHT, rules_of(it), it) as crew:
+        (worker,) = crew._workers
+        for signals in (signal.SIGSTOP, signal.SIGCONT):
+            os.kill(worker.process.pid, signals)
+            while workers.is_stopped(worker.process) != (signals == signal.SIGSTOP):
+                pass
+            crew._look()
+            assert worker.stopped == (signals == signal.SIGSTOP)
+        assert worker.process.is_alive()
+
+
+@STOPS
+def test_a_run_that_is_interrupted_does_not_wait_for_who_was_stopped():
+    with RIGHT.open() as it, suppress(KeyboardInterrupt), Workers(2, RIGHT, rules_of(it), it) as crew:
+        processes = [worker.process for worker in crew._workers]
+        for process in processes:
+            os.kill(process.pid, signal.SIGSTOP)
+        raise KeyboardInterrupt
+    assert [process.exitcode for process in processes] == [-signal.SIGKILL] * 2
