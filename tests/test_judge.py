@@ -88,6 +88,14 @@ def test_units_are_those_of_the_declared_precision():
     assert judged(row, 0, Criterion(precision="exact"))[0].status is Status.WRONG
 
 
+@pytest.mark.parametrize("units", [256, 1000])
+def test_a_tolerance_of_the_whole_input_excuses_all_but_what_no_change_makes_right(units):
+    """256 u of bfloat16 are a relative change of 1."""
+    criterion = Criterion(precision="bfloat16", tolerance=Fraction(units))
+    assert judged((2.0, 5.0, 1.0, 1.0, 90.0, 0.0, 0.0), -1, criterion)[0].status is Status.TOLERATED
+    assert judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1, criterion)[0].status is Status.WRONG
+
+
 def test_no_change_makes_the_axis_exterior():
     (case,) = judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1)
     assert case.exponent == math.inf

@@ -17,9 +17,10 @@ from hypcheck.truth.exact import Decision
 
 
 def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
-    """The corner of the box of relative changes up to `change` (0 ≤ change < 1) that is nearest to `toward`.
+    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest, if that is < 0.
 
-    `toward` is EXTERIOR or INTERIOR; lengths are scaled by the denominator of `change`, which leaves the ratios alone.
+    |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of `change`, which leaves the
+    ratios alone.
     """
     grown, shrunk = change.denominator + change.numerator, change.denominator - change.numerator
     wide, tall = (shrunk, grown) if toward is Position.EXTERIOR else (grown, shrunk)

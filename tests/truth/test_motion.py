@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import doctest
 import itertools
 import math
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from hypothesis import assume, given, settings
@@ -269,3 +271,9 @@ def test_any_magnitude_is_decided(wide, tall):
 def test_what_is_no_length_is_refused(sizes, start, end, message):
     with pytest.raises(InputError, match=message):
         passage(sizes, start, end)
+
+
+def test_the_session_in_the_docs_shows_what_happens():
+    page = Path(__file__).resolve().parents[2] / "docs" / "motion.md"
+    results = doctest.testfile(str(page), module_relative=False, encoding="utf-8")
+    assert (results.failed, results.attempted) == (0, 4)
