@@ -7,12 +7,12 @@ centres are spread all over a region, nearly every block is open, and along a pa
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from hypcheck.derivation.program import Program, needed
 from hypcheck.kernel.emission.body import answer, beyond_height, beyond_threshold
 from hypcheck.kernel.emission.costs import thresholds_asked
 from hypcheck.kernel.emission.dialects import Dialect
+from hypcheck.kernel.emission.statements import Statements
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
 from hypcheck.pairs import Position
@@ -64,7 +64,7 @@ def many(plan: Plan, stages: Stages, place: int, dialect: Dialect) -> str:
     """The function for many centres of the setting at this place."""
     batch = _Batch(plan, stages, dialect)
     second = "\n".join(batch.second())
-    words = {"place": place, "block": BLOCK, "number": batch.number, "open": batch.code(OPEN)}
+    words = {"place": place, "block": BLOCK, "number": dialect.number_of(plan.format.name), "open": batch.code(OPEN)}
     loop = _SECOND.format(body=_indented(second), passed=PASSED_OVER) if second else ""
     return _MANY.format(**words, first=_indented("\n".join(batch.first())), second=loop)
 
@@ -73,13 +73,8 @@ def _indented(text: str) -> str:
     return "\n".join(f"                {line}" if line else "" for line in text.splitlines())
 
 
-class _Batch:
+class _Batch(Statements):
     """The bodies of the two loops of one setting."""
-
-    def __init__(self, plan: Plan, stages: Stages, dialect: Dialect) -> None:
-        self._question, self._precision = plan.question, plan.format.name
-        self._stages, self._dialect = stages, dialect
-        self.number = dialect.number_of(self._precision)
 
     def code(self, value: int) -> str:
         """An answer, or OPEN, as a number: comparisons and selections of one type become vectors."""
@@ -115,7 +110,7 @@ class _Batch:
         delta = self._stages.discriminant
         if delta is None:
             return
-        yield f"const {self.number} before = code[i];"
+        yield f"const {self._number} before = code[i];"
         yield from self._centre_read(("x", "y", "z"))
         yield from self._entry(("R", "zz"))
         clear = self.code(0)
@@ -131,10 +126,10 @@ class _Batch:
         told = self.code(OPEN)
         if delta.clear_where_positive:
             yield f"const {self._truth} clear = within & (delta_3 > {bound});"
-            yield f"const {self.number} told = clear ? {clear} : {told};"
+            yield f"const {self._number} told = clear ? {clear} : {told};"
             told = "told"
-        yield f"const {self.number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {told};"
-        yield f"const {self.number} here = before == {self.code(OPEN)} ? now : before;"
+        yield f"const {self._number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {told};"
+        yield f"const {self._number} here = before == {self.code(OPEN)} ? now : before;"
         yield f"code[i] = {self._chosen(self._beyond_height(), 'here')};"
 
     @property
@@ -143,7 +138,7 @@ class _Batch:
 
     def _centre_read(self, names: tuple[str, ...]) -> Iterator[str]:
         for name in names:
-            yield f"const {self.number} {name} = ({self.number}){name}s[i];"
+            yield f"const {self._number} {name} = ({self._number}){name}s[i];"
         yield " ".join(f"(void){name};" for name in names)
 
     def _beyond_height(self) -> list[tuple[str, int]]:
@@ -166,19 +161,3 @@ class _Batch:
     def _side(self) -> Iterator[str]:
         yield from self._constants(self._stages.centre)
         yield from self._printed(CENTRE, ("outside",))
-
-    def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
-        program, constants = self._stages.entry, self._stages.entry_constants
-        read = {name for step in needed(program, wanted) for name in step.reads}
-        yield from self._constants({name: value for name, value in constants.items() if name in read})
-        yield from self._printed(program, wanted)
-
-    def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
-        for name, value in constants.items():
-            yield self._dialect.say("constant", number=self.number, name=name, value=self._literal(value))
-
-    def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
-        return self._dialect.printer(program, wanted, self.number)
-
-    def _literal(self, value: float) -> str:
-        return self._dialect.literal(value, self._precision)

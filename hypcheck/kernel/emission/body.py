@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from math import isfinite
 
 import numpy as np
 
-from hypcheck.derivation.program import Program, needed
 from hypcheck.kernel.emission.costs import needs_side, thresholds_asked
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.emission.header import notes
+from hypcheck.kernel.emission.statements import Statements
 from hypcheck.kernel.specialise.centre import CENTRE
 from hypcheck.kernel.specialise.discriminant import Discriminant
 from hypcheck.kernel.specialise.plan import ONE_SIDED, Plan, Stages
@@ -57,13 +57,12 @@ def beyond_threshold(position: Position, threshold: str) -> str:
     return f"R {'>' if position is Position.EXTERIOR else '<'} {threshold}"
 
 
-class _Body:
-    """The statements of one function; the stages share the language, the format and the question."""
+class _Body(Statements):
+    """The statements of one function."""
 
     def __init__(self, plan: Plan, stages: Stages, place: int, dialect: Dialect) -> None:
-        self._question, self._precision = plan.question, plan.format.name
-        self._stages, self._place, self._dialect = stages, place, dialect
-        self._number = dialect.number_of(self._precision)
+        super().__init__(plan, stages, dialect)
+        self._place = place
 
     def lines(self) -> Iterator[str]:
         stages = self._stages
@@ -155,27 +154,8 @@ class _Body:
             return call
         return self._say("truth", condition=compared[self._question])
 
-    def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
-        program, constants = self._stages.entry, self._stages.entry_constants
-        read = {name for step in needed(program, wanted) for name in step.reads}
-        yield from self._constants({name: value for name, value in constants.items() if name in read})
-        yield from self._printed(program, wanted)
-
-    def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
-        for name, value in constants.items():
-            yield self._say("constant", name=name, value=self._literal(value))
-
-    def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
-        return self._dialect.printer(program, wanted, self._number)
-
     def _return_if(self, condition: str, position: Position) -> str:
         return self._say("return if", condition=condition, value=answer(position, self._question))
 
-    def _literal(self, value: float) -> str:
-        return self._dialect.literal(value, self._precision)
-
     def _note(self, text: str) -> str:
         return self._say("note", text=text)
-
-    def _say(self, phrase: str, **words: object) -> str:
-        return self._dialect.say(phrase, **{"number": self._number, **words})
