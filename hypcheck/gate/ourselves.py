@@ -6,6 +6,7 @@ Two machines may have hypcheck of one version and yet not the same files, where 
 from __future__ import annotations
 
 import hashlib
+from functools import lru_cache
 from pathlib import Path
 
 import hypcheck
@@ -13,6 +14,7 @@ from hypcheck.casebook.vectors import folder
 from hypcheck.gate.fingerprint import sha256
 
 
+@lru_cache
 def own_sha256() -> str:
     """Of our modules and the frozen vectors, with their names."""
     package = Path(hypcheck.__file__).parent

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.errors import InputError
+from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State
 from hypcheck.record import Line, Recorder
@@ -24,19 +25,21 @@ class Progress:
     """What a line of progress says.
 
     `number` is the place, from 0, of the implementation that is asked among those of the plan, `declared` what it says
-    of itself, and `cases` how many it is asked in all.
+    of itself, and `cases` how many it is asked in all. `program` is the sha256 of our own files: what a step is, and so
+    what a number of them comes to, may change between two commits.
     """
 
     number: int
     declared: Mapping[str, Any]
     cases: int
     state: State
+    program: str | None
 
     @classmethod
     def of_line(cls, line: Line, name: str) -> Progress:
         """What the line of a record says. Raises InputError naming the record where it cannot be read."""
         try:
-            return cls(line["number"], line["declared"], line["cases"], restored(line["state"]))
+            return cls(line["number"], line["declared"], line["cases"], restored(line["state"]), line.get("program"))
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise InputError(f"{name}: its line of progress says nothing to go on from: {error!r}") from None
 
@@ -59,4 +62,4 @@ class Keeper:
 
     def keep(self, state: State) -> None:
         """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
-        self.recorder.keep(**self._about, state=saved(state))
+        self.recorder.keep(**self._about, state=saved(state), program=own_sha256())

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from hypcheck.errors import InputError
+from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Progress
 from hypcheck.gate.schedule import State
@@ -72,6 +73,7 @@ def resume(record: Record, file: Path, plan: GatePlan, cases: int) -> Resumed:
     if progress is None:
         return Resumed(carried)
     begun = Progress.of_line(progress, str(file))
+    _require_same(begun.program, own_sha256(), "the sha256 of hypcheck's own files", file)
     _require_same(begun.cases, cases, "the number of cases", file)
     with plan.opening(begun.number).open() as implementation:
         declared = json.loads(json.dumps(plain(asdict(implementation.declared))))

@@ -51,6 +51,7 @@ def refused(out, capsys, *more):
         (lambda lines: lines[0].update(hypcheck="0.0.1"), 'hypcheck was "0.0.1", and is'),
         (lambda lines: lines[0]["versions"].update(numpy="1.0"), 'numpy was "1.0", and is'),
         (lambda lines: lines[-1].update(cases=7), "the number of cases was 7, and is"),
+        (lambda lines: lines[-1].update(program="00"), 'the sha256 of hypcheck\'s own files was "00", and is'),
         (lambda lines: lines[-1]["declared"].update(version="9"), "the version that python:tests.gate.subjects"),
         (lambda lines: lines[0]["files"].update(dict.fromkeys(lines[0]["files"], "00")), "the sha256 of "),
         (lambda lines: lines[-1].pop("state"), "line 5, progress: $ lacks state"),
