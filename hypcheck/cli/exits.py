@@ -122,10 +122,15 @@ def _said(error: BaseException) -> str:
 def _system(error: BaseException) -> Ending:
     if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
         return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {sentence(error.strerror or str(error)).lower()}",))
+    if isinstance(error, OSError) and error.errno in _SCARCE:
+        reason = sentence(error.strerror or str(error)).lower()
+        return Ending(Exit.USAGE, (f"hypcheck: error: the system gives no more: {reason}; see `ulimit -a`",))
     return _internal(error)
 
 
 _FULL_OR_BROKEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
+_SCARCE = (errno.EMFILE, errno.ENFILE, errno.EAGAIN, errno.ENOMEM)
+"""Files that may be open, processes and memory, of which this account or all together have as many as they may."""
 
 
 def _internal(error: BaseException) -> Ending:

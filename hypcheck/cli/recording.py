@@ -55,6 +55,7 @@ def record_and_report(
     with ExitStack() as stack:
         try:
             out.mkdir(parents=True, exist_ok=True)
+            _require_no_folder(out / FILE, growing)
             stack.enter_context(owning(out))
             recorder = Recorder(stack.enter_context(Growing(growing)), options, files, carried)
         except OSError as error:
@@ -65,7 +66,7 @@ def record_and_report(
         except BaseException as error:
             _ended_early(error, growing, recorder)
             raise
-        recorder.settle(out / FILE)
+        _settle(recorder, growing, out / FILE)
         try:
             report(record, out)
         except BaseException:
@@ -75,6 +76,21 @@ def record_and_report(
             )
             raise
     return record
+
+
+def _require_no_folder(*files: Path) -> None:
+    for file in files:
+        if file.is_dir():
+            raise InputError(f"--out {file.parent} cannot be written: {file.name} in it is a folder")
+
+
+def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
+    """Raises InputError where the record cannot take its place; it is then where it grew."""
+    try:
+        recorder.settle(path)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError(f"cannot write {path}: {reason}; what was finished is in {growing}") from error
 
 
 def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> None:
@@ -87,7 +103,7 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
         growing.unlink(missing_ok=True)
         return
     out, path = growing.parent, growing.with_name(FILE)
-    recorder.settle(path)
+    _settle(recorder, growing, path)
     then = f"with --resume {shlex.quote(str(out))} goes on" if recorder.goes_on else "begins anew"
     try:
         with suppress(HypcheckError, OSError):

@@ -17,8 +17,7 @@ from hypcheck.visible import visible
 if TYPE_CHECKING:
     from hypcheck.gate.plan import GatePlan
     from hypcheck.gate.resuming import Resumed
-
-_REPORTS = ("summary.json", "junit.xml", "report.md")
+    from hypcheck.record import Record
 
 
 def folder_of(path: Path) -> Path:
@@ -52,18 +51,19 @@ def resumed(
         return resume(record, file, plan, cases)
     code = int(record.footer["exit_code"])
     click.echo(f"{visible(file)} is the record of a finished run, which ended with {code}")
-    _make_reports(file, out)
+    _make_reports(record, file, out)
     return code
 
 
-def _make_reports(file: Path, out: Path) -> None:
-    """Make the reports of a finished record in `out` that its run had no time for."""
+def _make_reports(record: Record, file: Path, out: Path) -> None:
+    """Make the reports of a finished record in `out` that its run had no time, or no room, for."""
     from hypcheck.record.reading import FILE, GROWING, read
+    from hypcheck.report.write import files_of
 
     path = out / FILE
     if same_file(str(file), str(out / GROWING)):
         file.replace(path)
-    elif not same_file(str(file), str(path)) or all(map(_is_behind(path), (out / name for name in _REPORTS))):
+    elif not same_file(str(file), str(path)) or all(map(_is_behind(path), (out / name for name in files_of(record)))):
         return
     report(read(path), out)
 

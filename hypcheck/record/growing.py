@@ -42,14 +42,14 @@ class Growing:
                 file.write(data)
                 file.flush()
                 os.fsync(file.fileno())
+            if self._file is not None:
+                with suppress(OSError):  # what could not be written of a line is written anew
+                    self._file.close()
+            self._beside.replace(self._path)
         except OSError:
             with suppress(OSError):
                 self._beside.unlink()
             raise
-        if self._file is not None:
-            with suppress(OSError):  # what could not be written of a line is written anew
-                self._file.close()
-        self._beside.replace(self._path)
         self._file = self._path.open("ab")
 
     @property

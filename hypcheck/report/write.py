@@ -81,6 +81,12 @@ def kept() -> list[str]:
     return [name for name, report in REPORTS.items() if report.kept]
 
 
+def files_of(record: Record) -> list[str]:
+    """The names of the reports that a run with this record writes, where all of them can be made."""
+    every = [REPORTS[name] for name in kept()]
+    return [each.file for each in every if not each.shows or record.of(each.shows)]
+
+
 def write_reports(
     record: Record, directory: Path, formats: Sequence[str] | None = None, against: Record | None = None
 ) -> list[Written]:

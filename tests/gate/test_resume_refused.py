@@ -10,7 +10,7 @@ import signal
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.record import read
+from hypcheck.record import Recorder, read
 from hypcheck.record.owning import OwnedError, owning
 from hypcheck.record.reading import FILE, GROWING
 from tests.gate.interrupted import paused_bytes, started, wait_for, words
@@ -170,10 +170,31 @@ def test_a_finished_record_says_so_and_stays(tmp_path, capsys):
     assert main([*words, "--resume", str(tmp_path)]) == 0
     assert "is the record of a finished run, which ended with 0" in capsys.readouterr().out
     assert files_in(tmp_path) == before
-    (tmp_path / "summary.json").unlink()
-    assert main([*words, "--resume", str(tmp_path)]) == 0
-    assert (tmp_path / "summary.json").is_file()
+    for lost in ("summary.json", "measurements.csv"):
+        (tmp_path / lost).unlink()
+        assert main([*words, "--resume", str(tmp_path)]) == 0
+        assert (tmp_path / lost).is_file()
     shutil.move(tmp_path / FILE, tmp_path / GROWING)  # killed before it was renamed
     assert main([*words, "--resume", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.glob("record*")) == [FILE]
     assert os.path.getmtime(tmp_path / "summary.json") >= os.path.getmtime(tmp_path / FILE)
+
+
+@pytest.mark.parametrize("name", [FILE, GROWING])
+def test_a_folder_in_the_place_of_the_record_is_refused_before_anything_is_asked(tmp_path, capsys, name):
+    (tmp_path / name).mkdir()
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
+    assert f"--out {tmp_path} cannot be written: {name} in it is a folder" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_folder_that_takes_the_place_of_the_record_meanwhile_costs_nothing(tmp_path, capsys, monkeypatch):
+    def settle(recorder, path):
+        path.mkdir()
+        kept(recorder, path)
+
+    kept = Recorder.settle
+    monkeypatch.setattr(Recorder, "settle", settle)
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
+    assert f"is a directory; what was finished is in {tmp_path / GROWING}" in capsys.readouterr().err
+    assert read(tmp_path / GROWING).footer
