@@ -55,7 +55,7 @@ def ratios(samples: Samples, reference: Samples) -> list[list[float]]:
 
 
 def resampled_medians(samples: Samples, seed: int = _SEED) -> NDArray[np.float64]:
-    """The medians of DRAWS resamples: (DRAWS,)."""
+    """The medians of DRAWS resamples: (DRAWS,). Raises ValueError where there is no sample."""
     parts = [np.asarray(part, dtype=np.float64) for part in samples if len(part)]
     if not parts:
         raise ValueError("there is no sample")

@@ -44,11 +44,13 @@ _COUNT = Whole(1)
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option("--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True)
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True, help="For the reports."
+)
 @click.option("--families", help="Names and globs, separated by commas.  [default: all but the extreme ones]")
 @click.option("--count", type=Whole(0), default=400, show_default=True, help="Generated rows of each family.")
-@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True, help="Of the generated rows.")
+@click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="Backward error that passes, in u.")
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
 @click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
@@ -60,7 +62,13 @@ _COUNT = Whole(1)
 @click.option("--question", help="With SPEC: stands for the question it declares.")
 @click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
 @click.option("--max-abstained", type=Whole(0), default=0, show_default=True, help="Cases it may not answer.")
-@click.option("--fail-on", type=click.Choice(["wrong", "false-clear"]), default="wrong", show_default=True)
+@click.option(
+    "--fail-on",
+    type=click.Choice(["wrong", "false-clear"]),
+    default="wrong",
+    show_default=True,
+    help="Any wrong answer beyond --tolerance, or only those that say clear in contact.",
+)
 @click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
@@ -82,8 +90,9 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     A run with SPEC that was interrupted or killed goes on with --resume RECORD (or the folder of its run, which --out
     then is unless it is given) and the same options. A run without SPEC keeps what it finished, and begins anew.
 
-    Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml. Options that are not
-    given are those of hypcheck.toml in the working directory, if it is there, and so are the SPECs.
+    Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, measurements.csv and
+    pictures. Options that are not given are those of hypcheck.toml in the working directory, if it is there, and so are
+    the SPECs.
     """
     settings = context.find_object(Settings)
     chosen = specs or (settings.specs if settings is not None else ())

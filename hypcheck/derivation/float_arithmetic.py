@@ -48,6 +48,7 @@ def float_arithmetic(format_name: str) -> Arithmetic:
 
     Inputs are floats, integers or arrays of them, rounded to the format on entry; arrays of that format are taken as
     they are, without a copy. Shapes broadcast, so sizes can be scalars beside arrays of centres.
+    Raises ValueError where there is no such format.
     """
     if format_name not in FORMATS:
         raise ValueError(f"{format_name!r} is none of the formats {', '.join(FORMATS)}")

@@ -138,7 +138,10 @@ def printed(number: str) -> tuple[Identity, ...]:
 
 
 def sign(text: str, positive: str = "", nonnegative: str = "") -> Sign:
-    """That what the text says is true by its form; `positive` and `nonnegative` name letters, parted by spaces."""
+    """That what the text says is true by its form; `positive` and `nonnegative` name letters, parted by spaces.
+
+    Raises ValueError where the text has none of RELATIONS.
+    """
     for relation in RELATIONS:
         left, found, right = text.partition(f" {relation} ")
         if found:

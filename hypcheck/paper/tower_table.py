@@ -84,7 +84,10 @@ class Cell:
 
 
 def moves_of(flight: Flight, step: float) -> int:
-    """How many steps cover the distance; a last one that overshoots by rounding alone is not made."""
+    """How many steps cover the distance; a last one that overshoots by rounding alone is not made.
+
+    Raises InputError where there are more than MOST_MOVES.
+    """
     moves = flight.distance / step * (1 - 2.0**-40)
     if moves > MOST_MOVES:
         raise InputError(
