@@ -38,13 +38,13 @@ class Library:
 
     def __init__(self, path: str) -> None:
         library = _loaded(path)
-        if not hasattr(library, "hypcheck_classify"):
+        if not _has(library, "hypcheck_classify"):
             raise LoadError(
                 f"{path!r} has no symbol hypcheck_classify; it must export "
                 'void hypcheck_classify(size_t n, const double *rows, int8_t *positions), in C++ as extern "C"'
             )
         self._classify = _entry(library.hypcheck_classify, (ctypes.c_size_t, *[ctypes.c_void_p] * 2))
-        self.scene = hasattr(library, "hypcheck_classify_scene")
+        self.scene = _has(library, "hypcheck_classify_scene")
         if self.scene:
             pointers = [ctypes.c_void_p] * 4
             self._classify_scene = _entry(
@@ -112,9 +112,10 @@ def _loaded(path: str) -> ctypes.CDLL:
         raise LoadError(f"there is no file {path!r}")
     try:
         return ctypes.CDLL(os.path.abspath(path))  # with a bare name the loader would search elsewhere
-    except OSError as error:
-        hints = [hint for signs, hint in _HINTS if any(sign in str(error) for sign in signs)]
-        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], str(error)])}") from None
+    except (OSError, UnicodeDecodeError) as error:  # the latter where the loader names a path that is no UTF-8
+        said = os.fsdecode(error.object) if isinstance(error, UnicodeDecodeError) else str(error)
+        hints = [hint for signs, hint in _HINTS if any(sign in said for sign in signs)]
+        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], said])}") from None
 
 
 def _entry(function: Any, arguments: Sequence[Any]) -> Callable[..., None]:  # noqa: ANN401 - ctypes' own is private
@@ -123,8 +124,16 @@ def _entry(function: Any, arguments: Sequence[Any]) -> Callable[..., None]:  # n
     return entry
 
 
+def _has(library: ctypes.CDLL, name: str) -> bool:
+    """Whether it exports this. What the loader says where it does not names the path, which may be no UTF-8."""
+    try:
+        return hasattr(library, name)
+    except UnicodeDecodeError:
+        return False
+
+
 def _description(library: ctypes.CDLL, path: str) -> str:
-    if not hasattr(library, "hypcheck_describe"):
+    if not _has(library, "hypcheck_describe"):
         return ""
     library.hypcheck_describe.argtypes, library.hypcheck_describe.restype = (), ctypes.c_char_p
     said: bytes | None = library.hypcheck_describe()

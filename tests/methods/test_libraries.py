@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import re
+import sys
 
 import pytest
 
@@ -50,6 +52,18 @@ def test_what_a_library_prints_is_no_answer(tmp_path):
     with open_implementation(f"library:{library}", LIMITS) as it:
         assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
         assert it.stderr == ("7 1", "1")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
+def test_a_library_may_lie_in_a_folder_whose_name_is_no_text(tmp_path):
+    folder = tmp_path / os.fsdecode(b"\xff \n")
+    folder.mkdir()
+    library = compiled("faulty", folder / "faulty.so", *SHARED, "-DFAULT=PRINTS")  # it exports no description
+    with open_implementation(f"library:{library}", LIMITS) as it:
+        assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
+    (folder / "broken.so").write_bytes(b"nothing")
+    with pytest.raises(StartError, match="file too short"):
+        open_implementation(f"library:{folder / 'broken.so'}", LIMITS)
 
 
 def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right):
