@@ -15,6 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.methods.spec import begins_as_spec
 from hypcheck.pairs import COLUMNS, Pair, trouble_with
 from hypcheck.record import read
+from hypcheck.record.reading import file_of
 from hypcheck.replay.recorded import recorded_cases
 from hypcheck.tables.numbers import number_of_text
 
@@ -40,8 +41,8 @@ class Case:
 def case_of(text: str) -> Case:
     """The case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
 
-    RECORD:N is the N-th case of a record.jsonl as reports number them (recorded_cases). The row is as it was asked: a
-    zero keeps its sign. Raises InputError saying what is wrong with the text.
+    RECORD:N is the N-th case of a record.jsonl, or of its run's folder, as reports number them (recorded_cases). The
+    row is as it was asked: a zero keeps its sign. Raises InputError saying what is wrong with the text.
     """
     if begins_as_spec(text):
         raise InputError(f"CASE is {text!r}, which names an implementation; replay takes CASE SPEC, minimise SPEC CASE")
@@ -60,7 +61,7 @@ def case_of(text: str) -> Case:
 
 
 def _from_record(path: Path, number: int) -> Case:
-    kept = recorded_cases(read(path))
+    kept = recorded_cases(read(file_of(path)))
     if not 1 <= number <= len(kept):
         there = f"they are 1 to {len(kept)}" if kept else "it has none"
         raise InputError(f"{path} has no case {number}; {there}")

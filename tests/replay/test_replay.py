@@ -169,6 +169,7 @@ def test_cases_of_a_record_are_numbered(tmp_path, capsys):
         case = case_of(f"{out / 'record.jsonl'}:{each.number}")
         assert case.name == each.case["case"]
         assert case.row == case_of(case.name).row
+        assert case == case_of(f"{out}:{each.number}")
         found = replayed(capsys, f"{out / 'record.jsonl'}:{each.number}", subject("contact"), code=1)
         assert found["backward_error"] == each.case["backward_error"]
     assert main(["replay", f"{out / 'record.jsonl'}:{len(kept) + 1}", subject("contact")]) == 2
