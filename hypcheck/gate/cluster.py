@@ -192,10 +192,13 @@ def _require_same_versions(who: str, there: Mapping[str, Any], here: Mapping[str
 
 
 def _require_same_files(found: Mapping[str, Any], address: str) -> None:
-    """Raise InputError where a worker has other files of ours, though by its version they should be the same."""
+    """Raise InputError where a worker has other files of ours, though by its version they should be the same.
+
+    One that was lost before it could tell is none of them; whoever comes in its place is looked at when it is asked.
+    """
     here = own_sha256()
     for worker, there in found.items():
-        if there != here:
+        if there != here and not isinstance(there, OSError):
             raise InputError(f"--cluster {address}: worker {worker} {OTHER_FILES}")
 
 

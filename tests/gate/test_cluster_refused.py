@@ -26,6 +26,8 @@ from tests.gate.killing import rules_of, steps_of
 
 pytest.importorskip("distributed")
 
+from distributed.comm.core import CommClosedError
+
 from hypcheck.gate.afar import Afar
 
 
@@ -167,3 +169,12 @@ def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
         "pip install 'hypcheck[cluster]'\n"
     )
     assert not list(tmp_path.iterdir())
+
+
+def test_a_worker_that_is_lost_before_it_tells_its_files_is_not_said_to_have_others():
+    """As dask tells of it; whoever comes in its place is looked at later."""
+    ours = ways.own_sha256()
+    ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": CommClosedError("in rpc")}, "tcp://c:3")
+    for there in ("another", ImportError("no module named hypcheck.gate.ourselves")):
+        with pytest.raises(InputError, match="worker tcp://b:2 has other files of hypcheck"):
+            ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": there}, "tcp://c:3")
