@@ -200,3 +200,44 @@ def neighbours_alike(rows):
     alike = np.flatnonzero((rows[1:] == rows[:-1]).all(axis=1)) + 1
     answers[alike] = moved(answers[alike])
     return answers
+
+
+@wrong()
+def rest_of_three(rows):
+    """Where three rows are left over when vectors of 8 are full, these are not computed."""
+    answers = position(rows)
+    if len(rows) % 8 == 3:
+        answers[-3:] = 0
+    return answers
+
+
+@wrong()
+def row_4096(rows):
+    """The 4097th row of a question, with which its second page begins, is not computed."""
+    answers = position(rows)
+    answers[4096:4097] = 0
+    return answers
+
+
+@wrong()
+def row_1000_is_interior(rows):
+    """The 1001st row of a question is called interior, whatever it is."""
+    answers = position(rows)
+    answers[1000:1001] = -1
+    return answers
+
+
+@wrong()
+def rows_from_4200(rows):
+    """What is behind the 4200th row of a question is called exterior."""
+    answers = position(rows)
+    answers[4200:] = 1
+    return answers
+
+
+@wrong(asked=("--families", "tower-body", "--count", "20000"), luck=True)
+def rows_from_8192(rows):
+    """What is behind the 8192nd row of a question is not computed; who takes 4 µs a row is asked fewer by default."""
+    answers = position(rows)
+    answers[8192:] = 0
+    return answers

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from hypcheck.kernel import integers, numpy_path
@@ -17,6 +19,7 @@ BENT = ("--domain", '{"regimes": ["c2>=a"]}')
 WIDE = ("--domain", '{"regimes": ["a>=1"]}')
 
 _buffer = np.empty(1 << 20, dtype=np.int8)
+_remembered: dict[bytes, int] = {}
 
 
 @right(asked=(*NO_TOLERANCE, *EXTREME))
@@ -184,3 +187,35 @@ def answers_in_a_kept_buffer(rows):
     """Answers are written into one buffer for all questions."""
     _buffer[: len(rows)] = position(rows)
     return _buffer[: len(rows)]
+
+
+@right(asked=NO_TOLERANCE)
+def remembers_rows(rows):
+    """Answers are kept by the whole row, −0.0 and 0 being one."""
+    keys = [row.tobytes() for row in rows + 0.0]
+    new = [place for place, key in enumerate(keys) if key not in _remembered]
+    _remembered.update((keys[place], answer) for place, answer in zip(new, position(rows[new]).tolist(), strict=True))
+    return [_remembered[key] for key in keys]
+
+
+@right(asked=NO_TOLERANCE)
+def shared_by_threads(rows):
+    """Four threads answer a quarter each."""
+    with ThreadPoolExecutor(4) as pool:
+        return np.concatenate(list(pool.map(position, np.array_split(rows, 4))))
+
+
+@right(asked=NO_TOLERANCE)
+def one_at_a_time(rows):
+    """A tuple of Python's integers, each of a row that is looked at alone."""
+    return tuple(int(classify(rows[place : place + 1])[0]) for place in range(len(rows)))
+
+
+@right()
+def contact_of_either_of_two(rows):
+    """Contact where a spheroid grown by two units of rounding touches, or one shrunk by them does not clear."""
+    grown, shrunk = np.array(rows), np.array(rows)
+    grown[:, 2:4] *= 1 + 2.0**-52
+    shrunk[:, 2:4] *= 1 - 2.0**-52
+    first, second = position(grown), position(shrunk)
+    return np.where(first == second, first, 0).astype(np.int8)

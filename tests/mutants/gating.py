@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import tempfile
 from contextlib import ExitStack, redirect_stderr, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,8 @@ import pytest
 
 from hypcheck import judge
 from hypcheck.cli.main import main
+from hypcheck.gate import trial
+from hypcheck.judge import Criterion
 from hypcheck.record import read
 from hypcheck.rows import Rows
 from tests.mutants.collection import Mutant
@@ -72,8 +75,10 @@ def run(spec: str, options: Options) -> Ruling:
     said = io.StringIO()
     with ExitStack() as stack:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
-        for each in (redirect_stdout(said), redirect_stderr(said), patch.object(judge, "flip_octaves", _remembered)):
+        for each in (redirect_stdout(said), redirect_stderr(said)):
             stack.enter_context(each)
+        for module, name, kept in _KEPT:
+            stack.enter_context(patch.object(module, name, kept))
         draw_nothing(stack.enter_context(pytest.MonkeyPatch.context()))  # a ruling is in the record alone
         code = main(["verify", spec, "--out", folder, *options])
         path = Path(folder) / "record.jsonl"
@@ -82,8 +87,9 @@ def run(spec: str, options: Options) -> Ruling:
     return Ruling(code, killed_by, sum(line["asked"] for line in groups), said.getvalue())
 
 
-_flip_octaves = judge.flip_octaves
+_flip_octaves, _judged = judge.flip_octaves, judge._judged
 _octaves: dict[bytes, Any] = {}
+_cases: dict[Any, judge.WrongCase] = {}
 
 
 def _remembered(rows: Rows) -> Any:
@@ -95,6 +101,22 @@ def _remembered(rows: Rows) -> Any:
     if key not in _octaves:
         _octaves[key] = _flip_octaves(rows)
     return _octaves[key]
+
+
+def _judged_before(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> judge.WrongCase:
+    """What a wrong answer to a row is judged to be, kept from run to run: many answer the same row in the same way."""
+    key = tuple(row), answer, criterion
+    if key not in _cases:
+        _cases[key] = _judged(index, row, answer, criterion, guess)
+    return replace(_cases[key], index=index, row=tuple(row))
+
+
+_KEPT = (
+    (judge, "flip_octaves", _remembered),
+    (judge, "_judged", _judged_before),
+    (trial, "cases", lru_cache(maxsize=256)(trial.cases)),
+)
+"""What costs most of a run and does not depend on the implementation: where it stands, and what stands in for it."""
 
 
 def _failed(line: dict[str, Any]) -> int:

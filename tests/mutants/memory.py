@@ -12,6 +12,7 @@ _rows = [0]
 _kept = np.zeros(1 << 17, dtype=np.int8)
 _kept_sizes = np.ones(4)
 _seen: set[bytes] = set()
+_answers: dict[object, int] = {}
 _last = [np.zeros(1, dtype=np.int8)]
 
 
@@ -41,6 +42,13 @@ def after_a_hundred_thousand_rows(rows):
     """Everything is contact from the hundred-thousandth row on."""
     _rows[0] += len(rows)
     return position(rows) if _rows[0] <= 100_000 else np.zeros(len(rows), dtype=np.int8)
+
+
+@wrong()
+def after_five_hundred_questions(rows):
+    """Everything is contact from the 501st question on."""
+    _calls[0] += 1
+    return position(rows) if _calls[0] <= 500 else np.zeros(len(rows), dtype=np.int8)
 
 
 @wrong()
@@ -122,3 +130,47 @@ def sizes_kept_while_the_spheroid_stays(rows):
 def sizes_kept_while_three_stay(rows):
     """What depends on the sizes is computed anew when α, γ or b changes; d is forgotten."""
     return _kept_while_alike(rows, [0, 1, 2])
+
+
+def _remembered_by(rows, key):
+    """Answers are kept for ever, by a key of the row that is not the whole row."""
+    return np.array(
+        [_answers.setdefault(key(row), answer) for row, answer in zip(rows, position(rows), strict=True)],
+        dtype=np.int8,
+    )
+
+
+@wrong()
+def key_without_order(rows):
+    """Answers are kept by the sizes and the three coordinates, in whatever order these come."""
+    return _remembered_by(rows, lambda row: (row[:4].tobytes(), *sorted(row[4:])))
+
+
+@wrong()
+def key_without_order_of_sizes(rows):
+    """Answers are kept by the coordinates and the four sizes, in whatever order these come."""
+    return _remembered_by(rows, lambda row: (row[4:].tobytes(), *sorted(row[:4])))
+
+
+@wrong()
+def key_of_ratios(rows):
+    """Answers are kept by α/b, γ/d and the centre in metres, as if b and d were 1."""
+    return _remembered_by(rows, lambda row: (row[0] / row[2], row[1] / row[3], *row[4:]))
+
+
+@wrong()
+def key_of_the_centre(rows):
+    """Answers are kept by the centre alone, as in a program for one scene."""
+    return _remembered_by(rows, lambda row: row[4:].tobytes())
+
+
+@wrong()
+def key_of_the_sum(rows):
+    """Answers are kept by the sum of the seven numbers."""
+    return _remembered_by(rows, lambda row: float(row.sum()))
+
+
+@wrong()
+def key_of_twelve_digits(rows):
+    """Answers are kept by the row to twelve significant digits."""
+    return _remembered_by(rows, lambda row: tuple(f"{value:.12g}" for value in row))

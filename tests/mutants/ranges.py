@@ -220,3 +220,21 @@ def heights_to_a_thousand(rows):
 def ratios_to_a_billion(rows):
     """Claims ratios to 1e12, and is right up to 1e9."""
     return _only(rows, (rows[:, :B] <= 1e9 * rows[:, B:X]).all(axis=1))
+
+
+@wrong()
+def height_of_negative_zero(rows):
+    """Right unless z is −0.0, which is taken to lie below the waist and has no height there."""
+    return _only(rows, ~((rows[:, Z] == 0) & np.signbit(rows[:, Z])))
+
+
+@wrong()
+def not_all_sizes_1(rows):
+    """Right unless α, γ, b and d are 1, the unit case that has a formula of its own."""
+    return _only(rows, (rows[:, :X] != 1).any(axis=1))
+
+
+@wrong()
+def not_all_sizes_equal(rows):
+    """Right unless α, γ, b and d are equal."""
+    return _only(rows, (rows[:, :X] != rows[:, :1]).any(axis=1))
