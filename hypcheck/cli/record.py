@@ -66,7 +66,7 @@ def repair(record: Path, out: Path) -> None:
 
 
 def _kept(found: Condition) -> str:
-    return f"{_lines(found.lines, 'good ')}, {found.size} bytes"
+    return f"{_lines(found.lines, 'good ')}, {_bytes(found.size)}"
 
 
 def _ending(found: Condition) -> str:
@@ -74,7 +74,12 @@ def _ending(found: Condition) -> str:
         return f"it is whole, of a run that ended with {found.exit_code}"
     if not found.lost_bytes:
         return "it has no footer, so it is cut off, or its run was interrupted"
-    return f"{found.lost_bytes} bytes ({_lines(found.lost_lines)}) from byte {found.size} on are lost"
+    verb = "is" if found.lost_bytes == 1 else "are"
+    return f"{_bytes(found.lost_bytes)} ({_lines(found.lost_lines)}) from byte {found.size} on {verb} lost"
+
+
+def _bytes(number: int) -> str:
+    return f"{number} byte{'' if number == 1 else 's'}"
 
 
 def _lines(count: int, kind: str = "") -> str:

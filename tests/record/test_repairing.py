@@ -44,6 +44,14 @@ def test_a_cut_one_is_cut(path, capsys, cut):
     assert "bytes (1 line) from byte" in text
 
 
+def test_a_single_byte_is_one(path, capsys, tmp_path):
+    size = path.stat().st_size
+    path.write_bytes(path.read_bytes() + b"\n")
+    code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
+    assert code == 0
+    assert f"; 1 byte (1 line) from byte {size} on is lost" in text
+
+
 def test_one_without_a_footer_is_cut_or_interrupted(path, capsys):
     path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:-1]))
     code, text = asked(capsys, "check", path)
