@@ -33,3 +33,7 @@ class UnavailableError(HypcheckError):
     """An optional part (an oracle, a plot) cannot run here; the sentence says why and what would enable it."""
 
     exit_code = 2
+
+
+class Terminated(BaseException):
+    """The system asked the process to end (SIGTERM), or its terminal has gone (SIGHUP)."""

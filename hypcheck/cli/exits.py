@@ -13,7 +13,7 @@ from enum import IntEnum
 
 import click
 
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import HypcheckError, Terminated
 from hypcheck.suggesting import advice
 from hypcheck.visible import sentence
 
@@ -72,10 +72,6 @@ PRECEDENCE = (
 def first_that_applies(reasons: Iterable[int]) -> Exit:
     """The one exit code of a run that may have several: HELD where there is no reason for another."""
     return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
-
-
-class Terminated(BaseException):
-    """The system asked the process to end (SIGTERM)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
+from hypcheck.errors import Terminated
+
 INTERRUPTED = (130, 143)
 
 
@@ -114,9 +116,7 @@ _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(si
 
 
 def _terminate(_signal: int, _frame: object) -> NoReturn:
-    from hypcheck.cli.exits import Terminated
-
-    raise Terminated
+    raise Terminated  # imported above: here any module may be half imported, click too
 
 
 def _unraisable(lost: Any) -> None:  # noqa: ANN401 - its type has a name in typeshed alone

@@ -19,7 +19,7 @@ from hypcheck.cli import main as cli_main
 from hypcheck.cli.exits import Exit, ending_of, first_that_applies
 from hypcheck.cli.main import main
 from hypcheck.cli.progress import in_colour
-from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, UnavailableError
+from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, Terminated, UnavailableError
 
 HYPCHECK = [sys.executable, "-m", "hypcheck"]
 PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
@@ -187,7 +187,7 @@ def test_a_terminal_that_is_left_ends_no_run_that_is_to_go_on():
         signal.signal(signal.SIGHUP, before)
 
 
-@pytest.mark.parametrize(("name", "error"), [("SIGINT", KeyboardInterrupt), ("SIGTERM", exits.Terminated)])
+@pytest.mark.parametrize(("name", "error"), [("SIGINT", KeyboardInterrupt), ("SIGTERM", Terminated)])
 def test_an_interrupt_is_not_lost_while_an_object_is_freed(name, error, capsys):
     class Freed:
         def __del__(self) -> None:

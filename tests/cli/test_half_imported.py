@@ -1,0 +1,29 @@
+"""A signal that comes while a module is half imported ends the program as any other does."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+INTERRUPTED_CLICK = """
+import os, signal, sys
+sys.path.remove(os.path.dirname(__file__))  # whoever imports it next finds the real one
+os.kill(os.getpid(), signal.{name})
+"""
+
+
+@pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 143)])
+def test_a_signal_while_click_is_imported(tmp_path, name, code):
+    if not hasattr(signal, name):
+        pytest.skip(f"this system has no {name}")
+    (tmp_path / "click.py").write_text(INTERRUPTED_CLICK.format(name=name), encoding="utf-8")
+    command = [sys.executable, "-m", "hypcheck", "--help"]
+    done = subprocess.run(
+        command, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(tmp_path)}, check=False
+    )
+    word = "interrupted" if code == 130 else "terminated"
+    assert (done.returncode, done.stdout, done.stderr) == (code, "", f"hypcheck: {word}\n")
