@@ -72,6 +72,12 @@ def test_the_words_of_an_earlier_version_are_not_compared():
     assert list(wrong_story(replace(head, version=0))) == []
 
 
+def test_of_what_a_file_says_at_length_the_beginning_is_quoted(tmp_path, capsys):
+    code, (said, _) = checked(tmp_path, capsys, TEXT.replace("exactly tangent", "nearly" * 10_000, 1))
+    assert code == 1
+    assert len(said) < 400
+
+
 def test_what_the_shipped_files_say_is_so():
     for name in vectors.NAMES:
         file = vectors.load(name)

@@ -14,12 +14,16 @@ from hypcheck.casebook.family import Story
 from hypcheck.casebook.frozen import cancellation, refusals
 from hypcheck.casebook.frozen.flags import FLAGS
 from hypcheck.casebook.frozen.model import FlagFacts, Head
+from hypcheck.visible import shortened
 
 STORIES: Mapping[str, Story] = {
     **FAMILIES,
     cancellation.NAME: cancellation.HEAD,
     refusals.NAME: refusals.HEAD,
 }
+
+QUOTED = 200
+"""Characters of what a file says that are quoted; it may say any number of them."""
 
 
 def wrong_story(head: Head) -> Iterator[str]:
@@ -30,7 +34,7 @@ def wrong_story(head: Head) -> Iterator[str]:
     for each in fields(Story):
         said, right = getattr(head, each.name), getattr(known, each.name)
         if said != right:
-            yield f"family.{each.name} is {said!r}; of {head.name} it is {right!r}"
+            yield f"family.{each.name} is {_quoted(said)}; of {head.name} it is {right!r}"
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
@@ -39,4 +43,8 @@ def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
         for each in fields(FlagFacts):
             said, right = getattr(facts, each.name), getattr(FLAGS[name], each.name)
             if said != right:
-                yield f"the {each.name} of the flag {name} is {said!r}; it is {right!r}"
+                yield f"the {each.name} of the flag {name} is {_quoted(said)}; it is {right!r}"
+
+
+def _quoted(said: object) -> str:
+    return shortened(repr(said), QUOTED)
