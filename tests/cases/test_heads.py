@@ -29,11 +29,11 @@ def checked(tmp_path, capsys, text):
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        ('"title":"exactly', '"title":"nearly', "line 3: family.title is 'nearly tangent, in every"),
-        ('"extreme":false', '"extreme":true', "line 3: family.extreme is True; of tangent it is False"),
+        ('"title":"exactly', '"title":"nearly', 'line 3: family.title is "nearly tangent, in every'),
+        ('"extreme":false', '"extreme":true', "line 3: family.extreme is true; of tangent it is false"),
         ('"version":1', '"version":2', "line 3: family.version is 2; of tangent it is 1"),
-        ('"the surfaces touch', '"the surfaces cross', "line 4: the meaning of the flag tangent is 'the surfaces cro"),
-        ('"equality"', '"luck"', "line 4: the bug_type of the flag tangent is 'luck'; it is 'equality'"),
+        ('"the surfaces touch', '"the surfaces cross', 'line 4: the meaning of the flag tangent is "the surfaces cro'),
+        ('"equality"', '"luck"', 'line 4: the bug_type of the flag tangent is "luck"; it is "equality"'),
     ],
 )
 def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, sentence):
@@ -47,7 +47,7 @@ def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, 
 def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
     text = refusals_text(vectors.load_refusals())
     code, lines = checked(tmp_path, capsys, text.replace(refusals.HEAD.drone, "a bad row is answered"))
-    assert (code, lines[0][:39]) == (1, "line 3: family.drone is 'a bad row is a")
+    assert (code, lines[0][:39]) == (1, 'line 3: family.drone is "a bad row is a')
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,8 @@ def test_what_is_not_ours_may_be_told_in_any_words(tmp_path, capsys, changes):
 
 def test_the_words_of_an_earlier_version_are_not_compared():
     head = replace(vectors.load("ring").head, title="another")
-    assert list(wrong_story(head)) == [f"family.title is 'another'; of ring it is {FAMILIES['ring'].title!r}"]
+    right = FAMILIES["ring"].title
+    assert list(wrong_story(head)) == [f'family.title is "another"; of ring it is "{right}"']
     assert list(wrong_story(replace(head, version=0))) == []
 
 

@@ -6,6 +6,7 @@ the words of its generator's version; of an earlier version, or of another's fam
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 
@@ -14,7 +15,7 @@ from hypcheck.casebook.family import Story
 from hypcheck.casebook.frozen import cancellation, refusals
 from hypcheck.casebook.frozen.flags import FLAGS
 from hypcheck.casebook.frozen.model import FlagFacts, Head
-from hypcheck.visible import shortened
+from hypcheck.tables.numbers import shown_json
 
 STORIES: Mapping[str, Story] = {
     **FAMILIES,
@@ -22,29 +23,26 @@ STORIES: Mapping[str, Story] = {
     refusals.NAME: refusals.HEAD,
 }
 
-QUOTED = 200
-"""Characters of what a file says that are quoted; it may say any number of them."""
-
 
 def wrong_story(head: Head) -> Iterator[str]:
     """Sentences about what a file says wrongly of a family of ours; none of the command that made it."""
     known = STORIES.get(head.name)
     if known is None or head.version < known.version:
         return
-    for each in fields(Story):
-        said, right = getattr(head, each.name), getattr(known, each.name)
-        if said != right:
-            yield f"family.{each.name} is {_quoted(said)}; of {head.name} it is {right!r}"
+    for name, said, right in _differences(Story, head, known):
+        yield f"family.{name} is {said}; of {head.name} it is {right}"
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
     """Sentences about flags that a file describes otherwise than they are checked."""
-    for name, facts in flags.items():
-        for each in fields(FlagFacts):
-            said, right = getattr(facts, each.name), getattr(FLAGS[name], each.name)
-            if said != right:
-                yield f"the {each.name} of the flag {name} is {_quoted(said)}; it is {right!r}"
+    for flag, facts in flags.items():
+        for name, said, right in _differences(FlagFacts, facts, FLAGS[flag]):
+            yield f"the {name} of the flag {flag} is {said}; it is {right}"
 
 
-def _quoted(said: object) -> str:
-    return shortened(repr(said), QUOTED)
+def _differences(kind: type[Story | FlagFacts], there: object, known: object) -> Iterator[tuple[str, str, str]]:
+    """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
+    for each in fields(kind):
+        said, right = getattr(there, each.name), getattr(known, each.name)
+        if said != right:
+            yield each.name, shown_json(said), json.dumps(right, ensure_ascii=False)
