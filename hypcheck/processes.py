@@ -7,12 +7,13 @@ import signal
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import chain, islice
-from multiprocessing import active_children, get_context, parent_process, resource_tracker
+from multiprocessing import active_children, get_context, parent_process, resource_tracker, util
 from typing import Any, TypeVar
 
 Task = TypeVar("Task")
@@ -44,7 +45,7 @@ def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 @contextmanager
 def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
     """The same, with a process of its own for a single worker too."""
-    _begin_resource_tracker()
+    _prepare_children()
     executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
         yield executor
@@ -163,13 +164,40 @@ def interrupts_held() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    _begin_resource_tracker()
+    _prepare_children()
     with interrupts_deferred():
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             yield
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _prepare_children() -> None:
+    """Before a process of ours is started."""
+    _keep_working_directory_off_their_path()
+    _begin_resource_tracker()
+
+
+@lru_cache
+def _keep_working_directory_off_their_path() -> None:
+    """From here on, no Python process that multiprocessing starts takes a module from its working directory.
+
+    Each begins as `python -c`, which has that folder first on its path: a types.py or socket.py that lies there would
+    run in place of Python's own. Once it has begun, multiprocessing gives it the path of its parent. -P does the same
+    from Python 3.11 on only, and the variable PYTHONSAFEPATH would also reach the programs that are tested.
+    """
+    if not hasattr(util, "spawnv_passfds"):  # Windows
+        return
+    spawn = util.spawnv_passfds
+
+    def with_safe_path(path: bytes, args: Sequence[Any], passfds: Sequence[int]) -> int:
+        words = list(args)
+        program = words.index("-c", 1) + 1
+        words[program] = f"import sys; sys.path[:] = filter(None, sys.path); {words[program]}"
+        return spawn(path, words, passfds)
+
+    util.spawnv_passfds = with_safe_path
 
 
 def _begin_resource_tracker() -> None:

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import subprocess
 import sys
+from collections.abc import Iterable
+from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -105,3 +110,52 @@ def test_a_terminal_that_is_closed_leaves_what_looks_after_us():
     command = [sys.executable, "-c", CLOSED]
     done = subprocess.run(command, capture_output=True, timeout=60, check=True, start_new_session=True)
     assert done.stderr == b""
+
+
+STANDARD = ("multiprocessing", "types", "socket", "random", "json")
+"""Modules that Python's own processes load when they begin, or that many people name a file after."""
+
+SUBJECT = """
+import helper
+import numpy as np
+
+
+def f(rows):
+    return np.full(len(rows), helper.ANSWER, dtype=np.int8)
+"""
+
+
+def folder_with_namesakes(folder: Path, names: Iterable[str]) -> None:
+    """Files that say so when they are executed, and end the process that does."""
+    for name in names:
+        (folder / f"{name}.py").write_text(f"open('executed-{name}', 'w').close()\nraise SystemExit('{name}')\n")
+
+
+def ended_in(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """A command that ran in a folder whose files of standard names nobody executed."""
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+    assert sorted(path.name for path in folder.glob("executed-*")) == [], done.stderr
+    return done
+
+
+@pytest.mark.parametrize("shared", ["--workers=2", "--cluster=local:1"])
+def test_workers_do_not_execute_files_in_the_working_directory_named_like_standard_modules(shared, tmp_path):
+    """A module that the SPEC names is found there all the same."""
+    if "cluster" in shared and not find_spec("distributed"):
+        pytest.skip("distributed is not installed")
+    script = shutil.which("hypcheck", path=os.path.dirname(sys.executable))
+    assert script, "the tests need the command that the installation makes"
+    folder_with_namesakes(tmp_path, STANDARD)
+    (tmp_path / "subject.py").write_text(SUBJECT)
+    (tmp_path / "helper.py").write_text("ANSWER = 1\n")  # which is right everywhere in the ring
+    done = ended_in(
+        tmp_path, script, "verify", "python:subject:f", "--families=ring", "--count=10", "--out=out", shared
+    )
+    assert done.returncode == 0, done.stderr
+    assert "no answer is wrong" in done.stdout
+
+
+def test_python_m_hypcheck_does_not_execute_files_in_the_working_directory_named_like_standard_modules(tmp_path):
+    """But for types, which Python itself loads from there before any file of ours."""
+    folder_with_namesakes(tmp_path, set(STANDARD) - {"types"})
+    assert ended_in(tmp_path, sys.executable, "-m", "hypcheck", "info", "--json").returncode == 0
