@@ -6,7 +6,7 @@ OUT ?= reports/latest
 BIN := $(VENV)/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel test lint cases check-cases paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -42,6 +42,9 @@ mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 
 
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
 	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/emission
+
+wheel: $(VENV)/ready-dev ## every command of the installed wheel and sdist, with and without a C compiler (five minutes)
+	HYPCHECK_WHEEL=all $(BIN)/python -m pytest -n auto tests/test_wheel.py
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
 	$(BIN)/python -m tests.attack
