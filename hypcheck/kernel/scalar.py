@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from hypcheck.kernel import integers
 from hypcheck.kernel.choice import choice, compiled
-from hypcheck.kernel.printed.scalars import GREATEST, LEAST, SLACK, single
+from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
 from hypcheck.pairs import Pair
 
 
@@ -21,8 +21,8 @@ def exact_position(alpha: float, gamma: float, b: float, d: float, x: float, y: 
         and (LEAST < b < GREATEST and LEAST < d < GREATEST)
         and (alpha > 0 and gamma > 0)
     ):
-        A, B, BB, c1, e1, c2, e2, delta_3, E = single(alpha, gamma, b, d, x, y, z)
-        if LEAST < A < GREATEST and LEAST < B < GREATEST:
+        A, B, BB, P_plus_Q, c1, e1, c2, e2, delta_3, E = single(alpha, gamma, b, d, x, y, z)
+        if LEAST < A < GREATEST and LEAST < B < GREATEST and P_plus_Q < FARTHEST:
             if delta_3 < -E:
                 return 0
             if delta_3 > E:  # three roots; under c² > a three positive ones, under a > 1 two negative ones decide

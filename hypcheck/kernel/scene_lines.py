@@ -64,7 +64,8 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
     heights = _heights(z)
     under = [_known_point(sizes, height, 1) for height in heights]
     above = [_known_point(sizes, height, -1) for height in heights]
-    two: dict[str, float] = {"reach": heights[2] ** 2 * LESS}
+    top = heights[2] * heights[2]  # exact; a power need not be when rounding is directed
+    two: dict[str, float] = {"reach": top * LESS}
     for part in (1, 2):  # the lower and the upper heights
         middle = (heights[part - 1] ** 2 + heights[part] ** 2) / 2
         made = {
@@ -81,7 +82,7 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
         "within": _within(sizes, _parallel_multiplier(sizes, chords["above"], heights[1], side=-1)),
         **chords,
     }
-    return SceneLines(thresholds(parallel, heights[2] ** 2), two)
+    return SceneLines(thresholds(parallel, top), two)
 
 
 def _heights(z: Floats) -> tuple[float, float, float]:
@@ -142,7 +143,7 @@ def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
     for step in STEPS:
         x = _short(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
         if exact_position(*sizes, x, 0.0, height) != side:
-            return Point(height**2, x * x)
+            return Point(height * height, x * x)
     return None
 
 

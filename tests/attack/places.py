@@ -146,6 +146,45 @@ def on_the_lines(random: np.random.Generator, count: int, size: int) -> Iterator
         yield Scene(f"lines-{number}", tuple(four.tolist()), x, np.zeros(size), z)
 
 
+def far(random: np.random.Generator, count: int) -> np.ndarray:
+    """Rows whose centres are 2^60 radii away and more, up to the limits of float64: (count, 7).
+
+    On the axis, in the plane of the waist, along the cone that the surface approaches, and anywhere. One half has sizes
+    of all regimes, the other also sizes of any magnitude at which floats may decide, and beyond.
+    """
+    some = sizes(random, count)
+    wild = random.integers(0, 2, count) == 0
+    spread = random.choice([60.0, 100.0, 300.0], count)
+    some[wild] *= np.exp2(random.uniform(-1, 1, (count, 1)) * spread[:, None])[wild]
+    some[wild, 1] *= np.exp2(random.uniform(-99, 99, count))[wild]
+    some[wild, 3] *= np.exp2(random.uniform(-99, 99, count))[wild]
+    return np.column_stack([some, _far_centres(random, some, count)])
+
+
+def far_scenes(random: np.random.Generator, count: int, size: int) -> Iterator[Scene]:
+    """Scenes with such centres; a third of them has most heights nearby, so that lines are made for those."""
+    for number in range(count):
+        four = far(random, 1)[0, :4]
+        centres = _far_centres(random, np.repeat(four[None], size, axis=0), size)
+        if number % 3 == 0:
+            near = random.integers(0, 8, size) > 0
+            centres[near, 2] = random.uniform(-4, 4, near.sum()) * four[1]
+        yield Scene(f"far-{number}", tuple(four.tolist()), *np.ascontiguousarray(centres.T))
+
+
+def _far_centres(random: np.random.Generator, some: np.ndarray, count: int) -> np.ndarray:
+    alpha, gamma, b, d = some.T
+    style = random.integers(0, 4, count)
+    away = np.exp2(random.uniform(60, random.choice([130.0, 200.0, 520.0, 1020.0], count)))
+    turn = random.uniform(0, 2 * np.pi, count) * (random.integers(0, 3, count) > 0)
+    with np.errstate(all="ignore"):
+        r = np.where(style == 3, b * np.exp2(random.uniform(60, 1020, count)), b * away)
+        z = np.where(style == 3, d * away, r * (gamma / alpha) * (1 + offsets(random, count)))
+        r, z = np.where(style == 0, 0.0, r), np.where(style == 0, d * away, np.where(style == 1, 0.0, z))
+    r, z = (np.nan_to_num(each, nan=np.finfo(np.float64).max) for each in (r, z))  # infinities become the greatest too
+    return np.column_stack([r * np.cos(turn), r * np.sin(turn), z * random.choice([-1.0, 1.0], count)])
+
+
 def _short(value: float) -> float:
     mantissa, exponent = np.frexp(value)
     return float(np.ldexp(np.floor(mantissa * 2**26), exponent - 26))

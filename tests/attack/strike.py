@@ -1,22 +1,48 @@
-"""The attack: batches of rows and scenes, the truth of each once, and what the subjects say."""
+"""The attack: batches of rows and scenes, the truth of each once, and what the subjects say under every rounding."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from hypcheck.truth import batch
 from tests.attack import places
 from tests.attack.places import Scene
+from tests.attack.rounding import DIRECTED, TO_NEAREST, rounded
 from tests.attack.subjects import Subject
 
-Batch = tuple[str, np.ndarray | Scene]
+
+@dataclass(frozen=True)
+class Batch:
+    """Rows (n, 7) or a scene, their exact positions, and the rounding modes under which subjects are asked for them."""
+
+    stratum: str
+    asked: np.ndarray | Scene
+    truth: np.ndarray
+    modes: tuple[str, ...]
+
+    @property
+    def rows(self) -> np.ndarray:
+        """What is asked, as rows."""
+        return self.asked.rows if isinstance(self.asked, Scene) else self.asked
 
 
 def batches(seed: int, rows: int) -> Iterator[Batch]:
-    """About `rows` rows, half of them in scenes; the same for the same arguments."""
+    """About `rows` rows, half of them in scenes; the same for the same arguments.
+
+    Far centres, where intermediate values overflow, are asked under every rounding mode; of the others each fourth
+    batch under one directed mode beside the usual one.
+    """
+    for number, (stratum, asked) in enumerate(_places(seed, rows)):
+        truth = batch.positions(asked.rows if isinstance(asked, Scene) else asked)
+        turn = DIRECTED[number // 4 % 3 : number // 4 % 3 + 1] if number % 4 == 0 else ()
+        yield Batch(stratum, asked, truth, (TO_NEAREST, *(DIRECTED if stratum.startswith("far") else turn)))
+
+
+def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
     random = np.random.default_rng(seed)
     share = rows // 8
     yield from places.families(seed, share // len(places.FAMILIES))
@@ -30,24 +56,29 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
         yield "wild scenes", scene
     for scene in places.on_the_lines(random, 2 * share // size, size):
         yield "lines", scene
+    for _ in range(0, share, 1 << 16):
+        yield "far", places.far(random, min(share // 2, 1 << 15))
+    for scene in places.far_scenes(random, share // 4096 + 3, 1024):
+        yield "far scenes", scene
 
 
 def strike(subjects: Iterable[Subject], all_batches: Iterable[Batch]) -> Iterator[tuple[str, str, int, np.ndarray]]:
-    """For each batch and subject: stratum, subject, number of rows asked and the rows answered wrong."""
+    """For each batch, rounding mode and subject: stratum, subject, number of rows asked and the rows answered wrong."""
     everyone = list(subjects)
-    for stratum, each in all_batches:
-        rows = each.rows if isinstance(each, Scene) else each
-        truth = batch.positions(rows)
-        for subject in everyone:
-            some = slice(None, None, subject.every)
-            found = _asked(subject, each, some)
-            yield stratum, subject.name, len(found), rows[some][found != truth[some]]
+    for each in all_batches:
+        for mode in each.modes:
+            for subject in everyone:
+                some = slice(None, None, subject.every)
+                with rounded(mode):
+                    found = _asked(subject, each.asked, some)
+                stratum = each.stratum if mode == TO_NEAREST else f"{each.stratum}, directed"
+                yield stratum, subject.name, len(found), each.rows[some][found != each.truth[some]]
 
 
-def _asked(subject: Subject, each: np.ndarray | Scene, some: slice) -> np.ndarray:
-    if isinstance(each, Scene):
-        return subject.scene(each.sizes, *(column[some] for column in (each.x, each.y, each.z)))
-    return subject.rows(each[some])
+def _asked(subject: Subject, asked: np.ndarray | Scene, some: slice) -> np.ndarray:
+    if isinstance(asked, Scene):
+        return subject.scene(asked.sizes, *(column[some] for column in (asked.x, asked.y, asked.z)))
+    return subject.rows(asked[some])
 
 
 def tally(struck: Iterable[tuple[str, str, int, np.ndarray]]) -> tuple[Counter, Counter, list[np.ndarray]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import sys
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ from hypcheck.kernel.choice import LEVELS
 from hypcheck.kernel.core import generate
 from hypcheck.truth import batch
 from tests.attack.places import Scene, near_contact, scenes
-from tests.attack.strike import batches, strike, tally
-from tests.attack.subjects import Subject, of_library, subjects
+from tests.attack.rounding import DIRECTED, TO_NEAREST, rounded
+from tests.attack.strike import Batch, batches, strike, tally
+from tests.attack.subjects import Subject, of_library, one_by_one, subjects
 from tests.kernel.compiling import (
     CLANG,
     COMPILER,
@@ -64,6 +66,7 @@ def test_no_build_is_wrong_anywhere(compiler, options, struck, tmp_path):
 SABOTAGE = {
     "bounds a hundredth": {name: generate.CONSTANTS[name] / 100 for name in ("u_4", "u_8", "u_12", "u_16", "u_1536")},
     "margins reversed": {"more": generate.CONSTANTS["less"], "less": generate.CONSTANTS["more"]},
+    "products may overflow": {"farthest": sys.float_info.max},
 }
 
 
@@ -72,7 +75,7 @@ SABOTAGE = {
 def test_the_attack_finds_a_bound_that_does_not_hold(weaker, struck, tmp_path, monkeypatch):
     for name, value in weaker.items():
         monkeypatch.setitem(generate.CONSTANTS, name, value)
-    subject = built(tmp_path, header=generate.header())
+    subject = built(tmp_path, *CONTRACTED, header=generate.header())
     _, wrong, _ = tally(strike([subject], struck))
     assert sum(wrong.values()) > 0
 
@@ -83,8 +86,37 @@ def test_heights_whose_squares_underflow_are_heights_all_the_same():
     for sizes in ((4.0, 1.0, 4.0, 4.0), (1.0, 4.0, 1.0, 2.0), (0.5, 4.0, 1.0, 2.0)):
         z = random.uniform(-1, 1, 3000) * 10.0 ** random.choice([-310, -300, -200, -162, -150, -45], 3000)
         scene = Scene("axis", sizes, np.zeros(3000), np.zeros(3000), z)
-        _, wrong, _ = tally(strike(subjects(), [("axis", scene)]))
+        _, wrong, _ = tally(strike(subjects(), [Batch("axis", scene, batch.positions(scene.rows), (TO_NEAREST,))]))
         assert sum(wrong.values()) == 0
+
+
+FAR_ROWS = (  # |x|/b above 2e33; 3Δ and what it is compared with are products of some 1e300
+    ((2.0, 17.8, 0.25, 0.15, 1e37, 0.0, 0.0), 1),
+    ((2.0, 2.0, 1.0, 1.0, 1e39, 0.0, 0.0), 1),
+    ((2.0, 2.0, 1.0, 1.0, 0.0, 0.0, -1e39), -1),
+    (
+        (
+            *map(float.fromhex, ("0x1.8738799dce447p+50", "0x1.a7a1c4e3bdc09p+7", "0x1.af6b9bd2e5a1ap+0")),
+            *map(float.fromhex, ("0x1.8e6b51a8c5abfp+0", "0x1.bda8372232493p+175", "0x0p+0", "0x1.e29409d35ecddp+132")),
+        ),
+        -1,
+    ),
+)
+
+
+@needs_compiler
+def test_far_centres_are_no_contact_under_any_rounding_mode(tmp_path):
+    """Rounded down or towards zero an overflow looks like the largest finite number, whose differences mean nothing."""
+    rows = np.array([row for row, _ in FAR_ROWS])
+    right = [position for _, position in FAR_ROWS]
+    build = built(tmp_path, *CONTRACTED)
+    library = ctypes.CDLL(str(tmp_path / "library.so"))
+    one = one_by_one(lambda *row: library.hypcheck_position(*map(ctypes.c_double, row)), "one", every=1)
+    for mode in (TO_NEAREST, *DIRECTED):
+        for subject in (build, one, *subjects()):
+            with rounded(mode):
+                found = subject.rows(rows).tolist()
+            assert found == right, (mode, subject.name)
 
 
 MODES = """

@@ -163,9 +163,7 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),
     "INTEGERS_AT_A": lambda: _integers(("offset_at_A", "slope_at_A"), _DELTA),
     "INTEGERS_OF_RING": lambda: _integers(("slope_at_B", "ring_excess"), _DELTA),
-    "SINGLE": lambda: c_statements(
-        single.SINGLE, ("A", "B", "BB", "c1", "e1", "c2", "e2", "delta_3", "E"), number="double"
-    ),
+    "SINGLE": lambda: c_statements(single.SINGLE, single.RESULTS, number="double"),
     "TANGENT_BEYOND": lambda: c_statements(lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
     "TANGENT_WITHIN": lambda: c_statements(lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
     "CHORD": lambda: c_statements(lines.CHORD, ("below", "above")),

@@ -131,6 +131,7 @@ int hypcheck_use_level(const char *name);
 #define HC_tiny 3.054936363499605e-151 /* 0x1.0000000000000p-500 */
 #define HC_least 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
 #define HC_greatest 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
+#define HC_farthest 1.6069380442589903e+60 /* 0x1.0000000000000p+200 */
 #define HC_u_1536 3.4106083842549983e-13 /* 0x1.8000180000000p-42 */
 #define HC_more 1.000000000000007 /* 0x1.0000000000020p+0 */
 #define HC_less 0.9999999999999929 /* 0x1.fffffffffffc0p-1 */
@@ -531,6 +532,7 @@ static int hc_single(const double row[7]) {
     /* end of the program "single" */
     if (!(alpha > 0 && gamma > 0 && b > HC_least && b < HC_greatest && d > HC_least && d < HC_greatest)) return 2;
     if (!(A > HC_slack && A < HC_greatest && B > HC_least && B < HC_greatest && BB > HC_slack * A)) return 2;
+    if (!(P_plus_Q < HC_farthest)) return 2; /* beyond, products overflow: rounded towards zero, they would look finite */
     if (delta_3 < -E) return 0;
     if (!(delta_3 > E)) return 2;
     if (c2 < -e2 && c1 > e1) return 1;
@@ -1050,6 +1052,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
     const HC_NUMBER tiny = HC_SET(HC_tiny);
     const HC_NUMBER least = HC_SET(HC_least);
     const HC_NUMBER greatest = HC_SET(HC_greatest);
+    const HC_NUMBER farthest = HC_SET(HC_farthest);
     for (at = 0; at < count; at += HC_WIDTH) {
         const HC_NUMBER alpha = HC_LOAD(columns + 0 * stride + at);
         const HC_NUMBER gamma = HC_LOAD(columns + 1 * stride + at);
@@ -1106,6 +1109,8 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
         const HC_TRUTH A_not_large = HC_LT(A, greatest);
         const HC_TRUTH B_not_small = HC_GT(B, least);
         const HC_TRUTH B_not_large = HC_LT(B, greatest);
+        const HC_NUMBER P_plus_Q = P + Q;
+        const HC_TRUTH not_too_far = HC_LT(P_plus_Q, farthest);
         const HC_TRUTH positive_radial = HC_AND(alpha_usable, gamma_usable);
         const HC_TRUTH b_usable = HC_AND(b_not_small, b_not_large);
         const HC_TRUTH d_usable = HC_AND(d_not_small, d_not_large);
@@ -1114,13 +1119,13 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
         const HC_TRUTH radial_usable = HC_AND(b_usable, A_usable);
         const HC_TRUTH axial_usable = HC_AND(d_usable, B_usable);
         const HC_TRUTH ratios_usable = HC_AND(radial_usable, axial_usable);
-        const HC_TRUTH usable = HC_AND(positive_radial, ratios_usable);
+        const HC_TRUTH sizes_usable = HC_AND(positive_radial, ratios_usable);
+        const HC_TRUTH usable = HC_AND(sizes_usable, not_too_far);
         const HC_NUMBER A_plus_B = A + B;
         const HC_NUMBER sizes_1 = A_plus_B + AB;
         const HC_NUMBER BP_plus_AQ = BP + AQ;
         const HC_NUMBER terms_1 = sizes_1 + BP_plus_AQ;
         const HC_NUMBER sizes_2 = A_plus_B + HC_SET(1.0);
-        const HC_NUMBER P_plus_Q = P + Q;
         const HC_NUMBER terms_2 = sizes_2 + P_plus_Q;
         const HC_NUMBER relative_1 = u_12 * terms_1;
         const HC_NUMBER e1 = relative_1 + tiny;
@@ -1259,7 +1264,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
 /* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -1275,7 +1280,7 @@ HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int b
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1320,7 +1325,7 @@ HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int b
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -1332,7 +1337,7 @@ HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int b
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1368,7 +1373,7 @@ HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int b
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
     const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
@@ -1380,7 +1385,7 @@ HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int b
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1416,7 +1421,7 @@ HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int b
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -1432,7 +1437,7 @@ HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int bl
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1476,7 +1481,7 @@ HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int bl
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -1500,7 +1505,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int 
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1561,7 +1566,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int 
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -1577,7 +1582,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int 
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1621,7 +1626,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int 
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
     const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
@@ -1637,7 +1642,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int 
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);
@@ -1681,7 +1686,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int 
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -1705,7 +1710,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int b
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);

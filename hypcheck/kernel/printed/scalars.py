@@ -9,13 +9,14 @@ from __future__ import annotations
 
 LEAST = 2.0**-100
 GREATEST = 2.0**100
-"""Where the bounds of `single` hold: b, d, A and B lie between."""
+FARTHEST = 2.0**200
+"""Where the bounds of `single` hold: b, d, A and B lie between, and P + Q is below FARTHEST."""
 
 SLACK = 1.0000009536743164  # 1 + 2**-20
 
 
 def single(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> tuple[float, ...]:
-    """A, B, BB, c1, e1, c2, e2, delta_3, E of the program "single"."""
+    """A, B, BB, P_plus_Q, c1, e1, c2, e2, delta_3, E of the program "single"."""
     u_8 = 1.776358533466145e-15  # 0x1.0000100000000p-49
     u_12 = 2.6645378001992175e-15  # 0x1.8000180000000p-49
     u_1536 = 3.4106083842549983e-13  # 0x1.8000180000000p-42
@@ -69,7 +70,7 @@ def single(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z
     e1 = u_12 * M1
     e2 = u_8 * M2
     BB = B * B
-    return A, B, BB, c1, e1, c2, e2, delta_3, E
+    return A, B, BB, P_plus_Q, c1, e1, c2, e2, delta_3, E
 
 
 def tangent_beyond(alpha: float, gamma: float, b: float, d: float, lambda_: float) -> tuple[float, ...]:

@@ -94,13 +94,16 @@ def _scalars() -> str:
     return _module(
         "Programs over Python's floats: one pair, and the constants of a scene's half planes.",
         [
-            *(f"{name.upper()} = 2.0**{exponent}" for name, exponent in (("least", -100), ("greatest", 100))),
-            '"""Where the bounds of `single` hold: b, d, A and B lie between."""',
+            *(
+                f"{name.upper()} = 2.0**{exponent}"
+                for name, exponent in (("least", -100), ("greatest", 100), ("farthest", 200))
+            ),
+            '"""Where the bounds of `single` hold: b, d, A and B lie between, and P + Q is below FARTHEST."""',
             "",
             f"SLACK = {certified.SLACK!r}  # 1 + 2**-20",
         ],
         [
-            _function("single", single.SINGLE, ("A", "B", "BB", "c1", "e1", "c2", "e2", "delta_3", "E")),
+            _function("single", single.SINGLE, single.RESULTS),
             _function("tangent_beyond", lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
             _function("tangent_within", lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
             _function("chord", lines.CHORD, ("below", "above")),

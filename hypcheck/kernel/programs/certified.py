@@ -22,12 +22,20 @@ Slopes, by the same count (10 factors in a term at most): g'(B) = (3B + 2c2) B +
 The bounds are rounded themselves, by less than 2⁻⁴⁰ of their value: they are sums and products of positive numbers, of
 fewer than 100 factors (1 ± u) each. SLACK = 1 + 2⁻²⁰ covers that.
 
-Range. Asked for: b, d, A and B in 2^±100. So α and γ lie in 2^±151, and no size, A, B or AB over- or underflows. A
-centre coordinate whose square underflows (or is flushed to zero) changes P by at most 2^-1021/2^-200 and c1, c2 by less
-than TINY = 2⁻⁵⁰⁰, which e1 and e2 contain. E1 ≥ 3 TINY, E2 ≥ 9 e0 > 2⁻²⁵⁰ and E3 ≥ 3 m0 e2 > 2⁻⁷⁰⁰ exceed every
-underflow in h1, h2, h3 (2⁻¹⁰²¹ times a small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to
-Δ. Whatever overflows makes E infinite or NaN, and then every comparison that decides is false: delta_3 > E and
-delta_3 < −E stand before all of them.
+Range. Asked for: b, d, A and B in 2^±100, and P + Q < FARTHEST = 2²⁰⁰. So α and γ lie in 2^±151, and no size, A, B or
+AB over- or underflows. Nothing that follows from P and Q overflows: with M2 = A + B + 1 + P + Q < 2²⁰¹ and
+M1 = AB + A + B + BP + AQ < 2³⁰¹, the values and their bounds are m2 < 2²⁰², m1 < 2³⁰², m0 < 2²⁰¹, a1 < 2⁴⁰⁷, a2 < 2⁵⁰⁷
+and a3 < 2⁶⁰⁷, so 4 a1 a3 + a2² < 2¹⁰¹⁷, and the slopes stay below 2³⁰⁴.
+
+P + Q has to be asked for: what overflows is infinite or NaN in round to nearest, and every comparison that decides is
+false; but rounded down or towards zero it is the largest finite number, and a difference of two such numbers means
+nothing. The question itself is safe in every mode: x² + y² overflows to 2¹⁰²³ at least, hence P ≥ 2⁸²² as b² < 2²⁰⁰,
+and Q likewise; infinity and NaN are not below FARTHEST.
+
+Underflow. A centre coordinate whose square underflows (or is flushed to zero) changes P by at most 2^-1021/2^-200 and
+c1, c2 by less than TINY = 2⁻⁵⁰⁰, which e1 and e2 contain. E1 ≥ 3 TINY, E2 ≥ 9 e0 > 2⁻²⁵⁰ and E3 ≥ 3 m0 e2 > 2⁻⁷⁰⁰
+exceed every underflow in h1, h2, h3 (2⁻¹⁰²¹ times a small factor), hence E, which contains a1 E3, a3 E1 and a2 E2,
+what these do to Δ.
 """
 
 from __future__ import annotations
@@ -48,6 +56,7 @@ CONSTANTS = {
     "tiny": 2.0**-500,
     "least": 2.0**-100,
     "greatest": 2.0**100,
+    "farthest": 2.0**200,
 }
 """The inputs beside the seven columns, by name."""
 
@@ -62,6 +71,8 @@ _USABLE = """
     A_not_large = A < greatest
     B_not_small = B > least
     B_not_large = B < greatest
+    P_plus_Q = P + Q
+    not_too_far = P_plus_Q < farthest
     positive_radial = alpha_usable and gamma_usable
     b_usable = b_not_small and b_not_large
     d_usable = d_not_small and d_not_large
@@ -70,7 +81,8 @@ _USABLE = """
     radial_usable = b_usable and A_usable
     axial_usable = d_usable and B_usable
     ratios_usable = radial_usable and axial_usable
-    usable = positive_radial and ratios_usable
+    sizes_usable = positive_radial and ratios_usable
+    usable = sizes_usable and not_too_far
 """
 
 _COEFFICIENT_BOUNDS = """
@@ -79,7 +91,6 @@ _COEFFICIENT_BOUNDS = """
     BP_plus_AQ = BP + AQ
     terms_1 = sizes_1 + BP_plus_AQ
     sizes_2 = A_plus_B + 1
-    P_plus_Q = P + Q
     terms_2 = sizes_2 + P_plus_Q
     relative_1 = u_12 * terms_1
     e1 = relative_1 + tiny

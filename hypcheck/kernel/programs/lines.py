@@ -17,8 +17,9 @@ A product that underflows (or is flushed) changes a side by at most 2⁻¹⁰²�
 M ≤ GREATEST_SLOPE = 2⁴⁰⁰ that is less than uK; the line R ≥ 0, K = M = 0, needs no margin. `reach` is the square of a
 height ≥ 2⁻¹⁵⁰ less a margin, so that it bounds T and not T̂ alone.
 
-Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing overflows, and no comparison with an infinity
-or NaN passes for a proof. It suffices to ask that of the sum of R + T over many rows, since no term is negative.
+Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing overflows, and no comparison with an infinity,
+NaN, or the largest finite number that an overflow becomes when it is rounded down, passes for a proof. It suffices to
+ask that of the sum of R + T over many rows, since no term is negative.
 """
 
 from __future__ import annotations

@@ -17,8 +17,8 @@ since a square that underflows, or is flushed to zero, is off by 2⁻¹²⁴ at 
 moved to the safe side by MARGIN (|K| + 2 M reach) + tiny, MARGIN = 16u, hence decides about the exact V; half of that
 is for its own rounding to float32. T̂ ≤ LESS reach, LESS = 1 − MARGIN, says T ≤ `reach` of the exact T.
 
-Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < CAP = 2¹⁰⁰ nothing overflows; infinities and
-NaN are not below CAP. Scenes outside are left to the lines in float64.
+Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < CAP = 2¹⁰⁰ nothing overflows; infinities,
+NaN and the largest float32 are not below CAP. Scenes outside are left to the lines in float64.
 """
 
 from __future__ import annotations

@@ -6,6 +6,9 @@ value is off by at most γ_k M, M being the sum of its terms' sizes, without any
 order, for the rounding of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1,
 H2 = M2 M1 + 9 AB and H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term.
 What it leaves open, or what lies outside c² > a > 1, goes to the integers.
+
+Range. b, d, A and B in 2^±100 and P + Q < FARTHEST = 2²⁰⁰ are asked for, as in `certified` and for its reason:
+M2 < 2²⁰¹ and M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
 """
 
 from __future__ import annotations
@@ -38,4 +41,6 @@ SINGLE = program_of(
     BB = B * B
 """,
 )
-"""From a row to delta_3, c1 and c2 with their error bounds E, e1 and e2, and to B²."""
+
+RESULTS = ("A", "B", "BB", "P_plus_Q", "c1", "e1", "c2", "e2", "delta_3", "E")
+"""What a kernel takes from it: delta_3, c1 and c2 with their error bounds E, e1 and e2, and what the range asks of."""

@@ -1,5 +1,5 @@
 HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int far, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
     int block;
     @LINE_CONSTANTS@
     for (block = 0; block < blocks; block++) {
@@ -7,7 +7,7 @@ HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_scene *scene, int blocks, cons
         HC_NUMBER sum = HC_SET(0.0);
         hc_bits found = {0, 0, 0};
         int at;
-        if (far)
+        if (fetch)
             for (at = 0; at < HC_BLOCK; at += 8) {
                 HC_FETCH(x_of, base + at + HC_AHEAD);
                 HC_FETCH(y_of, base + at + HC_AHEAD);

@@ -9,6 +9,7 @@ static int hc_single(const double row[7]) {
     /* end of the program "single" */
     if (!(alpha > 0 && gamma > 0 && b > HC_least && b < HC_greatest && d > HC_least && d < HC_greatest)) return 2;
     if (!(A > HC_slack && A < HC_greatest && B > HC_least && B < HC_greatest && BB > HC_slack * A)) return 2;
+    if (!(P_plus_Q < HC_farthest)) return 2; /* beyond, products overflow: rounded towards zero, they would look finite */
     if (delta_3 < -E) return 0;
     if (!(delta_3 > E)) return 2;
     if (c2 < -e2 && c1 > e1) return 1;
