@@ -11,7 +11,6 @@ import re
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from multiprocessing import active_children
 from typing import TYPE_CHECKING, Any
 
 from hypcheck.errors import InputError, UnavailableError
@@ -22,6 +21,7 @@ from hypcheck.version import VERSION
 
 if TYPE_CHECKING:
     from distributed import Client
+    from distributed.security import Security
 
 LOCAL = re.compile(r"local:([1-9]\d{0,3})")
 """`local:N`: a scheduler here, with N workers."""
@@ -30,11 +30,7 @@ CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
 CLOSE = 5
-CLOSE_LOCAL = 1
-"""Seconds that the workers of a scheduler that is started here have to close: they hold nothing that could be lost."""
-
-ALLOWED_FAILURES = 1
-"""Of a scheduler that is started here: a task may cost this many workers and one more, and then is tried alone."""
+"""Seconds that a client has to close."""
 
 SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
 """What must be of one version everywhere, of Python its first two numbers."""
@@ -70,48 +66,24 @@ def connected(address: str) -> Iterator[Client]:
         with _client(address) as client:
             yield client
         return
-    with _started(int(local[1])) as found, _client(found) as client:
+    from hypcheck.gate.local_cluster import local_cluster  # noqa: PLC0415 - loads dask
+
+    with local_cluster(int(local[1])) as (found, security), _client(found, security) as client:
         yield client
 
 
 @contextmanager
-def _started(workers: int) -> Iterator[str]:
-    """The address of a scheduler that runs here with so many workers, which end with the block, willing or not."""
-    from distributed import LocalCluster  # noqa: PLC0415
-
-    others = active_children()
-    try:
-        # The threads that start workers, again and again, hold interrupts as long as they live.
-        with warnings.catch_warnings(), interrupts_held():
-            warnings.simplefilter("ignore")  # of the port of a page that nobody asked for
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                dashboard_address=None,
-                memory_limit=0,
-                silence_logs=logging.CRITICAL,
-                scheduler_kwargs={"allowed_failures": ALLOWED_FAILURES},
-            )
-        try:
-            yield cluster.scheduler_address
-        finally:
-            with suppress(Exception):  # of workers that take their time
-                cluster.close(timeout=CLOSE_LOCAL)
-    finally:
-        for process in set(active_children()) - set(others):
-            process.kill()
-            process.join()
-
-
-@contextmanager
-def _client(address: str) -> Iterator[Client]:
+def _client(address: str, security: Security | None = None) -> Iterator[Client]:
+    """A client; without `security` it connects as dask's settings say."""
     from distributed import Client  # noqa: PLC0415
+    from distributed.security import Security  # noqa: PLC0415
 
-    _require_scheduler(address)
+    security = security or Security()
+    _require_scheduler(address, security)
     try:
         with warnings.catch_warnings(), interrupts_held():
             warnings.simplefilter("ignore")  # of versions, which are looked at below
-            client = Client(address, timeout=CONNECT, set_as_default=False, name="hypcheck")
+            client = Client(address, timeout=CONNECT, security=security, set_as_default=False, name="hypcheck")
     except Exception as error:  # noqa: BLE001 - whatever it is that answers there may lead to any
         raise _nobody(address, error) from None
     try:
@@ -127,17 +99,16 @@ def _client(address: str) -> Iterator[Client]:
             client.close(timeout=CLOSE)
 
 
-def _require_scheduler(address: str) -> None:
+def _require_scheduler(address: str, security: Security) -> None:
     """Raise InputError where nobody answers as dask does, or dask of another version.
 
     A Client would find that out by errors of its own, some of them printed as tracebacks when it is freed.
     """
     from distributed.core import rpc  # noqa: PLC0415
-    from distributed.security import Security  # noqa: PLC0415
     from distributed.versions import get_versions  # noqa: PLC0415
 
     async def who() -> tuple[str, Any]:
-        async with rpc(address, CONNECT, connection_args=Security().get_connection_args("client")) as there:
+        async with rpc(address, CONNECT, connection_args=security.get_connection_args("client")) as there:
             kind = str((await there.identity())["type"])
             return kind, await there.versions(packages=["hypcheck"]) if kind == "Scheduler" else None
 
