@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS, SIZES, trouble_with
+from hypcheck.visible import counted
 
 Rows = NDArray[np.float64]
 Positions = NDArray[np.int8]
@@ -40,7 +41,8 @@ def require_unmasked(subject: str, values: object) -> None:
     """Raise InputError for an array with masked values: without their mask they would be answered like others."""
     ma = sys.modules.get("numpy.ma")  # where nobody has imported it, nothing is masked, and that takes a while
     if ma is not None and isinstance(values, ma.MaskedArray) and (count := int(ma.getmaskarray(values).sum())):
-        raise InputError(f"{subject} masked in {count} places; fill these, with nan or a number")
+        these = "it" if count == 1 else "these"
+        raise InputError(f"{subject} masked in {counted(count, 'place')}; fill {these}, with nan or a number")
 
 
 def invalid(rows: Rows) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""Text that others wrote, as a message, a report or a terminal may show it."""
+"""Text in messages, reports and on a terminal: what others wrote, made harmless, and numbers with their nouns."""
 
 from __future__ import annotations
 
@@ -33,6 +33,11 @@ def _without_middle(text: str) -> str:
 def shortened(text: str, width: int) -> str:
     """The text, cut to `width` characters with an ellipsis where it is longer."""
     return text if len(text) <= width else text[: width - 1].rstrip() + "…"
+
+
+def counted(number: int, noun: str, many: str | None = None) -> str:
+    """A number with its noun: "1 case", "5,600 cases"; `many` is the plural that is not the noun with an s."""
+    return f"{number:,} {noun if number == 1 else many or f'{noun}s'}"
 
 
 def _escaped(character: str) -> str:

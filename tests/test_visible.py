@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.visible import shortened, visible
+from hypcheck.visible import counted, shortened, visible
 from tests import report_samples as samples
 
 
@@ -40,3 +40,8 @@ def test_no_more_is_shown_than_there_is_room_for(foreign, width):
 
 def test_longer_text_ends_with_an_ellipsis():
     assert [shortened("abc def", width) for width in (7, 6, 5, 2)] == ["abc def", "abc d…", "abc…", "a…"]
+
+
+def test_a_number_has_its_noun_in_the_singular_of_one_alone():
+    assert [counted(number, "row") for number in (0, 1, 2, 5600)] == ["0 rows", "1 row", "2 rows", "5,600 rows"]
+    assert [counted(number, "box", "boxes") for number in (1, 2)] == ["1 box", "2 boxes"]

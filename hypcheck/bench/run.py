@@ -224,8 +224,6 @@ def _measure(run: _Run, advance: Advance) -> None:
             run.outcome.wrong.append(f"{line['method']}: {line['reason']}")
     for line in costs.lines(run.plan, found):
         run.recorder.add("cost", **line)
-        if line["verdict"] == costs.INCONCLUSIVE and run.baseline is None:  # else it is about the baseline
-            run.outcome.inconclusive.append(f"{line['claim']}, {line['scene']}")
 
 
 def _compare(run: _Run, advance: Advance) -> None:

@@ -51,17 +51,27 @@ class CaseId:
 def select(patterns: Sequence[str] = ()) -> tuple[Family, ...]:
     """The families of these names and globs in the order of the table; without patterns all but the extreme ones.
 
-    A glob reaches an extreme family only where it begins with "extreme"; "extreme" alone is all of them. Raises
-    InputError for a pattern that names nothing, with the names nearest to it.
+    A glob reaches every family whose name it matches, the extreme ones too: "*" is all; "extreme" is all of the extreme
+    ones. Raises InputError for a pattern that names nothing, with the names nearest to it.
     """
+    if not patterns:
+        return tuple(family for family in FAMILIES.values() if not family.extreme)
     chosen: set[str] = set()
-    for pattern in patterns or ("*",):
+    for pattern in patterns:
         known = FAMILIES if len(pattern) <= _LONGEST_PATTERN else {}
         named = {name for name, family in known.items() if _asks_for(pattern, family)}
         if not named:
             raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
         chosen |= named
     return tuple(family for name, family in FAMILIES.items() if name in chosen)
+
+
+def family_of(name: str) -> Family:
+    """The family of exactly this name, one for given sizes (razor@2.0,…) too. Raises InputError where there is none."""
+    family = fixed_sizes.family_at(name) if fixed_sizes.MARK in name else FAMILIES.get(name)
+    if family is None:
+        raise InputError(f"there is no family {name!r}; {_advice(name)}")
+    return family
 
 
 def is_extreme(name: str) -> bool:
@@ -80,9 +90,10 @@ def parse_case_id(text: str) -> CaseId:
     if match is None:
         raise InputError(f"{text!r} is no case id; it must be family/version/seed/index, as in tower-body/1/0/17")
     name, version, seed, index = match.group(1), *map(int, match.groups()[1:])
-    family = fixed_sizes.family_at(name) if fixed_sizes.MARK in name else FAMILIES.get(name)
-    if family is None:
-        raise InputError(f"case {text!r}: there is no family {name!r}; {_advice(name)}")
+    try:
+        family = family_of(name)
+    except InputError as error:
+        raise InputError(f"case {text!r}: {error}") from None
     if version != family.version:
         raise InputError(f"case {text!r}: this version makes {name} by generator {family.version}, not {version}")
     return CaseId(family, seed, index)
@@ -96,11 +107,7 @@ def row_of(text: str) -> Pair:
 
 
 def _asks_for(pattern: str, family: Family) -> bool:
-    if pattern == EXTREME:
-        return family.extreme
-    if family.extreme and pattern != family.name and not pattern.startswith(EXTREME):
-        return False
-    return fnmatchcase(family.name, pattern)
+    return family.extreme if pattern == EXTREME else fnmatchcase(family.name, pattern)
 
 
 def _advice(name: str) -> str:

@@ -41,9 +41,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     take all methods in turn. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
     With --baseline, times relative to the reference method are held to those of an earlier record, of this machine or
-    another. Ends with 0 when all held, 1 when a method that promises to be exact erred or answered otherwise while it
-    was timed, 3 when one is slower than allowed, 4 when the machine was too noisy to tell, 5 when a SPEC could not be
-    started.
+    another. That and --kernel are the gates of speed, and without one no time fails the run: 3 when one is slower than
+    the gate allows, 4 when the machine was too noisy to tell. Ends with 1 when a method that promises to be exact
+    erred, or one answered otherwise while it was timed, 5 when a SPEC could not be started, else with 0.
     """
     from dataclasses import replace
     from tempfile import TemporaryDirectory

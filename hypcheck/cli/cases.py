@@ -10,6 +10,7 @@ import click
 from hypcheck.cli.groups import Group
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import InputError
+from hypcheck.visible import counted
 
 _FORMATS = ("json", "csv", "npy")
 
@@ -51,6 +52,8 @@ def show(name: str, as_json: bool) -> None:
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:
     """Make the first rows of a family's seed: the same bytes on every machine, and a longer run begins with a shorter.
 
+    FAMILY is one that `cases list` shows, or one for given sizes, such as razor@2.0,17.8,0.25,0.15,z=-17.8:17.8.
+
     As json they are a vector file, every row labelled and proved; csv has ids and rows, npy rows alone, float64 (n, 7).
     """
     from hypcheck.casebook.frozen.generating import generate as write
@@ -80,8 +83,9 @@ def check(context: click.Context, files: tuple[str, ...]) -> None:
         checked += report.count
         faulty += len({fault.case for fault in report.faults})
         heads += bool(report.head)
-    at_heads = f"; what {heads} of the files say at their head is wrong" if heads else ""
-    click.echo(f"{checked} cases checked, {faulty or 'none'} with a wrong label{at_heads}")
+    say = "says at its head" if heads == 1 else "say at their heads"
+    at_heads = f"; what {heads} of the files {say} is wrong" if heads else ""
+    click.echo(f"{counted(checked, 'case')} checked, {faulty or 'none'} with a wrong label{at_heads}")
     context.exit(Exit.WRONG if faulty or heads else Exit.HELD)
 
 

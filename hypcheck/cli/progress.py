@@ -31,6 +31,13 @@ def in_colour() -> bool:
     return is_terminal(sys.stdout) and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
+def in_lines() -> dict[str, Any]:
+    """How standard output shows a summary: cut to a width and perhaps in colour on a terminal, whole in a pipe."""
+    from hypcheck.report.terminal import WIDTH
+
+    return {"colour": in_colour(), "width": WIDTH if is_terminal(sys.stdout) else None}
+
+
 @contextmanager
 def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> Iterator[Pace]:
     """A bar of so many steps, of which some were `done` before.

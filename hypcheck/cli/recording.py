@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from hypcheck.cli.progress import in_colour, watched
+from hypcheck.cli.progress import in_lines, watched
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
 from hypcheck.visible import visible
 
@@ -125,7 +125,7 @@ def report(record: Record, out: Path) -> None:
     from hypcheck.report.terminal import summary_lines
     from hypcheck.report.write import write_reports
 
-    _tell(record, summary_lines(record, write_reports(record, out), colour=in_colour()))
+    _tell(record, summary_lines(record, write_reports(record, out), **in_lines()))
 
 
 def _tell(record: Record, lines: Sequence[str]) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hypcheck.cli.progress import in_colour
+from hypcheck.cli.progress import in_lines
 from hypcheck.errors import InputError
 from hypcheck.report.write import REPORTS, kept, write_reports
 from hypcheck.tables.streams import same_file, writing
@@ -90,7 +90,7 @@ def _print(record: Record, name: str, against: Record | None) -> None:
     from hypcheck.report.write import Around
 
     if name == "terminal":
-        for line in summary_lines(record, (), against=against, colour=in_colour()):
+        for line in summary_lines(record, (), against=against, **in_lines()):
             click.echo(line)
         return
     content = REPORTS[name].render(record, Around(against=against))

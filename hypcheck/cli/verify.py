@@ -47,7 +47,9 @@ _COUNT = Whole(1)
 @click.option(
     "--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True, help="For the reports."
 )
-@click.option("--families", help="Names and globs, separated by commas.  [default: all but the extreme ones]")
+@click.option(
+    "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
+)
 @click.option("--count", type=Whole(0), default=400, show_default=True, help="Generated rows of each family.")
 @click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True, help="Of the generated rows.")
 @click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="Backward error that passes, in u.")

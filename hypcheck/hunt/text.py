@@ -14,6 +14,7 @@ from hypcheck.hunt.target import Target
 from hypcheck.judge import in_words
 from hypcheck.methods.faults import Outcome
 from hypcheck.pairs import COLUMNS, Pair
+from hypcheck.visible import counted
 
 
 def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
@@ -22,11 +23,11 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
     beyond = sum(cluster.beyond for cluster in found)
     tolerated = sum(cluster.tolerated for cluster in run.findings.clusters.values())
     tolerance = float(run.target.criterion.tolerance)
-    yield f"{_name(run.target)}: {run.asked:,} rows asked in {run.seconds:.1f} s, seed {run.plan.seed}"
+    yield f"{_name(run.target)}: {counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
     judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
-    yield f"{run.wrong:,} answers were wrong{judged if run.wrong else ''}"
+    yield f"{_answers(run.wrong)} wrong{judged if run.wrong else ''}"
     if run.abstained:
-        yield f'{run.abstained:,} answers were "cannot say"'
+        yield f'{_answers(run.abstained)} "cannot say"'
     if found:
         yield f"kinds of wrong answers: {len(found)}, the worst first"
     for number, cluster in enumerate(found[:most], start=1):
@@ -34,7 +35,8 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
         yield from _cluster(number, cluster, run.target)
     if len(found) > most:
         yield ""
-        yield f"and {len(found) - most} more kinds, the worst of them {_u(found[most].worst)}; --show shows more"
+        more = counted(len(found) - most, "more kind")
+        yield f"and {more}, the worst of them {_u(found[most].worst)}; --show shows more"
     yield from _faults(run)
 
 
@@ -42,10 +44,14 @@ def minimised_lines(run: Minimised) -> Iterator[str]:
     """The report of a minimisation."""
     given = run.first.case.row
     steps = len(run.steps) - 1
-    yield f"{_name(run.target)}: {steps} step{'' if steps == 1 else 's'}, {run.asked:,} rows asked"
+    yield f"{_name(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
     yield _titled("given", f"{decimals(given)}, {_u(run.first)}")
     yield _titled("where", run.last.place.words)
     yield from _finding(run.last, run.target)
+
+
+def _answers(number: int) -> str:
+    return f"{counted(number, 'answer')} {'was' if number == 1 else 'were'}"
 
 
 def _cluster(number: int, cluster: Cluster, target: Target) -> Iterator[str]:
@@ -70,7 +76,7 @@ def _finding(finding: Finding, target: Target) -> Iterator[str]:
 def _faults(run: Hunt) -> Iterator[str]:
     for outcome, fault in run.faults.items():
         yield ""
-        yield f"{outcome.label}: {fault.count:,} rows; the first: {fault.reason}"
+        yield f"{outcome.label}: {counted(fault.count, 'row')}; the first: {fault.reason}"
         if outcome is not Outcome.NOT_RUN:
             yield _titled("row", f"{decimals(fault.row)}  ({', '.join(COLUMNS)})")
 

@@ -18,6 +18,7 @@ from hypcheck.methods.runs import Allowance, OverError, Runs
 from hypcheck.methods.session import Session
 from hypcheck.methods.spec import Spec
 from hypcheck.rows import Rows, as_rows
+from hypcheck.visible import counted
 
 FAULTS = 1 << 14
 """Rows of one implementation that may be at fault without ending it: who always fails is not asked for every row."""
@@ -170,7 +171,8 @@ class Implementation:
         self._check_scene(rows, by_scene=by_scene)
         least = 0 if self.spec.kind == "library" else 1
         if not least <= len(rows) <= LARGEST or repeat < 1:
-            raise InputError(f"{len(rows)} rows cannot be timed {repeat} times; {least} to {LARGEST} can, once or more")
+            asked = f"{counted(len(rows), 'row')} cannot be timed {counted(repeat, 'time')}"
+            raise InputError(f"{asked}; {least} to {LARGEST} can, once or more")
         try:
             session = self._runs.session()
             began = time.monotonic_ns()

@@ -82,11 +82,12 @@ class Runs:
         if fault.fatal and self.left.restarts:
             self.left = replace(self.left, restarts=self.left.restarts - 1)
         elif fault.fatal:
-            self._end(f"not asked: {self._most.restarts} restarts are used up; the last process: {reason}")
+            self._end(f"not asked: {_used_up(self._most.restarts)}; the last process: {reason}")
         elif self.left.faults > 1:
             self.left = replace(self.left, faults=self.left.faults - 1)
         else:
-            self._end(f"not asked: {self._most.faults:,} rows before were at fault; the last: {reason}")
+            were = "row before was" if self._most.faults == 1 else "rows before were"
+            self._end(f"not asked: {self._most.faults:,} {were} at fault; the last: {reason}")
 
     @property
     def stderr(self) -> tuple[str, ...]:
@@ -104,3 +105,10 @@ class Runs:
         session, self._session = self._session, None
         if session:
             session.kill()
+
+
+def _used_up(restarts: int) -> str:
+    """That no restart is left of those that were allowed."""
+    if not restarts:
+        return "no restart is allowed"
+    return "the one restart is used up" if restarts == 1 else f"{restarts} restarts are used up"

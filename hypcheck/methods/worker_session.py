@@ -17,7 +17,7 @@ from hypcheck.methods.process import Process
 from hypcheck.methods.session import Answers
 from hypcheck.methods.spec import Spec
 from hypcheck.rows import Rows
-from hypcheck.visible import visible
+from hypcheck.visible import counted, visible
 
 _PROGRAM = """\
 import sys
@@ -80,14 +80,14 @@ class WorkerSession:
         asked = frames.CLASSIFY_SCENE if by_scene else frames.CLASSIFY
         width, body = self._ask(asked, rows, 1, frames.ANSWERS)
         if len(body) != width * len(rows):
-            raise _broken(f"{len(body)} bytes of answers to {len(rows)} rows")
+            raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(len(rows), 'row')}")
         return frames.integers(body, width)
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int]:
         """Nanoseconds for `repeat` times the rows and the sum of the answers."""
         _, body = self._ask(frames.TIME_SCENE if by_scene else frames.TIME, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
-            raise _broken(f"{len(body)} bytes of times")
+            raise _broken(f"{counted(len(body), 'byte')} of times")
         nanoseconds, total = frames.TIMES.unpack(body)
         return nanoseconds, total
 

@@ -6,6 +6,8 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
+from hypcheck.visible import counted
+
 WIDTH = 100
 SHOWN = 8
 """Phantoms that are told one by one."""
@@ -16,17 +18,18 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
     trees, walker, steps = result["trees"], result["walker"], result["steps"]
     wide = sum(tree["type"] == 1 for tree in trees)
     yield (
-        f"{result['scene']}, seed {result['seed']}: {len(trees)} trees ({wide} of type 1, {len(trees) - wide} of "
-        f"type 2), a walker of b = {walker['b']:g}, d = {walker['d']:g}"
+        f"{result['scene']}, seed {result['seed']}: {counted(len(trees), 'tree')} ({wide} of type 1, "
+        f"{len(trees) - wide} of type 2), a walker of b = {walker['b']:g}, d = {walker['d']:g}"
     )
     yield from _regime(result["outside_stated_regime"])
     yield (
-        f"{steps['tried']:,} steps of {walker['step']:g} tried by Table 2 in float32: {steps['made']:,} made, "
+        f"{counted(steps['tried'], 'step')} of {walker['step']:g} tried by Table 2 in float32: {steps['made']:,} made, "
         f"{steps['contact']:,} rightly refused,"
     )
     yield f"  {steps['phantom']:,} stopped by a phantom, {steps['edge']:,} turned back at the region's edge"
     if steps["wrongly_allowed"]:
-        yield f"  {steps['wrongly_allowed']:,} of the made ones lead into contact"
+        lead = "leads" if steps["wrongly_allowed"] == 1 else "lead"
+        yield f"  {steps['wrongly_allowed']:,} of the made ones {lead} into contact"
     yield from _questions(result["questions"])
     phantoms = result["phantoms"]
     yield (
@@ -37,7 +40,7 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
     if result["ways"] is not None:
         ways = result["ways"]
         touching = "1 touches" if ways["touching"] == 1 else f"{ways['touching']:,} touch"
-        yield f"{ways['made']:,} made steps: {touching} a tree on the way"
+        yield f"{counted(ways['made'], 'made step')}: {touching} a tree on the way"
         for contact in ways["contacts"][:SHOWN]:
             start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
             yield f"  ({start}) to ({end}): {contact['tree']} first at {contact['first_upper']:.3g} of the way"
@@ -53,9 +56,11 @@ def _regime(names: list[str]) -> Iterator[str]:
 def _questions(questions: dict[str, int]) -> Iterator[str]:
     asked, line = questions["asked"], questions["line"]
     share = f" ({100 * line / asked:.2f} %)" if asked else ""
-    yield f"{asked:,} questions, one for each step and tree: a line answers {line:,} of them{share} without Δ"
-    if questions["outside_height"]:
-        yield f"  {questions['outside_height']:,} more are outside the modelled height and have no answer"
+    yield f"{counted(asked, 'question')}, one for each step and tree: a line answers {line:,} of them{share} without Δ"
+    outside = questions["outside_height"]
+    if outside:
+        verbs = ("is", "has") if outside == 1 else ("are", "have")
+        yield f"  {outside:,} more {verbs[0]} outside the modelled height and {verbs[1]} no answer"
 
 
 def _stops(stops: list[dict[str, Any]]) -> Iterator[str]:

@@ -6,6 +6,8 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from hypcheck.visible import counted
+
 WIDTH = 100
 SHOWN = 6
 """First contacts that are told one by one; the JSON has more."""
@@ -65,22 +67,22 @@ def _start(start: dict[str, Any]) -> str:
 def _flown(flights: dict[str, Any]) -> Iterator[str]:
     paths = flights["paths"]
     yield (
-        f"{len(paths)} flights of {len(paths[0]['positions'])} positions, steps of {flights['step']:g} "
-        f"({flights['speed']:g} m/s for {flights['time']:g} s)"
+        f"{counted(len(paths), 'flight')} of {counted(len(paths[0]['positions']), 'position')}, "
+        f"steps of {flights['step']:g} ({flights['speed']:g} m/s for {flights['time']:g} s)"
     )
     for number, path in enumerate(paths, start=1):
         least, most = min(path["discriminant"]), max(path["discriminant"])
         yield (
-            f"  {number}: {path['executions']} executions, {path['touching']} with Δ ≤ 0, "
-            f"{path['refused']} movements refused, {path['outside_height']} draws outside the modelled height; "
-            f"Δ from {least:.3g} to {most:.3g}"
+            f"  {number}: {counted(path['executions'], 'execution')}, {path['touching']} with Δ ≤ 0, "
+            f"{counted(path['refused'], 'movement')} refused, {counted(path['outside_height'], 'draw')} "
+            f"outside the modelled height; Δ from {least:.3g} to {most:.3g}"
         )
     if flights["ways"] is not None:
         yield from _ways(flights["ways"])
 
 
 def _table(table: dict[str, Any], distance: float) -> Iterator[str]:
-    yield f"Table 5: executions with Δ ≤ 0, percent; means of {table['runs']:,} runs of {distance:g} m"
+    yield f"Table 5: executions with Δ ≤ 0, percent; means of {counted(table['runs'], 'run')} of {distance:g} m"
     yield "  (± standard error; below: printed, and ours less printed in standard errors of the difference)"
     yield "       v (m/s)" + "".join(f"{speed:>14}" for speed in table["v"])
     rows = zip(
@@ -133,15 +135,18 @@ def _with_error(percent: float, error: float | None) -> str:
 def _ways(ways: dict[str, Any]) -> Iterator[str]:
     for name in ("vertical", "horizontal"):
         moves, touching, begun = ways[name], ways[f"{name}_touching"], ways[f"{name}_begun"]
+        touch = "touches" if touching == 1 else "touch"
         yield (
-            f"  {moves:,} accepted {name} moves: {touching:,} touch{_share(touching, moves)}, "
+            f"  {counted(moves, f'accepted {name} move')}: {touching:,} {touch}{_share(touching, moves)}, "
             f"{begun:,} from their beginning and {touching - begun:,} on the way"
         )
     yield from _contacts(ways["contacts"])
     turns, touching = ways["turns"], ways["turns_touching"]
-    yield f"  {turns:,} turns in place: {touching:,} sweep a rotor through contact{_share(touching, turns)}"
+    sweep = f"{touching:,} {'sweeps' if touching == 1 else 'sweep'} a rotor through contact{_share(touching, turns)}"
+    yield f"  {counted(turns, 'turn')} in place: {sweep}"
     yield (
-        f"  at the ends of moves the procedure was wrong {ways['wrongly_accepted'] + ways['wrongly_refused']:,} times"
+        "  at the ends of moves the procedure was wrong "
+        + counted(ways["wrongly_accepted"] + ways["wrongly_refused"], "time")
     )
 
 

@@ -29,7 +29,7 @@ def failures(record: Record) -> Iterator[Failure]:
         group = f"{line['workload']}, {line['mode']}"
         yield Failure(SUBJECT, line["method"], group, "refused", f"{line['method']} is not timed: {line['reason']}")
     yield from _of_scenes(record)
-    held = [*_compared(record), *_targets(record), *_claims(record)]
+    held = [*_compared(record), *_targets(record)]
     yield from sorted(held, key=lambda each: each.kind != SLOWER)
 
 
@@ -87,14 +87,6 @@ def _targets(record: Record) -> Iterator[Failure]:
                 f"{line['name']} misses its target, {line['target']}: {measured_}, wanted {figure(line['wanted'])}"
             )
             yield Failure(SUBJECT, line["name"], "target", kind, message)
-
-
-def _claims(record: Record) -> Iterator[Failure]:
-    """Claims of cost of which the run was too noisy to tell whether they hold; one with a baseline is about that."""
-    for line in [] if record.of("comparison") else record.of("cost"):
-        if line["verdict"] == INCONCLUSIVE:
-            message = f"too noisy to tell whether this holds, {line['scene']}: {line['claim']}"
-            yield Failure(SUBJECT, "claim of cost", line["scene"], INCONCLUSIVE, message)
 
 
 def clauses(record: Record) -> Iterator[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from hypcheck.record import Line, Record
-from hypcheck.report.benchmark import SUBJECT
+from hypcheck.report.benchmark import INCONCLUSIVE, SLOWER, SUBJECT
 from hypcheck.report.failure import Failure
 from hypcheck.report.measured import measured
 from hypcheck.report.suite import Case, Suite, Trouble, details
@@ -22,7 +22,7 @@ def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[Suit
     yield Suite("bench.times", tuple(_times(record, found)))
     yield Suite("bench.baseline", tuple(_comparison(line, found) for line in record.of("comparison")))
     yield Suite("bench.scenes", tuple(_scenes(record, found)))
-    yield Suite("bench.kernels", tuple(_kernel(line) for line in record.of("kernel")))
+    yield Suite("bench.kernels", tuple(_kernel(line, found) for line in record.of("kernel")))
 
 
 def _answers(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
@@ -61,11 +61,12 @@ def _comparison(line: Line, failed: Sequence[Failure]) -> Case:
     return Case(_name(line), trouble, (said,))
 
 
-def _kernel(line: Line) -> Case:
+def _kernel(line: Line, failed: Sequence[Failure]) -> Case:
     said = (
         f"wanted {figure(line['wanted'])}, measured {figure(line['measured'])}: {'met' if line['met'] else 'not met'}"
     )
-    return Case(f"{line['name']}: {line['target']}", output=(said, str(line["says"])))
+    missed = (_trouble(failed, kind, line["name"], "target") for kind in (SLOWER, INCONCLUSIVE))
+    return Case(f"{line['name']}: {line['target']}", next(filter(None, missed), None), (said, str(line["says"])))
 
 
 def _name(line: Line) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from hypcheck.record import Record
 from hypcheck.report.choice import IN_FLOATS
-from hypcheck.report.digest import implementations, oracle_totals, worst_error_u
+from hypcheck.report.digest import Implementation, implementations, oracle_totals, worst_error_u
 from hypcheck.report.measured import NEAREST, Measured, measured, workloads
 from hypcheck.report.text import counted, figure, listed
 
@@ -45,15 +45,29 @@ def paper_facts(record: Record) -> Iterator[str]:
 
 
 def method_facts(record: Record) -> Iterator[str]:
-    """For each precision how many methods err beyond the tolerance, and the one that does most."""
+    """For each precision how many methods err beyond the tolerance, and the answer that is farthest from right."""
+    tolerance = record.header["options"].get("tolerance")
+    beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(float(tolerance))} u"
     found = [each for each in implementations(record) if each.asked]
     for precision in dict.fromkeys(each.precision for each in found if not each.exact):
         methods = [each for each in found if each.precision == precision and not each.exact]
         wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
-        worst = max(methods, key=lambda each: worst_error_u(each.worst))
-        farthest = f"farthest off: {worst.name}, {figure(worst_error_u(worst.worst))} u"
-        farthest = f"{farthest} at {worst.worst['case']}" if worst.worst else "no answer is wrong"
-        yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond the tolerance; {farthest}"
+        yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond {beyond}; {_farthest(methods)}"
+
+
+_ALSO = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a known failure)"}
+"""What is said of the answer farthest off by its status: why it may not count as beyond the tolerance."""
+
+
+def _farthest(methods: Sequence[Implementation]) -> str:
+    """The answer with the greatest backward error; that none is wrong is said only where one was judged."""
+    method = max(methods, key=lambda each: worst_error_u(each.worst))
+    worst = method.worst
+    if worst is not None:
+        also = _ALSO.get(worst["status"], f" ({worst['status']})")
+        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst['case']}{also}"
+    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_ALSO))
+    return "no answer is wrong" if judged else "no answer was judged"
 
 
 def claim_facts(record: Record) -> Iterator[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 from hypcheck.record import Record
-from hypcheck.report.suite import Case, Suite
+from hypcheck.report.suite import Case, Suite, total
 from hypcheck.report.suites import suites
 from hypcheck.visible import visible
 
@@ -37,13 +37,13 @@ def _attributes(found: Sequence[Suite]) -> dict[str, str]:
     return {
         "tests": str(sum(len(suite.cases) for suite in found)),
         **{attribute: str(sum(suite.count(tag) for suite in found)) for tag, attribute in TAGS.items()},
-        "time": _seconds(sum(suite.milliseconds for suite in found)),
+        **_time(total(suite.milliseconds for suite in found)),
     }
 
 
 def _element(suite: Suite, case: Case) -> Xml.Element:
-    element = Xml.Element("testcase", {"classname": visible(f"hypcheck.{suite.name}"), "name": visible(case.name)})
-    element.set("time", _seconds(case.milliseconds))
+    names = {"classname": visible(f"hypcheck.{suite.name}"), "name": visible(case.name)}
+    element = Xml.Element("testcase", {**names, **_time(case.milliseconds)})
     if case.trouble is not None:
         message = visible(case.trouble.message)
         trouble = Xml.SubElement(element, case.trouble.tag, {"message": message})
@@ -55,5 +55,6 @@ def _element(suite: Suite, case: Case) -> Xml.Element:
     return element
 
 
-def _seconds(milliseconds: int) -> str:
-    return f"{milliseconds // 1000}.{milliseconds % 1000:03d}"
+def _time(milliseconds: int | None) -> dict[str, str]:
+    """The attribute in seconds; none where no time was measured, since 0.000 would be a false one."""
+    return {} if milliseconds is None else {"time": f"{milliseconds // 1000}.{milliseconds % 1000:03d}"}

@@ -20,12 +20,15 @@ class Trouble:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A test case; `output` are lines of its system-out. Times are whole milliseconds, so that sums add up."""
+    """A test case; `output` are lines of its system-out.
+
+    Its name does not depend on how it ended. Times are whole milliseconds, so that sums add up; None: not measured.
+    """
 
     name: str
     trouble: Trouble | None = None
     output: tuple[str, ...] = ()
-    milliseconds: int = 0
+    milliseconds: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +43,15 @@ class Suite:
         return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
 
     @property
-    def milliseconds(self) -> int:
-        """The time of all cases."""
-        return sum(case.milliseconds for case in self.cases)
+    def milliseconds(self) -> int | None:
+        """The time of all cases that have one; None where none has."""
+        return total(case.milliseconds for case in self.cases)
+
+
+def total(times: Iterable[int | None]) -> int | None:
+    """The sum of the times that were measured; None where none was."""
+    known = [time for time in times if time is not None]
+    return sum(known) if known else None
 
 
 def details(failed: Iterable[Failure]) -> Iterator[str]:

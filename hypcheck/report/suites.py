@@ -24,7 +24,7 @@ from hypcheck.report.digest import (
 )
 from hypcheck.report.failure import Failure
 from hypcheck.report.replays import Replays
-from hypcheck.report.suite import Case, Suite, Trouble, details
+from hypcheck.report.suite import Case, Suite, Trouble, details, total
 from hypcheck.report.text import classify_command, counted, figure, from_hex
 from hypcheck.report.verdict import UNFINISHED, failures, verdict
 
@@ -35,21 +35,36 @@ _EVER = 1e15
 def suites(record: Record) -> Iterator[Suite]:
     """The suites of a record, some of them empty."""
     failed = failures(record)
-    yield Suite("run", (_ended(record, failed),))
+    others = list(_others(record, failed))
+    yield Suite("run", (replace(_ended(record, failed), milliseconds=_rest(record, others)),))
+    yield from others
+
+
+def _rest(record: Record, others: Iterable[Suite]) -> int | None:
+    """The time of the run that no other case accounts for; None where the run has no end, or no time."""
+    seconds = None if record.footer is None else record.footer.get("seconds")
+    if seconds is None:
+        return None
+    whole: int = round(min(1000 * seconds, _EVER))
+    return max(0, whole - (total(suite.milliseconds for suite in others) or 0))
+
+
+def _others(record: Record, failed: list[Failure]) -> Iterator[Suite]:
+    """The suites behind that of the run itself."""
     yield Suite("proofs", tuple(_named_apart(_proof(line) for line in record.of("proof"))))
     yield Suite("equations", tuple(_named_apart(_equation(line) for line in record.of("equation"))))
-    for total in oracle_totals(record):
-        lines = [line for line in record.of("oracle") if line["oracle"] == total.name]
-        if total.unavailable is not None:
-            trouble = Trouble("skipped", "unavailable", f"not available: {total.unavailable}")
-            yield Suite(f"oracles.{total.name}", (Case("available", trouble),))
+    for oracle in oracle_totals(record):
+        lines = [line for line in record.of("oracle") if line["oracle"] == oracle.name]
+        if oracle.unavailable is not None:
+            trouble = Trouble("skipped", "unavailable", f"not available: {oracle.unavailable}")
+            yield Suite(f"oracles.{oracle.name}", (Case("available", trouble),))
         else:
-            yield Suite(f"oracles.{total.name}", tuple(_oracle(line, failed) for line in lines))
+            yield Suite(f"oracles.{oracle.name}", tuple(_oracle(line, failed) for line in lines))
     yield Suite("findings", tuple(_findings(record, failed)))
     replays = Replays.of(record)
     for implementation in implementations(record):
-        cases = [case for group in implementation.groups for case in _group(implementation, group, failed, replays)]
-        yield Suite(f"implementations.{implementation.name}", tuple(cases))
+        cases = tuple(_group(implementation, group, failed, replays) for group in implementation.groups)
+        yield Suite(f"implementations.{implementation.name}", cases)
     yield Suite("implementations", tuple(_as_wholes(record, failed)))
     yield from benchmark_suites(record, failed)
 
@@ -107,21 +122,27 @@ def _oracle(line: Line, failed: list[Failure]) -> Case:
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[Case]:
-    """A case for each mathematical finding, and one for each way in which they are not the known ones."""
-    for line in record.of("finding"):
-        where = "inside" if line["inside"] else "outside"
-        yield Case(
-            f"{line['formula']} on {line['family']}, {where} its stated regimes, cause: {line['cause']}",
-            output=(
-                f"wrong in exact arithmetic: {line['wrong']:,} of {line['asked']:,}",
-                explanation(line),
-                f"first case: {line['first_case']}",
-                f"replay: {classify_command(from_hex(line['first_row']))}",
-            ),
-        )
-    for each in failed:
-        if each.subject == "findings":
-            yield Case(each.message, Trouble("failure", each.kind, each.message))
+    """A case for each mathematical finding, and one that says whether they are the known ones."""
+    yield from _named_apart(map(_finding, record.of("finding")))
+    drifted = [each for each in failed if each.subject == "findings"]
+    if drifted:
+        message = "; ".join(each.message for each in drifted)
+        yield Case("known findings", Trouble("failure", "drift", message, tuple(details(drifted))))
+    elif record.of("finding"):
+        yield Case("known findings", output=("the findings are the known ones",))
+
+
+def _finding(line: Line) -> Case:
+    where = "inside" if line["inside"] else "outside"
+    return Case(
+        f"{line['formula']} on {line['family']}",
+        output=(
+            f"wrong in exact arithmetic, {where} its stated regimes: {line['wrong']:,} of {line['asked']:,}",
+            explanation(line),
+            f"first case: {line['first_case']}",
+            f"replay: {classify_command(from_hex(line['first_row']))}",
+        ),
+    )
 
 
 def _as_wholes(record: Record, failed: list[Failure]) -> Iterator[Case]:
@@ -136,23 +157,25 @@ def _as_wholes(record: Record, failed: list[Failure]) -> Iterator[Case]:
             yield Case(tested.name, output=tuple(claims(tested.line)))
 
 
-def _group(implementation: Implementation, group: Line, failed: list[Failure], replays: Replays) -> Iterator[Case]:
-    """A case for each status that occurred in a family."""
-    for status, number in in_order(Counter(group["counts"])).items():
-        name, total = f"{group['family']}: {status}", sum(group["counts"].values())
-        output = [f"{number:,} of {counted(total, 'case')}"]
+def _group(implementation: Implementation, group: Line, failed: list[Failure], replays: Replays) -> Case:
+    """A family: it fails where any status in which its cases ended fails the run; the output has all of them."""
+    counts, output = in_order(Counter(group["counts"])), []
+    cases = sum(counts.values())
+    for status, number in counts.items():
+        output.append(f"{status}: {number:,} of {counted(cases, 'case')}")
         worst = worst_case([case for case in group["worst"] if case["status"] == status])
         if worst is not None:
             numbered = f" ({replays.place(worst)})" if implementation.gated else ""
             error = figure(float(worst["backward_error_u"]))
             output.append(f"worst backward error: {error} u, case {worst['case']}{numbered}")
             output.append(f"replay: {replays.command(group, worst)}")
-        place = ("implementation", implementation.name, group["family"], status)
-        mine = [each for each in failed if (each.subject, each.name, each.group, each.kind) == place]
-        if mine:
-            trouble = Trouble("failure", status, mine[0].message, tuple(details(mine)))
-            yield Case(name, trouble, tuple(output))
-        elif status == "skipped":
-            yield Case(name, Trouble("skipped", status, f"{output[0]} are outside the method's domain or its format"))
-        else:
-            yield Case(name, None, tuple(output))
+    place = ("implementation", implementation.name, group["family"])
+    mine = [each for each in failed if (each.subject, each.name, each.group) == place and each.kind in counts]
+    if mine:
+        message = "; ".join(each.message for each in mine)
+        trouble = Trouble("failure", mine[0].kind, message, tuple(details(mine)))
+        return Case(group["family"], trouble, tuple(output))
+    if set(counts) == {"skipped"}:
+        message = f"all {counted(cases, 'case')} lie outside the method's domain or are no numbers of its format"
+        return Case(group["family"], Trouble("skipped", "skipped", message))
+    return Case(group["family"], None, tuple(output))

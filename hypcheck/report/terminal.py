@@ -24,7 +24,7 @@ from hypcheck.report.digest import timing_totals, under_test
 from hypcheck.report.facts import benchmark_facts, claim_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.text import counted, figure, listed
 from hypcheck.report.verdict import failures, verdict
-from hypcheck.visible import shortened, visible
+from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from hypcheck.report.write import Around, Written
@@ -38,7 +38,7 @@ MOST_CONDITIONS = 3
 """Differences between two runs, other than what came of them, that are shown one by one."""
 
 WIDTH = 160
-"""Characters a line; longer ones are cut, the verdict apart."""
+"""Characters of a line on a terminal; longer ones are cut, the verdict apart. In a file or a pipe nothing is."""
 
 
 def render(record: Record, around: Around | None = None) -> bytes:
@@ -49,9 +49,14 @@ def render(record: Record, around: Around | None = None) -> bytes:
 
 
 def summary_lines(
-    record: Record, written: Sequence[Written], *, against: Record | None = None, colour: bool = False
+    record: Record,
+    written: Sequence[Written],
+    *,
+    against: Record | None = None,
+    colour: bool = False,
+    width: int | None = None,
 ) -> list[str]:
-    """At most MOST_LINES lines of plain text; with `colour`, the first in green or red."""
+    """At most MOST_LINES lines of plain text; with `colour`, the first in green or red; with `width`, cut to that."""
     ended = verdict(record)
     head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
@@ -69,12 +74,12 @@ def summary_lines(
     ]
     reports = list(_reports(written))
     lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
-    return [head if colour else click.unstyle(head), *map(_line, lines)]
+    return [head if colour else click.unstyle(head), *(_line(line, width) for line in lines)]
 
 
-def _line(text: str) -> str:
+def _line(text: str, width: int | None) -> str:
     indent = text[: len(text) - len(text.lstrip(" "))]
-    return indent + shortened(visible(text), WIDTH)
+    return indent + visible(text, width)
 
 
 def _failures(record: Record) -> Iterator[str]:
@@ -83,7 +88,7 @@ def _failures(record: Record) -> Iterator[str]:
         named = each.case is None or each.case in each.message
         yield f"  ✗ {each.message}" if named else f"  ✗ {each.case}: {each.message}"
     if len(found) > MOST_FAILURES:
-        yield f"  ✗ … and {counted(len(found) - MOST_FAILURES, 'more failure')}"
+        yield f"  ✗ and {counted(len(found) - MOST_FAILURES, 'more failure')}; junit.xml lists them all"
 
 
 def _changes(record: Record, against: Record) -> Iterator[str]:

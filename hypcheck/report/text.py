@@ -7,11 +7,9 @@ from collections.abc import Sequence
 
 from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS
+from hypcheck.visible import counted
 
-
-def counted(number: int, noun: str, many: str | None = None) -> str:
-    """A number with its noun: "1 case", "5,600 cases"; `many` is the plural that is not the noun with an s."""
-    return f"{number:,} {noun if number == 1 else many or f'{noun}s'}"
+__all__ = ["classify_command", "counted", "figure", "from_hex", "listed", "short_row", "with_interval"]
 
 
 def listed(items: Sequence[str], last: str = "and") -> str:

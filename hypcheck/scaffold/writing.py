@@ -9,6 +9,7 @@ from pathlib import Path
 
 from hypcheck.errors import InputError
 from hypcheck.tables.streams import writing
+from hypcheck.visible import counted
 
 
 def write_all(root: Path, texts: Mapping[str, str], *, force: bool) -> None:
@@ -35,7 +36,8 @@ def _refuse(there: list[Path], *, force: bool) -> None:
         if path.exists() and not path.is_file():
             raise InputError(f"{path} is in the way; it must be a file, or not there")
     if there and not force:
-        others = f", and so do {len(there) - 1} other files of init's" if there[1:] else ""
+        more = len(there) - 1
+        others = f", and so {'does' if more == 1 else 'do'} {counted(more, 'other file')} of init's" if more else ""
         raise InputError(f"{there[0]} exists{others}; nothing was written; --force replaces what is there")
 
 

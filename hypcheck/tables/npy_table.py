@@ -22,6 +22,7 @@ from hypcheck.pairs import COLUMNS
 from hypcheck.rows import Rows, first_trouble, invalid
 from hypcheck.tables.chunk import CHUNK, Answers, Chunk, Sink, Table, Unread
 from hypcheck.tables.streams import Reader, Writer
+from hypcheck.visible import counted
 
 WIDTH = len(COLUMNS)
 _COPIED_AT_ONCE = 1 << 20
@@ -117,9 +118,14 @@ def _require_length(name: str, size: int, count: int) -> None:
     needed = count * WIDTH * 8
     if size < needed:
         have = size // (WIDTH * 8)
-        raise InputError(f"{name} is cut off: its header says {count} rows, and the data ends after {have} of them")
+        raise InputError(_cut_off(name, count, have))
     if size > needed:
-        raise InputError(f"{name} goes on for {size - needed} bytes after its {count} rows; it must hold one array")
+        more = f"for {counted(size - needed, 'byte')} after its {counted(count, 'row')}"
+        raise InputError(f"{name} goes on {more}; it must hold one array")
+
+
+def _cut_off(name: str, count: int, have: int) -> str:
+    return f"{name} is cut off: its header says {counted(count, 'row')}, and the data ends after {have} of them"
 
 
 def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Unread]:
@@ -127,7 +133,7 @@ def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Unread]:
         rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
         yield partial(_chunk, rows, reader.name, start + 1, mark=mark)
     if reader.size() is None and reader.read(1):
-        raise InputError(f"{reader.name} goes on after its {layout.count} rows; it must hold one array")
+        raise InputError(f"{reader.name} goes on after its {counted(layout.count, 'row')}; it must hold one array")
 
 
 def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> Chunk:
@@ -146,9 +152,7 @@ def _rows(reader: Reader, layout: _Layout, start: int, count: int) -> Rows:
         data = reader.read(8 * WIDTH * count)
     if len(data) != 8 * WIDTH * count:
         have = start + len(data) // (8 * WIDTH)
-        raise InputError(
-            f"{reader.name} is cut off: its header says {layout.count} rows, and the data ends after {have} of them"
-        )
+        raise InputError(_cut_off(reader.name, layout.count, have))
     values = np.frombuffer(data, dtype=layout.type)
     rows = values.reshape(WIDTH, count).T if layout.by_columns else values.reshape(count, WIDTH)
     return np.ascontiguousarray(rows, dtype=np.float64)

@@ -69,9 +69,7 @@ class Batch:
 
 def chosen_families(plan: Plan) -> tuple[Family, ...]:
     """The families of the plan. Raises InputError naming one that does not exist."""
-    if plan.families:
-        return select(plan.families)
-    return tuple(family for family in select(("*",)) if not family.extreme)
+    return select(plan.families)
 
 
 def batches(plan: Plan, families: Sequence[Family]) -> tuple[Batch, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -149,10 +150,23 @@ def test_generated_rows_can_be_classified(capsys, tmp_path):
     assert {line.split(",")[8] for line in answers.read_text(encoding="utf-8").splitlines()[1:]} == {"1"}
 
 
+def test_rows_of_a_family_for_given_sizes_are_generated_checked_and_classified(capsys, tmp_path):
+    name, written = "razor@2,17.8,0.25,0.15,z=-17.8:17.8", "razor@2.0,17.8,0.25,0.15,z=-17.8:17.8"
+    vectors, table, answers = (tmp_path / each for each in ("r.json", "r.csv", "answers.csv"))
+    printed(capsys, "generate", name, "--count", "3", "--output", str(vectors))
+    assert printed(capsys, "check", str(vectors)) == "3 cases checked, none with a wrong label\n"
+    printed(capsys, "generate", name, "--count", "3", "--output", str(table))
+    assert main(["classify", "--input", str(table), "--output", str(answers)]) == 0
+    read = list(csv.DictReader(answers.read_text(encoding="utf-8").splitlines()))
+    assert [each["id"] for each in read] == [f"{written}/1/1/{index}" for index in range(3)]
+    assert {float(each["gamma"]) for each in read} == {17.8}
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["rnig"], "did you mean ring"),
+        (["razor@2,17.8,0.25"], "names no family"),
         (["ring*"], "is a pattern; name one family"),
         (["extreme"], "is a pattern"),
         (["worst-cancellation"], "there is no family"),

@@ -131,9 +131,9 @@ def test_what_is_masked_is_refused_and_a_mask_of_nothing_is_none():
     masked = np.ma.masked_array(ROWS, mask=False)
     assert hypcheck.classify(masked).tolist() == [1, 0, -1]
     masked[1, 2] = np.ma.masked
-    with pytest.raises(InputError, match="the rows are masked in 1 places; fill these, with nan or a number"):
+    with pytest.raises(InputError, match="the rows are masked in 1 place; fill it, with nan or a number"):
         hypcheck.classify(masked)
-    with pytest.raises(InputError, match="y: masked in 1 places"):
+    with pytest.raises(InputError, match="y: masked in 1 place;"):
         hypcheck.classify_scene((1, 2, 1, 1), 1, masked[1], 3)
 
 

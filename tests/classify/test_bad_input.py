@@ -194,7 +194,7 @@ def test_npy_cut_off_anywhere(tmp_path, capsys):
         else:
             have = (length - 128) // 56
             assert sentence == f" is cut off: its header says 3 rows, and the data ends after {have} of them"
-    assert message(tmp_path, capsys, "in.npy", data + b"x").startswith(" goes on for 1 bytes after its 3 rows")
+    assert message(tmp_path, capsys, "in.npy", data + b"x").startswith(" goes on for 1 byte after its 3 rows")
 
 
 class Touching:

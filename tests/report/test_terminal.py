@@ -20,9 +20,9 @@ WRITTEN = [
 ]
 
 
-def shown(*extra, exit_code=0, body=None, colour=False):
+def shown(*extra, exit_code=0, body=None, options=None, **how):
     lines = [*(samples.lines() if body is None else body), *extra]
-    return summary_lines(samples.record(lines, exit_code), WRITTEN, colour=colour)
+    return summary_lines(samples.record(lines, exit_code, options), WRITTEN, **how)
 
 
 def test_a_run_that_held():
@@ -33,8 +33,8 @@ def test_a_run_that_held():
         "equations of the paper: 1 of 2 hold; misprint: (12)",
         "proofs: 2 of 2 hold",
         "wrong in exact arithmetic: 2 inside the stated regimes (ring), 1 outside",
-        "float32: 1 of 1 method beyond the tolerance; farthest off: table-2-float32, ∞ u at ring/1/1/7",
-        "float64: 0 of 1 method beyond the tolerance; no answer is wrong",
+        "float32: 1 of 1 method beyond the tolerance of 8 u; farthest off: table-2-float32, ∞ u at ring/1/1/7",
+        "float64: 0 of 1 method beyond the tolerance of 8 u; no answer is wrong",
         "ns a row: fast path 80, plain numpy formula 100",
         "reports in out/: summary.json, report.md",
         "no map.svg: no matplotlib",
@@ -56,11 +56,50 @@ def test_an_interrupted_run_says_so_first():
 
 def test_it_stays_short():
     many = [samples.group(f"m-{name}", name, "ring", {"wrong": 1, "right": 2}) for name in "abcdefghijklmnop"]
-    lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6)
+    lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6, width=WIDTH)
     assert len(lines) == MOST_LINES == 25
-    assert lines[9] == "  ✗ … and 42 more failures"
+    assert lines[9] == "  ✗ and 42 more failures; junit.xml lists them all"
     assert lines[-2:] == ["reports in out/: summary.json, report.md", "no map.svg: no matplotlib"]
     assert max(map(len, lines)) == WIDTH + 2  # and the two spaces before a failure
+
+
+def test_a_summary_in_a_pipe_or_a_file_is_cut_nowhere():
+    lines = shown({**UNPROVED, "statement": "x" * 1000}, exit_code=6)
+    assert lines[1] == f"  ✗ hessian: not proved: {'x' * 1000}"
+    assert not any("…" in line for line in lines)
+
+
+ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [samples.worst("ring/1/1/7", "tolerated", 9.0e15)]}
+
+
+@pytest.mark.parametrize(
+    ("group", "options", "says"),
+    [
+        (
+            ONE,
+            {"tolerance": 1e18},
+            "0 of 1 method beyond the tolerance of 1.0e18 u; farthest off: m, 9.0e15 u at ring/1/1/7 (tolerated)",
+        ),
+        (
+            {"counts": {"right": 9, "excused": 1}, "cases": [samples.worst("r/7", "excused", 9.0e15)]},
+            {"tolerance": 8.0},
+            "0 of 1 method beyond the tolerance of 8 u; farthest off: m, 9.0e15 u at r/7 (excused as a known failure)",
+        ),
+        (
+            {"counts": {"error": 10}},
+            {"tolerance": 0},
+            "0 of 1 method beyond the tolerance of 0 u; no answer was judged",
+        ),
+        (
+            {"counts": {"error": 9, "right": 1}},
+            {"tolerance": 0},
+            "0 of 1 method beyond the tolerance of 0 u; no answer is wrong",
+        ),
+    ],
+)
+def test_the_answer_farthest_off_says_why_it_is_not_beyond_the_tolerance(group, options, says):
+    lines = shown(body=[samples.group("m", "float64", "ring", **group)], options=options)
+    assert f"float64: {says}" in lines
 
 
 @pytest.mark.parametrize("code", [0, 6, None])

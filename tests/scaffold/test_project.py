@@ -121,6 +121,15 @@ def test_the_workflow_installs_builds_and_verifies(language):
     assert shlex.split(verify) == ["hypcheck", "verify", language.spec, "--out", "hypcheck-report"]
 
 
+def test_what_is_in_the_way_is_counted_in_the_singular_and_the_plural(tmp_path, capsys):
+    for number, name in enumerate(["hypcheck-c/adapter.c", "hypcheck-c/predicate.c", "hypcheck.toml"]):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("mine")
+        assert init("--language", "c", "--directory", tmp_path) == 2
+        others = ("", ", and so does 1 other file of init's", ", and so do 2 other files of init's")[number]
+        assert f" exists{others}; nothing was written" in capsys.readouterr().err
+
+
 OTHERS = ["hypcheck.toml", ".github/workflows/hypcheck.yml", "hypcheck-c/predicate.c"]
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hypcheck.casebook.families import case_id, select
+from hypcheck.casebook.families import EXTREME, case_id, family_of, select
 from hypcheck.casebook.family import Family
 from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS
@@ -19,12 +19,15 @@ def generate(name: str, seed: int, count: int, form: str, target: str) -> None:
 
     The same bytes on every machine. Raises InputError where there is no such family, or `target` cannot be written.
     """
-    family = select([name])[0]
-    if family.name != name:
-        raise InputError(f"{name!r} is a pattern; name one family, such as {family.name}")
-    data = FORMATS[form](family, seed, count)
+    data = FORMATS[form](_family(name), seed, count)
     with writing(target) as writer:
         writer.write(data)
+
+
+def _family(name: str) -> Family:
+    if name == EXTREME or any(mark in name for mark in "*?["):
+        raise InputError(f"{name!r} is a pattern; name one family, such as {select([name])[0].name}")
+    return family_of(name)
 
 
 def as_json(family: Family, seed: int, count: int) -> bytes:
@@ -42,8 +45,9 @@ def as_json(family: Family, seed: int, count: int) -> bytes:
 def as_csv(family: Family, seed: int, count: int) -> bytes:
     """A table of ids and rows, as `hypcheck classify --input` takes it."""
     lines = [",".join(("id", *COLUMNS))]
+    quote = '"' if "," in family.name else ""  # the names of families for given sizes have commas
     for index, row in enumerate(family.rows(seed, count).tolist()):
-        lines.append(",".join((case_id(family, seed, index), *map(repr, row))))
+        lines.append(",".join((f"{quote}{case_id(family, seed, index)}{quote}", *map(repr, row))))
     return ("\n".join(lines) + "\n").encode()
 
 

@@ -31,7 +31,7 @@ CASE_FIELDS = (
     *("flips", "certificate", "flags"),
 )
 CERTIFICATES = ("multiplier", "points", "double_root")
-_NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*", re.ASCII)
+_NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(@[a-z0-9.,:=+-]+)?", re.ASCII)
 _KINDS = {kind.value: kind for kind in Kind}
 
 
