@@ -224,6 +224,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         ("info", 0, "oracles"),
         ("classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0", 0, "exterior"),
         ("init --language c", 0, "Type next"),
+        ("completion bash", 0, "complete -o"),
     ],
 }
 """Command lines in the order in which they are run in one empty folder, with the exit code and a part of the output."""

@@ -27,6 +27,7 @@ COMMANDS = {
     "simulate": "hypcheck.cli.simulate:simulate",
     "init": "hypcheck.cli.init:init",
     "info": "hypcheck.cli.info:info",
+    "completion": "hypcheck.cli.completion:completion",
 }
 """Name → module:attribute of the click command."""
 

@@ -18,9 +18,12 @@ class Group(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does, with a better word about a command that is not there. Raises click.UsageError."""
+        """As click does, with a better word about a command that is not there. Raises click.UsageError.
+
+        While a shell completes a line, an unknown command has no completions and is no error.
+        """
         name, known = args[0], self.list_commands(ctx)
-        if name in known or name.startswith("-"):
+        if name in known or name.startswith("-") or ctx.resilient_parsing:
             return super().resolve_command(ctx, args)
         raise click.UsageError(f"there is no command {name!r}; {advice(name, known, most=1)}", ctx)
 

@@ -13,6 +13,8 @@ from typing import Any, NoReturn
 from hypcheck.errors import Terminated
 
 INTERRUPTED = (130, 143)
+COMPLETE = "_HYPCHECK_COMPLETE"
+"""The variable by which a shell asks for completions of the words in its other variables, as click names it."""
 
 
 def process() -> NoReturn:
@@ -58,6 +60,11 @@ def _run(words: list[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a terminal that cannot show α still gets an answer
             stream.reconfigure(errors="backslashreplace")
+    if asked := os.environ.get(COMPLETE):
+        from hypcheck.cli.completion import answer
+
+        answer(asked)
+        return 0
     try:
         # Not click's own main(): it decides for itself how errors, interrupts and closed pipes end.
         with hypcheck.make_context("hypcheck", list(words)) as context:
