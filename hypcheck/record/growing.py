@@ -37,20 +37,22 @@ class Growing:
     def renew(self, data: bytes) -> None:
         """Let `data` take the place of all that stands there, when it is on the disk."""
         self._path.parent.mkdir(parents=True, exist_ok=True)
+        file = _new_file(self._beside)
         try:
-            with self._beside.open("wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            if self._file is not None:
-                with suppress(OSError):  # what could not be written of a line is written anew
-                    self._file.close()
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
             self._beside.replace(self._path)
         except OSError:
             with suppress(OSError):
+                file.close()
+            with suppress(OSError):
                 self._beside.unlink()
             raise
-        self._file = self._path.open("ab")
+        before, self._file = self._file, file
+        if before is not None:
+            with suppress(OSError):  # what could not be written of a line was written anew
+                before.close()
 
     @property
     def is_there(self) -> bool:
@@ -63,3 +65,13 @@ class Growing:
     def move(self, path: Path) -> None:
         """Take another place, for good."""
         self._path.replace(path)
+
+
+def _new_file(path: Path) -> BinaryIO:
+    """A file that was not there before, to be added to; what a killed run left in its place is removed.
+
+    A link that somebody planted there is not followed. Raises OSError, also where one is planted at this very moment.
+    """
+    path.unlink(missing_ok=True)
+    how = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+    return os.fdopen(os.open(path, how, 0o666), "ab")

@@ -125,7 +125,7 @@ def _write(report: Report, record: Record, path: Path, around: Around) -> Writte
     except UnavailableError as error:
         _remove(path)
         return Written(path, str(error))
-    with writing(str(path)) as file:
+    with writing(str(path), follow=False) as file:
         file.write(content)
     return Written(path)
 

@@ -88,10 +88,12 @@ def reading(path: str) -> Iterator[Reader]:
 
 
 @contextmanager
-def writing(path: str) -> Iterator[Writer]:
+def writing(path: str, *, follow: bool = True) -> Iterator[Writer]:
     """A new file that takes the place of `path` when the block ends well; standard output for "-".
 
-    Raises InputError where it cannot be written. A link is followed; an existing file's mode is kept.
+    Raises InputError where it cannot be written. A link is followed, and a device or pipe written as it is, unless
+    `follow` is false: such a name is ours and not the user's, and the new file takes its place. An existing file's mode
+    is kept.
     """
     if path == STREAM:
         writer = Writer(_binary(sys.stdout, "standard output"), "standard output")
@@ -99,7 +101,7 @@ def writing(path: str) -> Iterator[Writer]:
         writer.flush()
         return
     with _blamed("write", path):
-        mode = _mode(path)
+        mode = _mode(path) if follow else _mode_to_replace(path)
     if mode is not None and not stat.S_ISREG(mode):
         with _blamed("write", path):
             device = open(path, "wb")  # noqa: SIM115 - as above
@@ -108,7 +110,7 @@ def writing(path: str) -> Iterator[Writer]:
             yield writer
             writer.flush()
         return
-    with _replacing(path, mode) as writer:
+    with _replacing(path, os.path.realpath(path) if follow else path, mode) as writer:
         yield writer
 
 
@@ -127,8 +129,7 @@ def _binary(stream: TextIO | None, name: str) -> BinaryIO:
 
 
 @contextmanager
-def _replacing(path: str, mode: int | None) -> Iterator[Writer]:
-    target = os.path.realpath(path)
+def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
     beside = os.path.join(os.path.dirname(target), f".hypcheck-{secrets.token_hex(8)}")
     with _blamed("write", path):
         handle = os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
@@ -158,6 +159,15 @@ def _mode(path: str) -> int | None:
     if not os.access(path, os.W_OK):
         raise PermissionError(None, "permission denied")
     return mode
+
+
+def _mode_to_replace(path: str) -> int | None:
+    """The mode of a regular file at `path`, None where nothing is or what a new file replaces. Raises OSError."""
+    try:
+        linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
+    except ValueError:  # what is wrong with the name is said where it is opened
+        return None
+    return None if linked else _mode(path)
 
 
 @contextmanager

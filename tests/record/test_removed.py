@@ -1,9 +1,11 @@
-"""A record that somebody removes while its run goes on is not lost with what it holds."""
+"""What others do in the folder of a run: a record that is removed is not lost, and a planted link is not followed."""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import shutil
+import stat
 
 import pytest
 
@@ -39,3 +41,25 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
         record = read(out / FILE)
         assert [line["reason"] for line in record.lines] == ["before"]
         assert bool(record.footer) is (end is None)
+
+
+def test_links_planted_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
+    """Nor is a pipe waited for, in which nobody reads."""
+    out, precious = tmp_path / "out", tmp_path / "precious"
+    out.mkdir()
+    precious.write_text("precious")
+    for name in (GROWING, f"{GROWING}.new", FILE, "summary.json", "report.md"):
+        (out / name).symlink_to(precious)
+    os.mkfifo(out / "junit.xml")
+
+    def plants(_):  # again, before the record is renewed once more
+        (out / f"{GROWING}.new").symlink_to(precious)
+
+    def parts(recorder):
+        recorder.keep(done=1)
+        return [Part("", 1, plants)]
+
+    record_and_report(out, {}, parts, lambda: 0)
+    assert precious.read_text() == "precious"
+    assert not [path.name for path in out.iterdir() if not stat.S_ISREG(path.lstat().st_mode)]
+    assert read(out / FILE).footer

@@ -70,7 +70,7 @@ def _svg(name: str) -> str:
 
 
 def _written(path: Path, content: bytes) -> str:
-    with writing(str(path)) as file:
+    with writing(str(path), follow=False) as file:
         file.write(content)
     return f"wrote {path}"
 
