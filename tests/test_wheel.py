@@ -201,7 +201,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         (f"{GATED} --out run", 0, "HELD"),
         ("report run", 0, "HELD"),
         ("record check run", 0, "it is whole"),
-        ("replay tower-body/1/1/0 builtin:fast", 0, "its answer in float64"),
+        ("replay tower-body/1/1/0 builtin:fast", 0, "the answer of "),
     ],
     "bench": [(f"{COMPARED} --out quick", 0, "HELD")],
     "bench-scene": [("bench --scene tower --out scene", 0, "HELD: 1 scene")],

@@ -69,7 +69,7 @@ def _judgement(judgement: Judgement) -> dict[str, Any]:
 
 def _choice(choice: Choice) -> dict[str, Any]:
     compared = choice.comparison
-    return {"why": choice.why, **({} if compared is None else _comparison(compared))}
+    return {"why": choice.why, "own": choice.own, **({} if compared is None else _comparison(compared))}
 
 
 def _comparison(compared: Comparison) -> dict[str, Any]:

@@ -24,10 +24,14 @@ _MANTISSA = {"x87": 63, "binary128": 112}
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A formula's values on the row, and the sentence that says why it is this one; None where it has none."""
+    """A formula's values on the row, and why it is this one; `comparison` is None where it has none.
+
+    `own` says that the implementation evaluates this formula. What another one gets wrong says nothing about it.
+    """
 
     comparison: Comparison | None
     why: str
+    own: bool = False
 
 
 def require_formula(name: str | None) -> None:
@@ -58,9 +62,9 @@ def choose(subject: Subject, row: tuple[float, ...], truth: Position, name: str 
         return _nearest(subject, row, truth, format_name, instead)
     comparison = compare(formula, format_name, row)
     if comparison is None:
-        return Choice(None, f"the search of {formula.name} finds no finite λ in {format_name}")
+        return Choice(None, f"the search of {formula.name} finds no finite λ in {format_name}", formula is own)
     why = "as --formula asks" if name is not None else f"which is what {subject.spec} evaluates"
-    return Choice(comparison, why + instead)
+    return Choice(comparison, why + instead, formula is own)
 
 
 def format_of(precision: str) -> tuple[str, str]:

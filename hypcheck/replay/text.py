@@ -31,7 +31,7 @@ def replay_lines(done: Replay) -> Iterator[str]:
     yield from _judgement_lines(done)
     if done.choice is not None and done.truth is not None:
         yield ""
-        yield from _choice_lines(done.choice, done.truth.decision.position)
+        yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
 
 
 def _truth_lines(truth: Truth) -> Iterator[str]:
@@ -82,17 +82,19 @@ def answer_said(answer: int, question: str) -> str:
     return f"{answer}, {'' if answer else 'not '}{question}"
 
 
-def _choice_lines(choice: Choice, truth: Position) -> Iterator[str]:
+def _choice_lines(choice: Choice, truth: Position, asked: str) -> Iterator[str]:
     compared = choice.comparison
     if compared is None:
         yield from _titled("values", f"none: {choice.why}")
         return
     formula = compared.formula
-    yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}")
+    other = () if choice.own else (f"these are not the values of {asked} itself, whose steps cannot be shown",)
+    yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
     yield ""
     yield from _table(compared)
     yield ""
-    yield from _titled("finding", *finding(compared, truth))
+    about = () if choice.own else (f"about {formula.name}, not about {asked}:",)
+    yield from _titled("finding", *about, *finding(compared, truth))
 
 
 def _table(compared: Comparison) -> Iterator[str]:
@@ -121,7 +123,7 @@ def _mark(compared: Comparison, each: Intermediate) -> str:
 
 
 def finding(compared: Comparison, truth: Position) -> Iterator[str]:
-    """What the two columns come to, in a sentence or two."""
+    """What the two columns say about the formula, in a sentence or two."""
     question = compared.formula.question
     if compared.first_wrong is None:
         yield f"every decision of {compared.formula.name} in {compared.format} is that of exact arithmetic"
@@ -133,10 +135,12 @@ def finding(compared: Comparison, truth: Position) -> Iterator[str]:
             number = compared[compared.culprit]
             yield f"{_CULPRIT} for {number.name} is {said(number.value)}, where {said(number.exact)} is exact"
     rounded, exactly = (answer_said(answer, question) for answer in (compared.answer, compared.exact_answer))
-    yield f"its answer in {compared.format}: {rounded}; in exact arithmetic: {exactly}"
+    name = compared.formula.name
+    yield f"the answer of {name} in {compared.format}: {rounded}; in exact arithmetic: {exactly}"
     right = int(truth) if question == "position" else int(truth is Position[question.upper()])
     if compared.exact_answer != right:
-        yield f"in exact arithmetic too it errs: the formula is at fault, and not rounding alone; truth: {truth.label}"
+        fault = "the formula is at fault, and not rounding alone"
+        yield f"{name} errs in exact arithmetic too: {fault}; truth: {truth.label}"
 
 
 def _change(distance: float) -> str:

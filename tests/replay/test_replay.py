@@ -189,6 +189,26 @@ def test_the_text_marks_the_first_wrong_decision(capsys):
     assert "proof       λ = 1/16" in text
 
 
+@pytest.mark.parametrize(
+    ("words", "about", "own"),
+    [
+        (["builtin:table-2-float64"], "table-2", True),
+        (["builtin:table-2-float64", "--formula", "shared"], "shared", False),
+        (["builtin:fast"], "procedure-2a-spheroid", False),
+        ([subject("contact")], "table-2", False),
+    ],
+)
+def test_what_another_formula_gets_wrong_is_no_finding_about_the_implementation(capsys, words, about, own):
+    main(["replay", "ring-0007", *words])
+    text = capsys.readouterr().out
+    found = text[text.index("\nfinding ") :].splitlines()[1:]
+    assert any(f"the answer of {about} in float64" in line for line in found)
+    assert (" not about " not in found[0]) is own
+    assert ("these are not the values of " not in text) is own
+    main(["replay", "ring-0007", *words, "--json"])
+    assert json.loads(capsys.readouterr().out)["values"]["own"] is own
+
+
 def test_text_of_every_formula_can_be_printed(capsys):
     for name in ("shared", "local-maximum", "dual", "procedure-2a-spheroid"):
         assert main(["replay", "tangent/1/1/5", "builtin:fast", "--formula", name, "--precision", "float32"]) == 0
