@@ -16,8 +16,13 @@ hypcheck emit --scene tower --language c --output kernel.c
 hypcheck emit --scene forest.toml --language rust --precision float32 --output kernel.rs
 cc -O3 -fPIC -shared kernel.c -lm -o kernel.so && hypcheck verify library:./kernel.so
 
-C, C++ and Rust have the signature that `verify library:` takes; the Python file is for `python:kernel.py:classify`; the
-JavaScript module takes the place of predicate.mjs in the adapter of `hypcheck init --language javascript`.
+C, C++ and Rust have the names and the signature that `verify library:` takes; the Python file is for
+`python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
+`hypcheck init --language javascript`.
+
+Kernels that are linked into one program, or beside hypcheck.h, need different names: with `--prefix tower` the
+functions are tower_classify, tower_classify_scene and tower_describe (C, C++, Rust). `verify library:` asks for the
+default names.
 """
 
 
@@ -27,18 +32,23 @@ JavaScript module takes the place of predicate.mjs in the adapter of `hypcheck i
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option(
+    "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="What the kernel's functions begin with."
+)
+@click.option(
     "--output", default="-", show_default=True, metavar="FILE", help="Where to write it; - is standard output."
 )
-def emit(scene: str, language: str, precision: str, question: str | None, output: str) -> None:
+def emit(scene: str, language: str, precision: str, question: str | None, prefix: str, output: str) -> None:
     """Plan, and write."""
     from hypcheck.cli.plan import planned
-    from hypcheck.kernel.emission.kernel import emitted
+    from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
     from hypcheck.tables.streams import writing
 
+    require_prefix(prefix, language)
     plan = planned(scene, precision, question)
     command = ["hypcheck", "emit", "--scene", scene, "--language", language]
     command += [] if precision == "float64" else ["--precision", precision]
     command += [] if question is None else ["--question", question]
-    text = emitted(plan, language, command)
+    command += [] if prefix == PREFIX else ["--prefix", prefix]
+    text = emitted(plan, language, command, prefix)
     with writing(output) as stream:
         stream.write(text.encode("utf-8"))

@@ -38,7 +38,7 @@ class Language:
 _LISTED = (
     Language(
         name="c",
-        files=("predicate.c", "adapter.c", "hypcheck.h"),
+        files=("predicate.c", "adapter.c", "predicate.h"),
         predicate="predicate.c",
         build="cc -std=c11 -O2 -ffp-contract=off -o hypcheck-c/adapter hypcheck-c/adapter.c hypcheck-c/predicate.c",
         spec="command:hypcheck-c/adapter",
@@ -46,7 +46,7 @@ _LISTED = (
     ),
     Language(
         name="cpp",
-        files=("predicate.cpp", "adapter.cpp", "hypcheck.hpp"),
+        files=("predicate.cpp", "adapter.cpp", "predicate.hpp"),
         predicate="predicate.cpp",
         build="c++ -std=c++17 -O2 -ffp-contract=off "
         "-o hypcheck-cpp/adapter hypcheck-cpp/adapter.cpp hypcheck-cpp/predicate.cpp",

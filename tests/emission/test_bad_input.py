@@ -73,6 +73,20 @@ def test_what_cannot_be_read_or_written_gets_a_sentence(tmp_path, capsys):
     assert "it is a folder" in refused([*emit, str(tmp_path)], capsys)
 
 
+@pytest.mark.parametrize("prefix", ["", "2nd", "_own", "own_", "a__b", "höhe", "a-b", "a b", "x" * 41, "a;\n"])
+def test_a_prefix_that_is_no_identifier_gets_a_sentence(prefix, tmp_path, capsys):
+    output = tmp_path / "kernel.c"
+    emit = ["emit", "--scene", "tower", "--language", "c", "--output", str(output), "--prefix", prefix]
+    assert "the prefix is " in refused(emit, capsys)
+    assert not output.exists()
+
+
+@pytest.mark.parametrize("language", ["javascript", "python"])
+def test_a_prefix_for_a_module_gets_a_sentence(language, capsys):
+    emit = ["emit", "--scene", "tower", "--language", language, "--prefix", "tower"]
+    assert f"a {language} kernel is a module with names of its own" in refused(emit, capsys)
+
+
 def test_trees_that_overlap_are_no_mistake(tmp_path, capsys):
     """Every pair is asked for itself; trees of the same sizes share a function."""
     path = tmp_path / "scene.toml"

@@ -51,8 +51,8 @@ def test_every_step_of_the_programs_stands_in_the_header():
 
 def test_limits_of_the_scalar_function_are_those_of_the_program():
     constants = certified.CONSTANTS
-    assert (scalars.LEAST, scalars.GREATEST, scalars.SLACK) == tuple(
-        constants[name] for name in ("least", "greatest", "slack")
+    assert (scalars.LEAST, scalars.GREATEST, scalars.FARTHEST, scalars.SLACK) == tuple(
+        constants[name] for name in ("least", "greatest", "farthest", "slack")
     )
 
 
@@ -110,4 +110,21 @@ def test_a_file_of_another_name_can_hold_it(tmp_path):
     (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
     source = '#define HYPCHECK_IMPLEMENTATION\n#define HYPCHECK_SELF "renamed.h"\n#include "renamed.h"\n'
     assert compiled_source(tmp_path, source, "-fsyntax-only").returncode == 0
-    assert COMPILER is not None
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    "beside", [None, "", "edition"], ids=["alone", "beside-another-file", "beside-another-edition"]
+)
+def test_a_renamed_header_without_its_name_ends_in_one_error_that_says_so(beside, tmp_path):
+    text = HEADER.read_text(encoding="utf-8")
+    (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
+    if beside is not None:
+        other = text.replace("HC_EDITION_", "HC_EDITION_other_") if beside else "typedef int something_else;\n"
+        (tmp_path / "hypcheck.h").write_text(other, encoding="utf-8")
+    (tmp_path / "source.c").write_text('#define HYPCHECK_IMPLEMENTATION\n#include "renamed.h"\n', encoding="utf-8")
+    command = [str(COMPILER), "-std=c99", "-fsyntax-only", "source.c"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    (error,) = re.findall(r"error: .*", done.stderr)
+    assert "HYPCHECK_SELF does not name this file" in error

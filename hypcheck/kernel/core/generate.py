@@ -8,6 +8,7 @@ that is a name between two @ stands for printed text.
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -64,27 +65,14 @@ VECTOR = Spelling(
 
 def header() -> str:
     """The text of hypcheck.h."""
-    body = "\n".join(
-        (
-            _part("platform.h"),
-            _part("integers.h"),
-            "#define HC_LEVEL 0",
-            "#include HYPCHECK_SELF\n#undef HC_LEVEL\n#if HC_X86",
-            *(f"#define HC_LEVEL {level}\n#include HYPCHECK_SELF\n#undef HC_LEVEL" for level in (1, 2, 3)),
-            "#endif\n",
-            _part("scene.h"),
-            _part("dispatch.h"),
-        )
-    )
-    return (
+    body = "\n".join(_part(f"{name}.h") for name in ("platform", "integers", "levels", "scene", "dispatch"))
+    text = (
         f"{_part('contract.h')}\n"
         "#if defined(HYPCHECK_IMPLEMENTATION) && !defined(HC_LEVEL) && !defined(HC_IMPLEMENTED)\n"
-        "#define HC_IMPLEMENTED\n"
-        "/* The file includes itself for each instruction set; define HYPCHECK_SELF where it has another name. */\n"
-        '#ifndef HYPCHECK_SELF\n#define HYPCHECK_SELF "hypcheck.h"\n#endif\n\n'
-        f"{body}\n#if HC_PRECISE\n#pragma float_control(pop)\n#endif\n"
-        f"#elif defined(HC_LEVEL)\n\n{_part('level.h')}\n#endif\n"
+        f"#define HC_IMPLEMENTED\n\n{body}\n#if HC_PRECISE\n#pragma float_control(pop)\n#endif\n#endif\n"
+        f"#elif defined(HC_LEVEL)\n#define @EDITION@\n\n{_part('level.h')}\n#endif\n"
     )
+    return text.replace("@EDITION@", f"HC_EDITION_{hashlib.sha256(text.encode()).hexdigest()[:16]}")
 
 
 def _part(name: str) -> str:

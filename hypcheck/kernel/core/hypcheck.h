@@ -75,10 +75,6 @@ int hypcheck_use_level(const char *name);
 
 #if defined(HYPCHECK_IMPLEMENTATION) && !defined(HC_LEVEL) && !defined(HC_IMPLEMENTED)
 #define HC_IMPLEMENTED
-/* The file includes itself for each instruction set; define HYPCHECK_SELF where it has another name. */
-#ifndef HYPCHECK_SELF
-#define HYPCHECK_SELF "hypcheck.h"
-#endif
 
 /* ---- what is asked of the compiler ---- */
 
@@ -457,9 +453,25 @@ static int hc_valid(const double row[7]) {
     return 1;
 }
 
+/* ---- the instruction sets: this file, once for each ---- */
+
+/* The file includes itself by the name that HYPCHECK_SELF has. Another file of that name, an earlier edition of this one
+   among them, does not define what this text is known by. */
+#ifndef HYPCHECK_SELF
+#define HYPCHECK_SELF "hypcheck.h"
+#endif
 #define HC_LEVEL 0
+#ifdef __has_include
+#if __has_include(HYPCHECK_SELF)
 #include HYPCHECK_SELF
+#endif
+#else
+#include HYPCHECK_SELF
+#endif
 #undef HC_LEVEL
+#ifndef HC_EDITION_fd404b58ec3e6ee2
+#error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
+#else
 #if HC_X86
 #define HC_LEVEL 1
 #include HYPCHECK_SELF
@@ -930,7 +942,9 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 #if HC_PRECISE
 #pragma float_control(pop)
 #endif
+#endif
 #elif defined(HC_LEVEL)
+#define HC_EDITION_fd404b58ec3e6ee2
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -17,9 +18,18 @@ from hypcheck.kernel.specialise import search as searching
 from hypcheck.kernel.specialise.plan import Plan
 from hypcheck.kernel.specialise.search import GEOMETRIC_STEPS
 from hypcheck.version import VERSION
+from hypcheck.visible import visible
 
 COMMENTS = {"c": " * ", "cpp": "// ", "rust": "//! ", "javascript": "// ", "python": ""}
 EXTENSIONS = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}
+EXPORTING = ("c", "cpp", "rust")
+"""Languages whose kernels have functions that a linker sees; the others' names are their module's."""
+
+PREFIX = "hypcheck"
+"""With it the functions have the names that `verify library:` asks for."""
+
+_PREFIX, _LONGEST_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", re.ASCII), 40
+
 BY_BLOCK = ("c", "cpp")
 """Languages whose kernels have loops over many centres that compilers make vectors of."""
 
@@ -27,16 +37,34 @@ SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
 """The constants of a search, in the order in which a kernel holds them."""
 
 
-def emitted(plan: Plan, language: str, command: Sequence[str]) -> str:
-    """The text of the kernel; `command` is what its header says made it. Raises InputError."""
+def require_prefix(prefix: str, language: str) -> None:
+    """Raise InputError unless functions of a kernel in this language can begin with `prefix`."""
+    if prefix != PREFIX and language not in EXPORTING:
+        raise InputError(
+            f"--prefix is for {', '.join(EXPORTING)}: a {language} kernel is a module with names of its own"
+        )
+    if not _PREFIX.fullmatch(prefix) or len(prefix) > _LONGEST_PREFIX:
+        raise InputError(
+            f"the prefix is {visible(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
+            f"underscores between them, {_LONGEST_PREFIX} characters at most"
+        )
+
+
+def emitted(plan: Plan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
+    """The text of the kernel; `command` is what its header says made it. Raises InputError.
+
+    Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
+    """
     if language not in DIALECTS:
         raise InputError(f"the language is {language!r}; it must be one of {', '.join(DIALECTS)}")
+    require_prefix(prefix, language)
     dialect = DIALECTS[language]
     number = dialect.number_of(plan.format.name)
     extension = EXTENSIONS[language]
     functions = [function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
     parts = {
         "header": header(plan, command, COMMENTS[language]),
+        "prefix": prefix,
         "number": number,
         "search": _search(plan, dialect, extension) if _searches(plan) else "",
         "imports": "\n".join(["import math"] * _searches(plan) + ["from collections.abc import Iterable"]),

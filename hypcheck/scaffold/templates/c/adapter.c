@@ -5,7 +5,7 @@
  * docs/protocol.md of hypcheck says what is spoken. Only the build line changes when the predicate does.
  */
 #define _POSIX_C_SOURCE 199309L /* clock_gettime */
-#include "hypcheck.h"
+#include "predicate.h"
 
 #include <locale.h>
 #include <stdbool.h>

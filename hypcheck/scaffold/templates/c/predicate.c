@@ -3,7 +3,7 @@
  *     cc -std=c11 -O2 -ffp-contract=off -shared -fPIC -o hypcheck-c/predicate.so hypcheck-c/predicate.c
  *     hypcheck verify library:hypcheck-c/predicate.so
  */
-#include "hypcheck.h"
+#include "predicate.h"
 
 /* What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
  * (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked. */

@@ -3,7 +3,7 @@
 //     @BUILD@
 //
 // docs/protocol.md of hypcheck says what is spoken. Only the build line changes when the predicate does.
-#include "hypcheck.hpp"
+#include "predicate.hpp"
 
 #include <charconv>
 #include <chrono>

@@ -2,7 +2,7 @@
 //
 //     c++ -std=c++17 -O2 -ffp-contract=off -shared -fPIC -o hypcheck-cpp/predicate.so hypcheck-cpp/predicate.cpp
 //     hypcheck verify library:hypcheck-cpp/predicate.so
-#include "hypcheck.hpp"
+#include "predicate.hpp"
 
 // Replace this with your predicate, or with a call of it. The stub is Table 2 (Procedure 1) of "Algorithms for
 // Determining Relative Position between Spheroids and Hyperboloids with One Sheet": right in the paper's scenes, wrong

@@ -1,6 +1,6 @@
 /* What predicate.c offers to adapter.c, and, built as a shared library, to hypcheck itself. */
-#ifndef HYPCHECK_H
-#define HYPCHECK_H
+#ifndef HYPCHECK_PREDICATE_H
+#define HYPCHECK_PREDICATE_H
 
 #include <stddef.h>
 #include <stdint.h>
