@@ -12,13 +12,13 @@ help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
-	$(BIN)/hypcheck verify --out $(OUT)
+	$(BIN)/hypcheck verify --self --out $(OUT)
 
 bench: $(VENV)/ready ## error against run time of every method (under 5 minutes); reports in reports/bench/
 	$(BIN)/hypcheck bench --out reports/bench
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
-	$(BIN)/hypcheck verify --out reports/reference --count 33000 --roots 20000 --meshes 20000
+	$(BIN)/hypcheck verify --self --out reports/reference --count 33000 --roots 20000 --meshes 20000
 
 reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minutes); reports in reports/reference/bench/
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,peers]'

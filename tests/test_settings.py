@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import html
 import json
 import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
 from unittest import mock
+from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given
@@ -16,7 +18,7 @@ from hypothesis import strategies as st
 from hypcheck import toml
 from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
 from hypcheck.cli.main import main
-from hypcheck.cli.settings import _KEYS, ABOUT_ONE, COMMANDS, FILE, read_settings
+from hypcheck.cli.settings import _KEYS, _UNSET, ABOUT_ONE, COMMANDS, FILE, read_settings
 from hypcheck.errors import InputError
 from hypcheck.record import read
 
@@ -117,7 +119,93 @@ def test_specs_are_for_verify_alone(project, capsys):
     assert main(["replay", "ring-0001"]) == 2
     assert "SPEC" in capsys.readouterr().err
     assert main(["verify", "--oracles", "exact"]) == 2
-    assert "--no-settings verify" in capsys.readouterr().err
+    assert "--self leaves it aside" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("value", ["true", "1", "yes"])
+def test_verify_without_spec_ends_2_in_ci(project, monkeypatch, capsys, value):
+    monkeypatch.setenv("CI", value)
+    project("tolerance = 4\n")
+    assert main(["verify"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no implementation is named" in line
+    assert line.endswith("hypcheck verify --self")
+    assert not Path("reports").exists()
+
+
+def test_verify_with_self_and_spec_ends_2(project, capsys):
+    project("")
+    assert main(["verify", "--self", "builtin:fast"]) == 2
+    assert "--self verifies hypcheck itself and takes no SPEC; builtin:fast is one" in capsys.readouterr().err
+
+
+QUICK = ["--families", "tower-body", "--count", "1", "--judged", "1", "--oracles", "exact,nearest"]
+
+
+@pytest.mark.parametrize(("ci", "words"), [("true", ["--self"]), ("false", []), ("0", []), ("", [])])
+def test_verify_without_spec_says_first_that_it_verifies_hypcheck_itself(project, monkeypatch, capsys, ci, words):
+    monkeypatch.setenv("CI", ci)
+    monkeypatch.setattr("hypcheck.verify.run.stages", lambda *_: ())  # what it does is tested where it is done
+    project('specs = ["builtin:nothing"]\n' if words else "")
+    assert main(["verify", *words, *QUICK]) == 0
+    assert capsys.readouterr().err.splitlines()[0] == "hypcheck: verifying hypcheck itself, no implementation"
+
+
+WEAK = """
+specs = ["builtin:table-2-float32"]
+tolerance = 1e18
+families = ["ring"]
+fail_on = "false-clear"
+max_abstained = 9
+count = 2
+"""
+
+
+def test_settings_that_weaken_the_gate_are_told_at_the_start_and_in_every_report(project, capsys):
+    project(WEAK)
+    assert main(["verify", "--count", "3", "--seed", "5", "--timeout", "60"]) == 0
+    said = capsys.readouterr()
+    first, second = said.err.splitlines()[:2]
+    assert first == "hypcheck: verifying builtin:table-2-float32, named by hypcheck.toml"
+    told = (
+        "settings are those of hypcheck.toml; weaker than the default: "
+        "--families ring, not all but the extreme ones (hypcheck.toml); --count 3, not 400 (command line); "
+        "--tolerance 1e+18, not 8 (hypcheck.toml); --max-abstained 9, not 0 (hypcheck.toml); "
+        "--fail-on false-clear, not wrong (hypcheck.toml)"
+    )
+    assert second == f"hypcheck: {told}"
+    assert said.out.splitlines()[1].startswith(told[:100])
+    folder = Path("reports/latest")
+    settings = json.loads((folder / "summary.json").read_text())["settings"]
+    assert settings == read(folder / "record.jsonl").header["settings"]
+    assert settings["file"] == FILE
+    assert {"option": "--tolerance", "value": "1e+18", "default": "8", "source": FILE} in settings["weakened"]
+    suites = ElementTree.parse(folder / "junit.xml").getroot()  # noqa: S314 - it was written a moment ago
+    assert [each.get("value") for each in suites.iterfind("testsuite/properties/property")] == [told] * len(suites)
+    assert f"S{told[1:]}." in html.unescape((folder / "report.md").read_text()).replace("\\", "")
+
+
+def test_a_run_as_strict_as_the_defaults_tells_nothing_of_settings(project, capsys):
+    project("")
+    Path(FILE).unlink()
+    assert main(["verify", "builtin:fast", "--seed", "3", "--count", "400", "--tolerance", "8", "--out", "out"]) == 0
+    assert capsys.readouterr().err.splitlines() == ["hypcheck: verifying builtin:fast"]
+    assert "settings" not in read(Path("out/record.jsonl")).header
+    assert json.loads(Path("out/summary.json").read_text())["settings"] is None
+
+
+def test_replay_tells_the_settings_that_weaken_its_judgement(project, capsys):
+    project("tolerance = 1e9\n")
+    main(["replay", "ring-0001", "builtin:fast", "--question", "exterior"])
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("hypcheck: settings are those of hypcheck.toml; weaker than the default: ")
+    assert line.endswith(": --tolerance 1000000000, not 8 (hypcheck.toml)")
+
+
+def test_every_default_of_a_weakening_option_is_that_of_the_command(project):
+    from hypcheck.bench.plan import MAX_SLOWDOWN
+
+    assert _UNSET["max_slowdown"] == MAX_SLOWDOWN
 
 
 def test_replay_judges_as_verify_does(project, capsys):

@@ -196,7 +196,7 @@ def test_the_installed_package_is_the_wheel_s_and_says_which_kernel_it_has(insta
 GATED = "verify builtin:fast --families tower-body --count 2"
 COMPARED = "bench --quick --methods table-2-float64,table-2-float64-c --workloads uniform --processes 1 --rounds 1"
 STEPS: dict[str, list[tuple[str, int, str]]] = {
-    "verify": [("verify --families tower-body --count 2 --judged 2 --roots 2 --meshes 1", 0, "HELD")],
+    "verify": [("verify --self --families tower-body --count 2 --judged 2 --roots 2 --meshes 1", 0, "HELD")],
     "verify-spec": [
         (f"{GATED} --out run", 0, "HELD"),
         ("report run", 0, "HELD"),

@@ -10,6 +10,7 @@ import click
 from hypcheck.cli.exits import Exit
 from hypcheck.cli.options import Number
 from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
 
@@ -81,6 +82,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
             plan.options,
             lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)],
             lambda: outcome.exit_code,
+            f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods",
+            in_effect(context),
         )
     if outcome.exit_code == Exit.INCONCLUSIVE:
         click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)

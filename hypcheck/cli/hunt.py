@@ -14,6 +14,7 @@ import click
 from hypcheck.cli.exits import Exit, first_that_applies
 from hypcheck.cli.options import Command, Number, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
+from hypcheck.cli.settings import announce_file
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import NothingJudgedError
 
@@ -62,6 +63,7 @@ def opened(
     if tolerance != DEFAULT_TOLERANCE:
         options.append(("--tolerance", repr(tolerance)))
     claimed = None if domain is None else parse_domain(domain)
+    announce_file()
     with open_implementation(
         spec, limits_of(**limits), precision=precision, question=question, domain=claimed
     ) as implementation:

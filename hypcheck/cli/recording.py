@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from hypcheck.cli.progress import in_lines, watched
+from hypcheck.cli.settings import announce
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
 from hypcheck.visible import visible
 
@@ -37,14 +38,17 @@ def record_and_report(
     options: Mapping[str, Any],
     parts: Callable[[Recorder], Sequence[Part]],
     exit_code: Callable[[], int],
+    title: str,
+    settings: Mapping[str, Any] | None = None,
     files: Mapping[str, str] | None = None,
     carried: Sequence[Line] = (),
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `files` are the sha256 of those
-    under test, by path; `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises
-    InputError where `out` cannot be written, or another run is writing there.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `title` is told when the run
+    begins, and so are the `settings`, which its header has; `files` are the sha256 of those under test, by path;
+    `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises InputError where
+    `out` cannot be written, or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.growing import Growing
@@ -52,16 +56,21 @@ def record_and_report(
     from hypcheck.record.reading import FILE, GROWING
 
     growing = out / GROWING
+    known = {"files": files, "settings": settings}
+    optional = {name: dict(value) for name, value in known.items() if value is not None}
     with ExitStack() as stack:
         try:
             out.mkdir(parents=True, exist_ok=True)
             _require_no_folder(out / FILE, growing)
             stack.enter_context(owning(out))
-            recorder = Recorder(stack.enter_context(Growing(growing)), options, files, carried)
+            recorder = Recorder(stack.enter_context(Growing(growing)), options, optional, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {(error.strerror or str(error)).lower()}") from None
         try:
-            _run(parts(recorder))
+            todo = parts(recorder)
+            _say(title)
+            announce(settings)
+            _run(todo)
             record = recorder.close(exit_code())
         except BaseException as error:
             _ended_early(error, growing, recorder)
@@ -117,7 +126,7 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
 def _say(sentence: str) -> None:
     """Tell whoever watches, if anybody still does."""
     with suppress(OSError):
-        click.echo(f"hypcheck: {sentence}", err=True)
+        click.echo(f"hypcheck: {visible(sentence)}", err=True)
 
 
 def report(record: Record, out: Path) -> None:

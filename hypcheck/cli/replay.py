@@ -9,6 +9,7 @@ import click
 
 from hypcheck.cli.exits import Exit
 from hypcheck.cli.options import Number, limits_of, with_limits
+from hypcheck.cli.settings import announce_file
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
@@ -64,6 +65,7 @@ def replay(
     asked = case_of(case)
     require_formula(formula)
     claimed = None if domain is None else parse_domain(domain)
+    announce_file()
     with open_implementation(
         spec, limits_of(**limits), precision=precision, question=question, domain=claimed
     ) as implementation:

@@ -9,16 +9,20 @@ import json
 import math
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import click
+from click.core import ParameterSource
+
 from hypcheck import toml
 from hypcheck.cli.whole import LARGEST_COUNT, LARGEST_SEED, wanted
 from hypcheck.errors import InputError
 from hypcheck.suggesting import advice
+from hypcheck.visible import visible
 
 FILE = "hypcheck.toml"
 
@@ -45,6 +49,72 @@ class Settings:
         """The values by command, as click wants them."""
         about_one = {name: value for name, value in self.options.items() if name in ABOUT_ONE}
         return {command: dict(self.options) if command == "verify" else about_one for command in COMMANDS}
+
+
+_LARGER = ("tolerance", "max_abstained", "max_slowdown")
+_SMALLER = ("count", "judged", "roots", "meshes")
+_OTHER = ("fail_on", "oracles")
+"""Options that weaken a gate where their value is larger, smaller, or another than their default."""
+
+_UNSET: Mapping[str, Any] = MappingProxyType(
+    {
+        "families": "all but the extreme ones",
+        "precision": "as declared",
+        "question": "as declared",
+        "domain": "as declared",
+        "known_failures": "none",
+        "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN, which is not loaded here
+    }
+)
+"""What goes where an option has no value; but for the last, any value of these weakens a gate."""
+
+
+def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str, Any] | None:
+    """The `settings` of a record's header: the file of the command that runs, and each option that weakens its gate.
+
+    None where there is neither; options that the run does not use are `unused`.
+    """
+    settings, weakened = context.find_object(Settings), []
+    for option in context.command.params:
+        name = str(option.name)
+        value, default = context.params.get(name), _UNSET.get(name, option.default)
+        if name not in unused and _weakens(name, value, default):
+            from_file = context.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
+            shown = {"value": _as_text(value), "default": _as_text(default)}
+            weakened.append({"option": option.opts[0], **shown, "source": FILE if from_file else "command line"})
+    if settings is None and not weakened:
+        return None
+    return {"file": None if settings is None else FILE, "weakened": weakened}
+
+
+def announce(settings: Mapping[str, Any] | None) -> None:
+    """Tell on standard error what in_effect says."""
+    from hypcheck.report.claims import settings_facts
+
+    for fact in settings_facts({"settings": settings}):
+        click.echo(f"hypcheck: {visible(fact)}", err=True)
+
+
+def announce_file() -> None:
+    """As announce, for a command that makes no report: what its settings file says, and not what was typed."""
+    found = in_effect(click.get_current_context())
+    if found is not None and found["file"] is not None:
+        weakened = [each for each in found["weakened"] if each["source"] == found["file"]]
+        announce({**found, "weakened": weakened})
+
+
+def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any option's value
+    if value is None:
+        return False
+    if name in _LARGER:
+        return bool(value > default)
+    if name in _SMALLER:
+        return bool(value < default)
+    return name in _UNSET or (name in _OTHER and value != default)
+
+
+def _as_text(value: object) -> str:
+    return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
 def read_settings(path: Path) -> Settings | None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
@@ -14,9 +15,10 @@ from click.core import ParameterSource
 from hypcheck.cli.options import Number, limits_of, with_limits
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.resuming import folder_of, resumed
-from hypcheck.cli.settings import FILE, Settings
+from hypcheck.cli.settings import FILE, Settings, in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
+from hypcheck.visible import visible
 
 OURS_ONLY = ("oracles", "judged", "roots", "meshes")
 """Options of a run without SPEC."""
@@ -74,16 +76,18 @@ _COUNT = Whole(1)
 @click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
+@click.option("--self", "of_ourselves", is_flag=True, help="Verify hypcheck itself, whatever hypcheck.toml names.")
 @with_limits
 @click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to go on with it.")
 @click.option("--cluster", metavar="ADDRESS", help="With SPEC: a dask.distributed scheduler; local:N starts one here.")
 @click.pass_context
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
-    """Verify ourselves, or gate the implementations that SPEC names.
+    """Verify hypcheck itself, or gate the implementations that SPEC names.
 
     Without SPEC: derive the coefficients, prove the formulas, cross-check four oracles, judge every method, time the
     fast path. Ends with 0 when the oracles agree and the fast path is exact, 6 when oracles disagree, 1 when an exact
-    method erred or the mathematical findings are not the known ones.
+    method erred or the mathematical findings are not the known ones. Where the environment variable CI is set, --self
+    must be given for that: a step that was to gate an implementation, and finds none, ends with 2.
 
     With SPEC (builtin:NAME, python:package.module:function, python:file.py:function, library:path.so, command:…):
     ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
@@ -94,15 +98,35 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
 
     Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, measurements.csv and
     pictures. Options that are not given are those of hypcheck.toml in the working directory, if it is there, and so are
-    the SPECs.
+    the SPECs. Each option that weakens the gate is told at the start and in every report.
     """
-    settings = context.find_object(Settings)
-    chosen = specs or (settings.specs if settings is not None else ())
-    _refuse_others(context, OURS_ONLY if chosen else GATE_ONLY, chosen=chosen, given=specs)
+    chosen = _chosen(context, specs, of_ourselves=options.pop("of_ourselves"))
+    unused = OURS_ONLY if chosen else GATE_ONLY
+    _refuse_others(context, unused, chosen=chosen, given=specs)
     if options["resume"] and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
         options["out"] = folder_of(options["resume"])
-    code = _gate(chosen, options) if chosen else _ourselves(options)
+    settings = in_effect(context, unused)
+    options["title"] = "verifying hypcheck itself, no implementation"
+    if chosen:
+        options["title"] = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
+    code = _gate(chosen, options, settings) if chosen else _ourselves(options, settings)
     context.exit(code)
+
+
+def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: bool) -> tuple[str, ...]:
+    """The SPECs to gate; none where hypcheck itself is verified. Raises InputError where nobody chose that."""
+    if of_ourselves:
+        if specs:
+            raise InputError(f"--self verifies hypcheck itself and takes no SPEC; {visible(specs[0])} is one")
+        return ()
+    settings = context.find_object(Settings)
+    chosen = specs or (settings.specs if settings is not None else ())
+    if not chosen and os.environ.get("CI", "").lower() not in ("", "0", "false"):
+        raise InputError(
+            f"no implementation is named, as SPEC or by specs in {FILE} here, so this step of CI would gate nothing; "
+            "name one, or verify hypcheck itself with: hypcheck verify --self"
+        )
+    return chosen
 
 
 def _refuse_others(
@@ -111,11 +135,11 @@ def _refuse_others(
     for name in names:
         if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             option = "--" + name.replace("_", "-")
-            hint = f"; {FILE} names one, and `hypcheck --no-settings verify` leaves it aside" if chosen != given else ""
+            hint = f"; {FILE} names one, and --self leaves it aside" if chosen != given else ""
             raise InputError(f"{option} is for a run {'without' if chosen else 'with'} SPEC{hint}")
 
 
-def _ourselves(options: dict[str, Any]) -> int:
+def _ourselves(options: dict[str, Any], settings: Mapping[str, Any] | None) -> int:
     from hypcheck.processes import usable_processors
     from hypcheck.verify import run
     from hypcheck.verify.plan import Plan
@@ -137,11 +161,13 @@ def _ourselves(options: dict[str, Any]) -> int:
         run.options(plan),
         lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
         lambda: outcome.exit_code,
+        options["title"],
+        settings,
     )
     return outcome.exit_code
 
 
-def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
+def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str, Any] | None) -> int:
     from hypcheck.gate import run
     from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.known_failures import update
@@ -193,6 +219,8 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any]) -> int:
             )
         ],
         lambda: outcome.exit_code,
+        options["title"],
+        settings,
         files=files,
         carried=begun.carried,
     )

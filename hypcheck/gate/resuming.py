@@ -48,7 +48,7 @@ def require_same_run(
 
     `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
     """
-    before, now = record.header, header(options, datetime.now(timezone.utc), files)
+    before, now = record.header, header(options, datetime.now(timezone.utc), {"files": files})
     if not {"specs", "max_abstained"} <= before["options"].keys():
         command = "bench" if before["options"].get("command") == "bench" else "verify without SPEC"
         raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")

@@ -6,7 +6,7 @@ Numbers that must come back exactly are hexadecimal strings; infinity is the str
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
 1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
-scenes and forests.
+scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from hypcheck.record.model import Line, Record
 from hypcheck.record.sealing import sealed
 from hypcheck.version import VERSION
 
-SCHEMA = "1.3.0"
+SCHEMA = "1.4.0"
 
 PROGRESS = "progress"
 """The line from which an interrupted run goes on; a finished record has none."""
@@ -36,16 +36,16 @@ PROGRESS = "progress"
 class Recorder:
     """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    `files` are the sha256, by path, of those under test. `carried` are lines of the record that is gone on with, which
-    are there from the first moment on. Interrupts wait while a line is written, so that none is ever written twice, or
-    by half with another behind it.
+    `optional` are the fields of the header that not every run has, such as `files`. `carried` are lines of the record
+    that is gone on with, which are there from the first moment on. Interrupts wait while a line is written, so that
+    none is ever written twice, or by half with another behind it.
     """
 
     def __init__(
         self,
         stream: TextIO | Growing,
         options: Mapping[str, Any],
-        files: Mapping[str, str] | None = None,
+        optional: Mapping[str, Any] | None = None,
         carried: Sequence[Line] = (),
     ) -> None:
         self._stream = stream
@@ -55,7 +55,7 @@ class Recorder:
         self._place = len(self._lines)
         self._ending: tuple[Line, ...] = ()
         self._check = 0
-        self._header = plain(header(options, self._started, files))
+        self._header = plain(header(options, self._started, optional))
         if isinstance(stream, Growing):
             self._renew()
         else:
@@ -125,9 +125,9 @@ class Recorder:
             self._check = check
 
 
-def header(options: Mapping[str, Any], started: datetime, files: Mapping[str, str] | None = None) -> Line:
-    """The first line: versions, machine and options, and the files under test if there are any to be known."""
-    line: Line = {
+def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> Line:
+    """The first line: versions, machine and options, and the `optional` fields that are there."""
+    return {
         "type": "header",
         "schema": SCHEMA,
         "hypcheck": VERSION,
@@ -141,8 +141,8 @@ def header(options: Mapping[str, Any], started: datetime, files: Mapping[str, st
             "cores": os.cpu_count(),
         },
         "options": dict(options),
+        **(optional or {}),
     }
-    return line if files is None else {**line, "files": dict(files)}
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds

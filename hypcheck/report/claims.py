@@ -1,4 +1,7 @@
-"""What a gated implementation says of itself, and as what it was judged, in the words of every report."""
+"""What a gated implementation says of itself, and as what it was judged, in the words of every report.
+
+And what the settings of a run say that weakens its gate.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,22 @@ from typing import Any
 
 from hypcheck.record import Line
 from hypcheck.report.text import counted, figure, listed
+
+
+def settings_facts(header: Line) -> Iterator[str]:
+    """One sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
+
+    None where there is no settings file and every option that decides is as strict as its default.
+    """
+    settings = header.get("settings")
+    if settings is None:
+        return
+    parts = [f"settings are those of {settings['file']}"] if settings["file"] else []
+    weakened = settings["weakened"]
+    if weakened:
+        named = (f"{each['option']} {each['value']}, not {each['default']} ({each['source']})" for each in weakened)
+        parts.append(f"weaker than the default: {'; '.join(named)}")
+    yield "; ".join(parts)
 
 
 def claims(line: Line) -> Iterator[str]:

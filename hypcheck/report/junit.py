@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 from hypcheck.record import Record
+from hypcheck.report.claims import settings_facts
 from hypcheck.report.suite import Case, Suite, total
 from hypcheck.report.suites import suites
 from hypcheck.visible import visible
@@ -27,10 +28,20 @@ def render(record: Record, _around: Around | None = None) -> bytes:
     for suite in found:
         element = Xml.SubElement(root, "testsuite", {"name": visible(suite.name), **_attributes([suite])})
         element.set("timestamp", started)
+        _set_properties(element, record)
         for case in suite.cases:
             element.append(_element(suite, case))
     Xml.indent(root)
     return bytes(Xml.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
+def _set_properties(element: Xml.Element, record: Record) -> None:
+    """The settings of the run, in each suite: the schema that most parsers go by has properties nowhere else."""
+    found = list(settings_facts(record.header))
+    if found:
+        properties = Xml.SubElement(element, "properties")
+        for fact in found:
+            Xml.SubElement(properties, "property", {"name": "settings", "value": visible(fact)})
 
 
 def _attributes(found: Sequence[Suite]) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.1.0.json beside this file."""
+"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.2.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from hypcheck.report.verdict import failures, verdict
 if TYPE_CHECKING:
     from hypcheck.report.write import Around
 
-SCHEMA = "1.1.0"
+SCHEMA = "1.2.0"
 
 Fields = dict[str, Any]
 
@@ -51,6 +51,7 @@ def summary(record: Record) -> Fields:
         "verdict": ended.sentence,
         "started": record.header["started"],
         "seconds": footer.get("seconds"),
+        "settings": record.header.get("settings"),
         "oracles": {total.name: _oracle(total) for total in oracle_totals(record)},
         "equations": _equations(record.of("equation")),
         "proofs": _proofs(record.of("proof")),

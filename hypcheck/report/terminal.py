@@ -19,7 +19,7 @@ from hypcheck.report.changes import (
     status_changes,
 )
 from hypcheck.report.choice import EVERYWHERE, POSITION, choice
-from hypcheck.report.claims import claims
+from hypcheck.report.claims import claims, settings_facts
 from hypcheck.report.digest import timing_totals, under_test
 from hypcheck.report.facts import benchmark_facts, claim_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.text import counted, figure, listed
@@ -60,6 +60,7 @@ def summary_lines(
     ended = verdict(record)
     head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
+        *settings_facts(record.header),
         *_failures(record),
         *([] if against is None else _changes(record, against)),
         *_advice(record),

@@ -6,6 +6,7 @@ import base64
 import builtins
 import hashlib
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
@@ -125,6 +126,16 @@ def test_what_failed_stands_before_what_holds():
     assert text.index("verdict failed") < text.index("What failed") < text.index("The oracles")
     assert "verdict held" in page.render(samples.record()).decode("utf-8")
     assert "TRUNCATED" in page.render(samples.record(exit_code=None)).decode("utf-8")
+
+
+def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed():
+    weakened = [{"option": "--tolerance", "value": "1e+18", "default": "8", "source": "hypcheck.toml"}]
+    record = samples.record()
+    header = {**record.header, "settings": {"file": "hypcheck.toml", "weakened": weakened}}
+    text = page.render(replace(record, header=header)).decode("utf-8")
+    assert "weaker than the default: --tolerance 1e+18, not 8 (hypcheck.toml)." in text
+    assert text.index("weaker than the default") < text.index("The oracles")
+    assert "Settings" not in page.render(record).decode("utf-8")
 
 
 def test_changes_stand_there_too():

@@ -35,6 +35,7 @@ SUMMARY = schema(f"summary-{summary.SCHEMA}.json")
 
 PARTS = {
     "scene_times",
+    "settings",
     "count",
     "counts",
     "error",
@@ -109,7 +110,7 @@ def test_every_line_of_a_benchmark_fits():
 
 def test_the_older_schema_is_part_of_the_newer():
     older = schema("record-1.0.0.json")
-    added = {"grid", "ratio", "ratios", "load", "span", "progress", "scene_times"}
+    added = {"grid", "ratio", "ratios", "load", "span", "progress", "scene_times", "settings"}
     assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | added
     # Null and the sizes of a domain were added, and room for a fault of each of the six statuses.
     alike = older["$defs"].keys() - {"limits", "description", "group", "header", "implementation"}
@@ -117,9 +118,10 @@ def test_the_older_schema_is_part_of_the_newer():
     newer = RECORD["$defs"]["group"]["properties"]
     faults = newer["faults"] | {"maxItems": 5}
     assert newer | {"faults": faults} == older["$defs"]["group"]["properties"]
-    for kind, field in (("header", "files"), ("implementation", "finished")):
+    for kind, fields_ in (("header", ("files", "program", "settings")), ("implementation", ("finished",))):
         newer = dict(RECORD["$defs"][kind]["properties"])
-        del newer[field]
+        for field in fields_:
+            del newer[field]
         assert RECORD["$defs"][kind] | {"properties": newer} == older["$defs"][kind]
 
 

@@ -26,6 +26,7 @@ def overview(record: Record, beside: Collection[str]) -> Content:
     pictures = tuple(figures for figures in (maps.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
         *failed.sections(record),
+        *run.settings(record),
         *choosing.sections(record),
         *choosing.named(record),
         *([Section("Pictures", pictures[:1])] if pictures else []),

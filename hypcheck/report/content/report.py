@@ -30,6 +30,7 @@ from hypcheck.report.verdict import Verdict, verdict
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     failed.sections,
+    run.settings,
     targets.baseline,
     choosing.sections,
     errors.sections,

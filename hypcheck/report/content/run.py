@@ -6,8 +6,17 @@ import json
 from collections.abc import Iterator
 
 from hypcheck.record import Record
-from hypcheck.report.content.blocks import Code, Section, bullets
+from hypcheck.report.claims import settings_facts
+from hypcheck.report.content.blocks import Code, Section, Strong, bullets
 from hypcheck.report.text import counted, figure
+
+
+def settings(record: Record) -> Iterator[Section]:
+    """The settings file of the run and what weakens its gate; none where every option is as strict as its default."""
+    found = list(settings_facts(record.header))
+    if found:
+        items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in found]
+        yield Section("Settings", (bullets(items),))
 
 
 def sections(record: Record) -> Iterator[Section]:
