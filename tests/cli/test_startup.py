@@ -54,7 +54,7 @@ def test_one_pair_needs_no_arrays():
         (["replay", "tower-body/1/1/3", "builtin:fast"], {"numpy"}),
         (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], PAGE),
         (
-            ["verify", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
+            ["verify", "--self", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
             {*PAGE, "sympy", "mpmath"},
         ),
     ],

@@ -177,7 +177,7 @@ def test_a_bad_list_is_refused(tmp_path, capsys, text, message):
     "options",
     [
         ["builtin:fast", "--oracles", "exact"],
-        ["--fail-on", "false-clear"],
+        ["--self", "--fail-on", "false-clear"],
         ["nonsense"],
         ["builtin:nothing"],
         ["builtin:fast", "--memory", "much"],

@@ -15,7 +15,7 @@ from hypcheck.record import read
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_what_was_finished_is_written(tmp_path, number, code):
-    command = [sys.executable, "-m", "hypcheck", "verify", "--out", str(tmp_path), "--count", "400"]
+    command = [sys.executable, "-m", "hypcheck", "verify", "--self", "--out", str(tmp_path), "--count", "400"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     part = tmp_path / "record.jsonl.part"
     deadline = time.monotonic() + 60

@@ -20,7 +20,9 @@ FAMILIES = ["--families", "ring,tangent,tower-body,regime-borders"]
 
 
 def ended(tmp_path, *options):
-    result = CliRunner().invoke(verify, ["--out", str(tmp_path), *SMALL, *FAMILIES, *options], standalone_mode=False)
+    result = CliRunner().invoke(
+        verify, ["--self", "--out", str(tmp_path), *SMALL, *FAMILIES, *options], standalone_mode=False
+    )
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     return result
