@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,7 +92,7 @@ class Performed:
         """Whether it would have come out the same with the `actual` allowance, which is not larger."""
         if self.granted == actual:
             return True
-        if actual.over or self.left.over:
+        if actual.over or self.left.over or (actual.hangs is not None and actual.hangs != self.granted.hangs):
             return False
         spent = self._spent
         return spent.restarts <= actual.restarts and spent.faults < actual.faults
@@ -100,7 +100,8 @@ class Performed:
     def after(self, actual: Allowance) -> Allowance:
         """What is left of the `actual` allowance behind it."""
         spent = self._spent
-        return replace(self.left, restarts=actual.restarts - spent.restarts, faults=actual.faults - spent.faults)
+        hangs = None if actual.hangs is None else self.left.hangs
+        return Allowance(actual.restarts - spent.restarts, actual.faults - spent.faults, self.left.over, hangs)
 
     @property
     def _spent(self) -> Allowance:

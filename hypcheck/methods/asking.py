@@ -106,6 +106,7 @@ class Asking:
     def _question(self, start: int, stop: int) -> None:
         rows = self._rows[start:stop]
         answers = self._runs.session().classify(rows, by_scene=self._by_scene)
+        self._runs.heard()
         understood = self._vocabulary.understood(answers, rows)
         self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
         self.result.status[start:stop] = Outcome.ANSWERED

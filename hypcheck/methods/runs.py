@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from hypcheck.methods.faults import FaultError, StartError
+from hypcheck.methods.faults import FaultError, Outcome, StartError
 from hypcheck.methods.session import Session
 
 
@@ -13,17 +13,23 @@ class OverError(Exception):
     """No further run is possible; the text says why. Raised by Runs and caught where questions are asked."""
 
 
+HANGS = 3
+"""Questions in a row that an implementation may leave without an answer before it has answered any."""
+
+
 @dataclass(frozen=True, slots=True)
 class Allowance:
     """What an implementation may still cost before it is asked no more.
 
     `restarts` after rows that ended its process; `faults`, rows that ended in one without ending the process. `over`
-    says why it is asked no more already; empty while it is.
+    says why it is asked no more already; empty while it is. `hangs` are questions that it may still leave without an
+    answer; None once it has answered one, from when on restarts alone count.
     """
 
     restarts: int
     faults: int
     over: str = ""
+    hangs: int | None = HANGS
 
 
 class Runs:
@@ -66,7 +72,12 @@ class Runs:
         return None
 
     def _end(self, reason: str) -> None:
-        self.left = replace(self.left, over=reason)
+        self.left = replace(self.left, over=self.left.over or reason)
+
+    def heard(self) -> None:
+        """Take note that a question was answered."""
+        if self.left.hangs is not None:
+            self.left = replace(self.left, hangs=None)
 
     def note(self, fault: FaultError) -> str:
         """End the session that runs where the fault is fatal: what happened, with what was said on standard error."""
@@ -75,7 +86,17 @@ class Runs:
             return fault.reason
         session.kill()
         self._session = None
-        return fault.reason + session.evidence
+        reason = fault.reason + session.evidence
+        self._count_hang(fault, reason)
+        return reason
+
+    def _count_hang(self, fault: FaultError, reason: str) -> None:
+        if self.left.hangs is None:
+            return
+        hangs = self.left.hangs - 1 if fault.outcome is Outcome.TIMEOUT else HANGS
+        self.left = replace(self.left, hangs=hangs)
+        if not hangs:
+            self._end(f"not asked: it hung on {HANGS} questions in a row and never answered any; the last: {reason}")
 
     def charge(self, fault: FaultError, reason: str) -> None:
         """Take note of a row that was found to be at fault."""

@@ -191,11 +191,30 @@ def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_pat
         ((20, 9999, ""), (20, 9999, ""), (20, 9999, "used up"), False),
         ((0, 9999, ""), (0, 9999, "used up"), (0, 9999, ""), True),
         ((1, 9999, ""), (0, 9999, "used up"), (0, 9999, ""), False),
+        # Of questions left without an answer before any was answered; None: one was.
+        ((20, 9999, "", 3), (20, 9999, "", None), (19, 9999, "", None), True),
+        ((20, 9999, "", 3), (18, 9999, "hung", 0), (20, 9999, "", None), False),
+        ((20, 9999, "", 3), (18, 9999, "", None), (18, 9999, "", 1), False),
     ],
 )
 def test_a_result_counts_where_enough_was_left_for_it(granted, left, actual, fits):
     performed = Performed(Result(), Allowance(*granted), Allowance(*left))
     assert performed.fits(Allowance(*actual)) is fits
+
+
+def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp_path):
+    """Several processes find it out at the same time, and the run comes to what one process makes of it."""
+    (tmp_path / "hangs.py").write_text("import time\n\n\ndef f(rows):\n    time.sleep(60)\n")
+    hangs = Opening(f"python:{tmp_path / 'hangs.py'}:f", Limits(timeout=0.3))
+    some = steps_of(["tower-body"], 2500)
+    with hangs.open() as it:
+        begun = State(it.allowance)
+        expected = last(states(some, Here(it, rules_of(it)), begun))
+        with Workers(2, hangs, rules_of(it), it) as crew:
+            found = last(states(some, crew, begun))
+    assert saved(found) == saved(expected)
+    (tally,) = found.total.tallies.values()
+    assert {name: count for name, count in tally.counts.items() if count} == {"timeout": 2, "not-run": tally.asked - 2}
 
 
 def test_a_result_comes_back_from_json():

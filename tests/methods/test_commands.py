@@ -154,6 +154,25 @@ def test_noise_throughout_is_known_as_that():
     assert sorted(answered.reasons) == list(range(40))
 
 
+def test_an_implementation_that_never_answers_is_asked_no_more_after_three_hangs_in_a_row():
+    """One of all rows, and one each of the first two."""
+    with open_implementation(command("hangs"), QUICK) as it:
+        answered = it.classify(rows())
+        assert it.restarts == 2
+    assert answered.status.tolist() == [Outcome.TIMEOUT] * 2 + [Outcome.NOT_RUN] * 38
+    assert answered.reasons[39].startswith(
+        "not asked: it hung on 3 questions in a row and never answered any; the last: no reply within 0.7 s"
+    )
+
+
+def test_an_implementation_that_answered_once_may_hang_as_often_as_restarts_allow():
+    some = rows()
+    some[1:5, 1] = 13.0
+    with open_implementation(command("loops"), QUICK) as it:
+        answered = it.classify(some[:10])
+    assert answered.status.tolist() == [Outcome.ANSWERED] + [Outcome.TIMEOUT] * 4 + [Outcome.ANSWERED] * 5
+
+
 def test_without_restarts_the_first_row_at_fault_is_found_and_the_rest_is_not_run():
     with open_implementation(command("segfaults"), Limits(restarts=0)) as it:
         answered = it.classify(rows())
