@@ -5,6 +5,9 @@ VENV ?= .venv
 OUT ?= reports/latest
 BIN := $(VENV)/bin
 
+# Hundreds of processes start in a run of the tests: each would compile hypcheck anew where no bytecode is kept.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help verify bench deep reference-bench attack pace soak kernels wheel test lint cases check-cases paper mutants format clean
 

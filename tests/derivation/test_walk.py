@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import sympy
 
@@ -12,11 +13,14 @@ from hypcheck.derivation.links import matrix_identity
 from hypcheck.derivation.printed import check_equations
 from hypcheck.derivation.printed_equations import printed_claims
 
-SHOWN = [part for section in walk.walk() for link in section.links for part in link.parts]
+
+@cache
+def shown():
+    return [part for section in walk.walk() for link in section.links for part in link.parts]
 
 
 def test_each_formula_that_holds_is_shown_as_it_is_printed():
-    texts = {part.text for part in SHOWN}
+    texts = {part.text for part in shown()}
     misprinted = {equation.number for equation in check_equations() if not equation.holds}
     for claim in printed_claims():
         assert (claim.statement in texts) == (claim.number not in misprinted), claim.number
@@ -25,7 +29,7 @@ def test_each_formula_that_holds_is_shown_as_it_is_printed():
 def test_a_misprinted_formula_is_shown_put_right():
     for number, name in (("11", "f(λ)"), ("12", "g(λ)"), ("A.2b", "c1(g_i)")):
         ((_, derived),) = next(claim.pairs for claim in printed_claims() if claim.number == number)
-        right = [part.right for part in SHOWN if part.text.startswith(f"{name} = ")]
+        right = [part.right for part in shown() if part.text.startswith(f"{name} = ")]
         assert any(difference(shown, derived) == 0 for shown in right if not isinstance(shown, sympy.MatrixBase))
 
 

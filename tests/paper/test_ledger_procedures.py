@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
@@ -17,11 +18,14 @@ from hypcheck.paper.ledger.procedures import PROCEDURE_2A, program_says
 from hypcheck.paper.ledger.quadcopter import Quadcopter, quadcopters, refused_though_inside
 from hypcheck.paper.ledger.search import counterexample
 
-LEDGER = {entry.number: entry for entry in entries()}
+
+@cache
+def ledger():
+    return {entry.number: entry for entry in entries()}
 
 
 def hull_of(number):
-    hull, _ = LEDGER[number].evidence[0].witnesses
+    hull, _ = ledger()[number].evidence[0].witnesses
     return hull.facts
 
 
@@ -82,7 +86,7 @@ def test_a_rotor_beyond_the_farthest_one_does_not_exist():
 
 
 def test_the_programs_err_at_the_witnesses_and_not_beside_them():
-    ring = LEDGER["Table 1"].evidence[0].witnesses[0].facts
+    ring = ledger()["Table 1"].evidence[0].witnesses[0].facts
     for name in ("procedure-1", "table-2"):
         assert program_says(name, ring) == 0
         beside = facts(replace(ring.point, r=ring.point.r + Fraction(1, 64)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 import pytest
 import sympy
@@ -18,9 +19,17 @@ from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.roots import classify_by_roots
 from tests.fractions_truth import exact_position
 
-EVERYTHING = tuple(facts_in_order())
-SAMPLE = (*EVERYTHING[::83], *[each for each in EVERYTHING if each.delta == 0][::8])
 LAMBDA = sympy.Symbol("lambda")
+
+
+@cache
+def everything():
+    return tuple(facts_in_order())
+
+
+@cache
+def sample():
+    return (*everything()[::83], *[each for each in everything() if each.delta == 0][::8])
 
 
 def cubic(each):
@@ -32,7 +41,7 @@ def cubic(each):
 
 
 def test_facts_are_those_of_the_cubic():
-    for each in SAMPLE[::3]:
+    for each in sample()[::3]:
         g, A, B = cubic(each)
         _, c2, c1, c0 = g.all_coeffs()
         assert (each.c2, each.c1, each.c0) == (c2, c1, c0)
@@ -43,8 +52,8 @@ def test_facts_are_those_of_the_cubic():
 
 def test_the_patterns_of_roots_tell_the_position():
     """The table that the case splits of the propositions go through, against roots counted by Sturm's theorem."""
-    assert {pattern_of(each) for each in SAMPLE} == set(PATTERNS)
-    for each in SAMPLE:
+    assert {pattern_of(each) for each in sample()} == set(PATTERNS)
+    for each in sample():
         assert pattern_of(each).position == each.position
 
 
@@ -64,13 +73,13 @@ def pattern_of(each):
 
 
 def test_positions_are_those_of_the_other_oracles():
-    for each in SAMPLE:
+    for each in sample():
         assert classify_by_roots(each.point.pair).position is each.position
         assert exact_position(each.point.pair.row) == each.position
 
 
 def test_points_are_exact_in_floats():
-    for each in SAMPLE:
+    for each in sample():
         alpha, gamma, b, d, x, y, z = map(Fraction, each.point.pair.row)
         assert (alpha / b, gamma / d, x / b, z / d, y) == (each.point.a, each.point.c, each.point.r, each.point.z, 0)
 
@@ -116,7 +125,7 @@ def test_each_stratum_is_what_its_name_says():
 def test_the_witness_is_the_simplest(statement, expected):
     found = counterexample(statement).found
     assert found.point == Point(*map(Fraction, expected))
-    others = [each for each in EVERYTHING if statement.where(each) and not statement.says(each)]
+    others = [each for each in everything() if statement.where(each) and not statement.says(each)]
     assert found.point.cost == min(each.point.cost for each in others)
 
 
@@ -170,10 +179,10 @@ def test_without_its_regime_a_repaired_proposition_is_contradicted():
 
 
 def test_a_search_counts_what_it_tried():
-    assert first(lambda _: False).tried == len(EVERYTHING)
+    assert first(lambda _: False).tried == len(everything())
     assert first(lambda _: True).tried == 1
     tall = first(lambda _: False, say.tall).tried
-    assert 0 < tall < len(EVERYTHING)
+    assert 0 < tall < len(everything())
 
 
 def test_a_witness_with_another_position_or_certificate_is_none():
