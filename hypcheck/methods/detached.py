@@ -31,7 +31,7 @@ def new_mark() -> str:
 def end_marked(mark: str) -> None:
     """Kill all processes that have the mark and that we may kill."""
     for _ in range(_ROUNDS):
-        found = list(_marked(mark.encode() + b"="))
+        found = list(_marked(mark))
         for process in found:
             with suppress(OSError):
                 os.kill(process, signal.SIGKILL)
@@ -39,12 +39,18 @@ def end_marked(mark: str) -> None:
             return
 
 
-def _marked(beginning: bytes) -> Iterator[int]:
+def is_marked(process: int, mark: str) -> bool:
+    """Whether the environment of a process has the mark; never of another user's, or where the system does not tell."""
+    try:
+        with open(f"/proc/{process}/environ", "rb") as file:
+            return f"{mark}=".encode() in file.read()
+    except OSError:  # it ended meanwhile, or is another's
+        return False
+
+
+def _marked(mark: str) -> Iterator[int]:
     try:
         names = os.listdir("/proc")
     except OSError:
         return
-    for name in filter(str.isdigit, names):
-        with suppress(OSError), open(f"/proc/{name}/environ", "rb") as file:  # it ended meanwhile, or is another's
-            if beginning in file.read():
-                yield int(name)
+    yield from (int(name) for name in names if name.isdigit() and is_marked(int(name), mark))

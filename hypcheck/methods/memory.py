@@ -1,4 +1,4 @@
-"""The resident memory of a process group, looked at from outside.
+"""The memory of a program and of everything that it started, looked at from outside.
 
 An address-space limit would be simpler, but kills what reserves much and uses little: sanitizers, Go, the JVM.
 """
@@ -8,7 +8,10 @@ from __future__ import annotations
 import os
 import subprocess
 import time
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
+from hypcheck.methods.detached import is_marked
 from hypcheck.methods.faults import FaultError, Outcome
 
 _SOONEST = 0.05
@@ -18,56 +21,121 @@ _FASTEST = 8 << 30
 before memory can have grown to the limit, by so many bytes a second, which is more than a system can clear."""
 
 
-class MemoryWatch:
-    """Looks now and then at a group's memory, and raises a FaultError where it is beyond the limit."""
+class _Seen(NamedTuple):
+    """A process of the system: `started` tells it from a later one of the same number; `resident` is in bytes."""
 
-    def __init__(self, group: int, limit: int) -> None:
-        self._group = group
+    number: int
+    parent: int
+    group: int
+    session: int
+    started: int
+    resident: int
+
+    @property
+    def identity(self) -> tuple[int, int]:
+        return self.number, self.started
+
+
+class MemoryWatch:
+    """Looks now and then at the memory of a program's processes, and raises a FaultError where it is beyond the limit.
+
+    Its processes are those of the group and session that `leader` leads, those whose environment has the `mark` that
+    it was given, what any of these started, and whatever was one of them before, though its parent has ended since.
+    """
+
+    def __init__(self, leader: int, mark: str, limit: int) -> None:
+        self._leader = leader
+        self._mark = mark
         self._limit = limit
         self._next = time.monotonic() + _SOONEST
+        self._known: dict[tuple[int, int], bool] = {}
 
     def look(self, now: float) -> None:
         """Look, if it is time to; `now` is time.monotonic()."""
         if now < self._next:
             return
-        used = resident(self._group)
+        used = self.used()
         after = time.monotonic()
         self._next = after + max(_SOONEST, _SHARE * (after - now), (self._limit - used) / _FASTEST)
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
+    def used(self) -> int:
+        """Bytes that its processes hold; 0 where the system does not tell.
 
-def resident(group: int) -> int:
-    """Bytes resident in all processes of a group; 0 where the system does not tell."""
-    return _by_proc(group) if os.path.exists("/proc/self/stat") else _by_ps(group)
+        What they share counts once where the sum of all that is resident is beyond the limit: to tell that, the system
+        goes through every page.
+        """
+        ours = list(self._ours(list(_all_processes())))
+        resident = sum(each.resident for each in ours)
+        return resident if resident <= self._limit else sum(map(_proportional, ours))
+
+    def _ours(self, found: list[_Seen]) -> Iterator[_Seen]:
+        known = self._known
+        self._known = {each.identity: known[each.identity] for each in found if each.identity in known}
+        children: dict[int, list[_Seen]] = {}
+        for each in found:
+            children.setdefault(each.parent, []).append(each)
+        todo = [each for each in found if self._is_ours(each)]
+        while todo:
+            each = todo.pop()
+            yield each
+            for child in children.pop(each.number, ()):
+                if not self._known[child.identity]:
+                    self._known[child.identity] = True
+                    todo.append(child)
+
+    def _is_ours(self, each: _Seen) -> bool:
+        """Whether a process is one of its processes, as far as it tells itself. Asked once: its environment stays."""
+        if each.identity not in self._known:
+            self._known[each.identity] = is_marked(each.number, self._mark)
+        if self._leader in {each.group, each.session}:
+            self._known[each.identity] = True
+        return self._known[each.identity]
 
 
-def _by_proc(group: int) -> int:
-    pages = 0
-    for name in os.listdir("/proc"):
-        if name.isdigit():
-            try:
-                with open(f"/proc/{name}/stat", "rb") as file:
-                    stat = file.read()
-            except OSError:  # it ended meanwhile, or is hidden from us
-                continue
-            fields = stat[stat.rfind(b")") + 2 :].split()  # the name before ")" may hold anything
-            if int(fields[2]) == group:
-                pages += int(fields[21])
-    return pages * os.sysconf("SC_PAGE_SIZE")
+def _all_processes() -> Iterable[_Seen]:
+    return _by_proc() if os.path.exists("/proc/self/stat") else _by_ps()
 
 
-def _by_ps(group: int) -> int:
+def _by_proc() -> Iterator[_Seen]:
+    page = os.sysconf("SC_PAGE_SIZE")
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", "rb") as file:
+                stat = file.read()
+        except OSError:  # it ended meanwhile, or is hidden from us
+            continue
+        fields = stat[stat.rfind(b")") + 2 :].split()  # the name before ")" may hold anything
+        parent, group, session, started, pages = (int(fields[place]) for place in (1, 2, 3, 19, 21))
+        yield _Seen(int(name), parent, group, session, started, pages * page)
+
+
+def _by_ps() -> Iterator[_Seen]:
     """For systems without /proc, such as macOS; ps counts in KiB."""
     try:
         listing = subprocess.run(
-            ("ps", "-A", "-o", "pgid=", "-o", "rss="),  # noqa: S607 - not everywhere in the same place
+            ("ps", "-A", "-o", "pid=", "-o", "ppid=", "-o", "pgid=", "-o", "rss="),  # noqa: S607 - not everywhere in the same place
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             check=False,
         ).stdout
     except OSError:
-        return 0
-    pairs = (line.split() for line in listing.splitlines())
-    return sum(int(pair[1]) << 10 for pair in pairs if len(pair) == 2 and int(pair[0]) == group)
+        return
+    for line in listing.splitlines():
+        if len(fields := line.split()) == 4:
+            number, parent, group, kib = map(int, fields)
+            yield _Seen(number, parent, group, 0, 0, kib << 10)
+
+
+def _proportional(each: _Seen) -> int:
+    """Bytes that a process holds, of each page that others hold too its share; all that is resident where not told."""
+    try:
+        with open(f"/proc/{each.number}/smaps_rollup", "rb") as file:
+            for line in file:
+                if line.startswith(b"Pss:"):
+                    return int(line.split()[1]) << 10
+    except OSError:  # it ended meanwhile, is not ours to look into, or the system is too old
+        pass
+    return each.resident

@@ -77,7 +77,7 @@ class Process:
         except OSError as error:
             raise StartError(_not_run(words[0], error)) from None
         self._guard = _guard(self._popen.pid, self._mark)
-        self._memory = MemoryWatch(self._popen.pid, limits.memory)
+        self._memory = MemoryWatch(self._popen.pid, self._mark, limits.memory)
         self._tail = Tail()
         self._outgoing: Iterator[bytes | memoryview] = iter(())
         self._part = memoryview(b"")

@@ -169,7 +169,7 @@ def test_nothing_outlives_us_even_if_we_are_killed(name, token):  # noqa: F811
     assert all_gone(token) == []
 
 
-def test_memory_is_that_of_the_whole_group(run):
+def test_memory_is_that_of_the_whole_group(run, monkeypatch):
     code = (
         "import subprocess, sys, time\n"
         "child = subprocess.Popen([sys.executable, '-c', "
@@ -178,12 +178,70 @@ def test_memory_is_that_of_the_whole_group(run):
     )
     process = run(code)
     hear(process, 1)
-    group = process._popen.pid
-    assert 150 << 20 < memory.resident(group) < 250 << 20
+    watch = process._memory
+    assert 150 << 20 < watch.used() < 250 << 20
     if shutil.which("ps"):
-        assert 150 << 20 < memory._by_ps(group) < 250 << 20
+        monkeypatch.setattr(memory, "_all_processes", memory._by_ps)
+        assert 150 << 20 < watch.used() < 250 << 20
     process.kill()
-    eventually(lambda: memory.resident(group) == 0)
+    eventually(lambda: watch.used() == 0)
+
+
+HOLDS = "x = bytearray(b'1') * (150 << 20); os.write(1, b'1'); time.sleep(60)"
+
+
+WITHOUT = f"subprocess.Popen([sys.executable, '-c', {'import os, time; ' + HOLDS!r}], env={{}}, start_new_session=True)"
+
+
+@needs_proc
+@pytest.mark.parametrize(
+    "code",
+    [
+        f"import os, time\nif not os.fork():\n    os.setsid(); {HOLDS}\ntime.sleep(60)",
+        f"import os, time\nif not os.fork():\n    os.setsid()\n    if not os.fork():\n        {HOLDS}\ntime.sleep(60)",
+        f"import os, subprocess, sys, time\n{WITHOUT}\ntime.sleep(60)",
+    ],
+    ids=["its child", "an orphan", "a child without its environment"],
+)
+def test_memory_of_children_in_sessions_of_their_own_counts(run, code):
+    process = run(code)
+    hear(process, 1)
+    assert process._memory.used() > 150 << 20
+
+
+@needs_proc
+def test_memory_of_an_orphan_without_our_environment_counts_if_it_was_seen_before(run):
+    """A look finds it while its parent lives, which ends when it is told to."""
+    code = (
+        "import os, subprocess, sys\n"
+        "if not os.fork():\n"
+        f"    {WITHOUT}\n"
+        "    sys.stdin.readline(); os._exit(0)\n"
+        "os.wait(); os.write(1, b'2'); sys.stdin.read()"
+    )
+    process = run(code)
+    hear(process, 1)
+    assert process._memory.used() > 150 << 20
+    process.send([b"\n"])
+    hear(process, 2)
+    assert process._memory.used() > 150 << 20
+
+
+@needs_proc
+def test_memory_that_processes_share_counts_once(run):
+    """Four processes with the same 150 MiB, of which each would seem to have all; LIMITS allow 400 MiB."""
+    code = (
+        "import mmap, os\n"
+        "shared = mmap.mmap(-1, 150 << 20)\n"
+        "os.fork(); os.fork()\n"
+        "for place in range(0, len(shared), 4096): shared[place] = 1\n"
+        "os.write(1, b'1'); os.read(0, 1)\n"
+    )
+    process = run(code)
+    hear(process, 4)
+    resident = sum(each.resident for each in process._memory._ours(list(memory._all_processes())))
+    assert resident > LIMITS.memory
+    assert 150 << 20 < process._memory.used() < 300 << 20
 
 
 def test_memory_that_is_only_reserved_is_no_memory(run):
