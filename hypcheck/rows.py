@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import reprlib
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.pairs import COLUMNS, SIZES, trouble_with
-from hypcheck.visible import counted
+from hypcheck.visible import counted, visible
 
+Floats = NDArray[np.float64]
 Rows = NDArray[np.float64]
 Positions = NDArray[np.int8]
+
+_ROWS_WANTED = f"an array (n, 7) of numbers: {', '.join(COLUMNS)}"
 
 CANNOT_SAY = 2
 """What stands for an answer where a method does not give one."""
@@ -24,17 +29,44 @@ def as_rows(values: ArrayLike) -> Rows:
     Raises InputError where the shape or the type cannot be that, or where values are masked; the values themselves are
     not looked at.
     """
-    require_unmasked("the rows are", values)
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the rows are no array of numbers: {error}") from None
-    if array.dtype.kind not in "iuf":
-        raise InputError(f"the rows are of type {array.dtype}; they must be real numbers")
-    rows = np.ascontiguousarray(array, dtype=np.float64)
+    rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be {_ROWS_WANTED}"))
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
         raise InputError(f"the rows have shape {rows.shape}; it must be (n, 7): {', '.join(COLUMNS)}")
     return rows
+
+
+def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """What stands for x, y, z …, a number or an array (n,) each, as float64 columns of one length n.
+
+    Raises InputError naming what is none, or the shapes that do not go together.
+    """
+    wanted = "it must be a number or an array (n,) of numbers"
+    columns = [np.atleast_1d(as_numbers(f"{name} is", each, wanted)) for name, each in zip(names, given, strict=True)]
+    try:
+        shape = np.broadcast_shapes(*(each.shape for each in columns))
+    except ValueError:
+        shape = ()
+    if len(shape) != 1:
+        shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
+        raise InputError(f"{shapes} have shapes that do not go together; each must be (n,) or a number")
+    return tuple(np.broadcast_to(each, shape) for each in columns)
+
+
+def as_numbers(subject: str, values: object, wanted: str) -> Floats:
+    """`values` as float64 of their own shape. Raises InputError, "<subject> …; <wanted>", unless all are real numbers.
+
+    What float64 does not hold becomes infinite. Texts and truth values are no numbers, and masked values none either.
+    """
+    require_unmasked(subject, values)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):  # of several lengths
+        array = np.empty(0, dtype=np.object_)
+    if array.dtype.kind not in "iuf":
+        found = f"an array of {values.dtype}" if isinstance(values, np.ndarray) else visible(reprlib.repr(values), 60)
+        raise InputError(f"{subject} {found}; {wanted}")
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
 
 
 def require_unmasked(subject: str, values: object) -> None:

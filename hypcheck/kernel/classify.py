@@ -12,7 +12,7 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.answering import kernel
 from hypcheck.kernel.question import Question, require_known
 from hypcheck.pairs import CENTER, SIZES, trouble_with
-from hypcheck.rows import Positions, as_rows, require_unmasked, require_valid
+from hypcheck.rows import Positions, as_columns, as_numbers, as_rows, require_valid
 
 
 def classify(
@@ -61,13 +61,7 @@ def classify_scene(
     """
     number = _required(question, threads, on_invalid)
     four = _sizes(sizes)
-    columns = [_numbers(name, column) for name, column in zip(CENTER, (x, y, z), strict=True)]
-    try:
-        u, v, w = (np.atleast_1d(column) for column in np.broadcast_arrays(*columns))
-    except ValueError as error:
-        raise InputError(f"x, y, z do not go together: {error}") from None
-    if u.ndim != 1:
-        raise InputError(f"x, y, z have shape {u.shape}; each must be (n,) or a single number")
+    u, v, w = as_columns(CENTER, (x, y, z))
     _require_fitting(out, len(u))
     result, refused = kernel().answer_scene(four, (u, v, w), question, number)
     if refused and on_invalid == "raise":
@@ -91,21 +85,11 @@ def _required(question: str, threads: int | None, on_invalid: str) -> int | None
     return number
 
 
-def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    require_unmasked(f"{name}:", values)
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: no array of numbers: {error}") from None
-    if array.dtype.kind not in "fiu":
-        raise InputError(f"{name}: of type {array.dtype}; it must be real numbers that fit into float64")
-    return array.astype(np.float64, copy=False)
-
-
 def _sizes(sizes: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    numbers = _numbers("the sizes", sizes)
+    wanted = f"they must be four numbers: {', '.join(SIZES)}"
+    numbers = as_numbers("the sizes are", sizes, wanted)
     if numbers.shape != (len(SIZES),):
-        raise InputError(f"the sizes: of shape {numbers.shape}; they must be four numbers: {', '.join(SIZES)}")
+        raise InputError(f"the sizes are of shape {numbers.shape}; {wanted}")
     alpha, gamma, b, d = numbers.tolist()
     for name, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
         trouble = trouble_with(name, value)

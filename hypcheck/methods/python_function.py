@@ -20,6 +20,11 @@ from hypcheck.rows import Rows
 
 _INT64 = np.iinfo(np.int64)
 
+_OURS = os.path.dirname(os.path.dirname(__file__)) + os.sep
+_INSTALLED = os.path.dirname(os.path.dirname(np.__file__)) + os.sep
+_NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
+"""Where lines of a traceback lie: this package, installed packages, Python itself."""
+
 
 class PythonFunction:
     """A function of a file or a module, and the module's optional attribute `hypcheck`, a mapping. Raises LoadError."""
@@ -64,12 +69,17 @@ class PythonFunction:
 
 def told(error: BaseException) -> str:
     """What was raised, and where, as the end of a sentence."""
-    frames = [each for each in traceback.extract_tb(error.__traceback__) if not each.filename.startswith("<frozen")]
     text = traceback.format_exception_only(type(error), error)[-1].strip()
     if isinstance(error, SyntaxError):
         return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
-    place = f" ({os.path.basename(frames[-1].filename)}, line {frames[-1].lineno})" if frames else ""
-    return f"raised {text}{place}"
+    files = [(each.filename, each.lineno) for each in traceback.extract_tb(error.__traceback__)]
+    foreign = [
+        (file, line) for file, line in files if not file.startswith(_NOT_UNDER_TEST) or file.startswith(_INSTALLED)
+    ]
+    foreign = [(file, line) for file, line in foreign if not file.startswith(_OURS)]
+    # The last line of theirs, and not of what they call: where numpy raises, its line tells them nothing.
+    written = [each for each in foreign if not each[0].startswith(_INSTALLED)] or foreign[:1]
+    return f"raised {text}" + (f" ({os.path.basename(written[-1][0])}, line {written[-1][1]})" if written else "")
 
 
 def _of_name(name: str) -> ModuleType:

@@ -109,6 +109,8 @@ def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]
         raise
     except Exception as error:  # noqa: BLE001 - numpy evaluates the header's text, which may hold anything
         reason = str(error).partition("\n")[0] or "it cannot be read"
+        if reason.startswith("malformed node"):  # Python's name for it would be an object at an address
+            reason = "it has an expression where a plain value must stand"
         raise InputError(f"{reader.name} is no .npy file, or one cut off in its header: {reason}") from None
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
 

@@ -17,15 +17,17 @@ Roots are counted by Sturm's theorem in integers; nothing is rounded.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import reprlib
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import COLUMNS, SIZES, Lengths, Position, trouble_with
+from hypcheck.pairs import CENTER, COLUMNS, SIZES, Lengths, Position, trouble_with
 from hypcheck.truth import exact
 from hypcheck.truth.motion_roots import added, narrowed, roots_from_0_to_1
 from hypcheck.truth.roots_isolation import Interval, Polynomial, primitive, product, value
+from hypcheck.visible import counted, visible
 
 Rational = float | Fraction
 """A float64, taken as an exact value, or a fraction."""
@@ -82,8 +84,8 @@ class _Journey:
 def passage(sizes: Sequence[Rational], start: Sequence[Rational], end: Sequence[Rational]) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
-    Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0 or a coordinate
-    not finite.
+    Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0, a coordinate not
+    finite, or their number not 4, 3 and 3.
     """
     journey = _journey(sizes, start, end)
     here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
@@ -178,7 +180,19 @@ def _journey(sizes: Sequence[Rational], start: Sequence[Rational], end: Sequence
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:
     """α, γ, b, d, x, y, z as fractions. Raises InputError naming the first that cannot be."""
-    return tuple(_exact(name, number) for name, number in zip(COLUMNS, (*sizes, *center), strict=True))
+    numbers = (*several("the sizes", SIZES, sizes), *several("a centre", CENTER, center))
+    return tuple(_exact(name, number) for name, number in zip(COLUMNS, numbers, strict=True))
+
+
+def several(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:
+    """The values, one for each name. Raises InputError where they are more, fewer, or no sequence."""
+    wanted = f"there must be {len(names)}: {', '.join(names)}"
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InputError(f"{subject}: {visible(reprlib.repr(values), 60)} is no sequence of numbers; {wanted}")
+    found = tuple(values)
+    if len(found) != len(names):
+        raise InputError(f"{subject}: {counted(len(found), 'number')} in {visible(reprlib.repr(found), 60)}; {wanted}")
+    return found
 
 
 def _exact(name: str, number: Rational) -> Fraction:

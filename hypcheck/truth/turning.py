@@ -24,7 +24,8 @@ from mpmath.ctx_iv import ivmpf
 from hypcheck.errors import InputError
 from hypcheck.pairs import Lengths, Position
 from hypcheck.truth import exact
-from hypcheck.truth.motion import Rational, checked, integers
+from hypcheck.truth.motion import Rational, checked, integers, several
+from hypcheck.visible import visible
 
 PRECISIONS = (128, 512, 2048)
 """Bits with which enclosures are made, each tried where the one before does not tell."""
@@ -63,13 +64,16 @@ def turning(
 
 
 def _checked_turn(arm: Rational, direction: Sequence[Rational], angle: float) -> tuple[Fraction, ...]:
-    for name, number in (("arm", arm), ("direction", direction[0]), ("direction", direction[1]), ("angle", angle)):
+    ahead, aside = several("direction", ("x", "y"), direction)
+    for name, number in (("arm", arm), ("direction", ahead), ("direction", aside), ("angle", angle)):
+        if isinstance(number, bool) or not isinstance(number, (int, float, Fraction)):
+            raise InputError(f"{name} is {visible(repr(number), 60)}; it must be a number")
         if isinstance(number, float) and not math.isfinite(number):
             raise InputError(f"{name} is {number!r}; it must be finite")
-    if arm < 0 or not any(direction):
+    if arm < 0 or not (ahead or aside):
         what = f"arm is {arm!r}; it must be 0 or more" if arm < 0 else "direction is (0, 0); it must lead somewhere"
         raise InputError(what)
-    return tuple(Fraction(number) for number in (arm, *direction, angle))
+    return tuple(Fraction(number) for number in (arm, ahead, aside, angle))
 
 
 def squared_distances(

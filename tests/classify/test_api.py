@@ -107,17 +107,23 @@ def test_an_out_that_does_not_fit_is_refused(out, found):
 @pytest.mark.parametrize(
     ("sizes", "center", "sentence"),
     [
-        ((1, 2, 1), (1, 2, 3), "the sizes: of shape"),
+        ((1, 2, 1), (1, 2, 3), "the sizes are of shape"),
         ((1, 2, 1, -1), (1, 2, 3), "d is -1.0; a semi-axis must be greater than 0"),
         ((1, 2, 1, np.nan), (1, 2, 3), "d is nan; it must be finite"),
-        ((1, 2, 1, "1"), (1, 2, 3), "the sizes: of type <U"),
-        ((1, [2, 3], 1, 1), (1, 2, 3), "the sizes: no array of numbers: "),
-        ((1, 2, 1, 1), (1, [[1], [1, 2]], 3), "y: no array of numbers: "),
-        ((1, 2, 1, 1), ([1, 2], [1, 2, 3], 3), "x, y, z do not go together"),
-        ((1, 2, 1, 1), ([[1, 2]], 1, 3), r"x, y, z have shape \(1, 2\)"),
-        ((1, 2, 1, 1), (1, 2j, 3), "y: of type complex128"),
-        ((1, 2, 1, 1), (1, 2, 10**400), "z: of type object"),
-        ((1, 2, 1, 1), (True, 2, 3), "x: of type bool"),
+        ((1, 2, 1, "1"), (1, 2, 3), "the sizes are .*; they must be four numbers: alpha, gamma, b, d"),
+        ((1, [2, 3], 1, 1), (1, 2, 3), r"the sizes are \(1, \[2, 3\], 1, 1\); they must be four numbers"),
+        (
+            (1, 2, 1, 1),
+            (1, [[1], [1, 2]], 3),
+            r"y is \[\[1\], \[1, 2\]\]; it must be a number or an array \(n,\) of numbers",
+        ),
+        ((1, 2, 1, 1), ([1, 2], [1, 2, 3], 3), r"x \(2,\), y \(3,\), z \(1,\) have shapes that do not go together"),
+        ((1, 2, 1, 1), ([[1, 2]], 1, 3), r"x \(1, 2\), y \(1,\), z \(1,\) have shapes that do not go together"),
+        ((1, 2, 1, 1), (1, 2j, 3), "y is 2j; it must be a number"),
+        ((1, 2, 1, 1), (1, np.array([2j]), 3), "y is an array of complex128; it must be a number"),
+        ((1, 2, 1, 1), (1, "2", 3), "y is '2'; it must be a number"),
+        ((1, 2, 1, 1), (1, 2, 10**400), "z is 1000"),
+        ((1, 2, 1, 1), (True, 2, 3), "x is True; it must be a number"),
     ],
 )
 def test_a_scene_that_is_none_is_refused(sizes, center, sentence):
@@ -133,7 +139,7 @@ def test_what_is_masked_is_refused_and_a_mask_of_nothing_is_none():
     masked[1, 2] = np.ma.masked
     with pytest.raises(InputError, match="the rows are masked in 1 place; fill it, with nan or a number"):
         hypcheck.classify(masked)
-    with pytest.raises(InputError, match="y: masked in 1 place;"):
+    with pytest.raises(InputError, match="y is masked in 1 place;"):
         hypcheck.classify_scene((1, 2, 1, 1), 1, masked[1], 3)
 
 

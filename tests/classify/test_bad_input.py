@@ -197,6 +197,15 @@ def test_npy_cut_off_anywhere(tmp_path, capsys):
     assert message(tmp_path, capsys, "in.npy", data + b"x").startswith(" goes on for 1 byte after its 3 rows")
 
 
+@pytest.mark.parametrize("shape", ["9**9**9", "(9**9, 7)", "[x for x in y]", "f(7)", "(-x, 7)"])
+def test_npy_whose_header_holds_an_expression(shape, tmp_path, capsys):
+    head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}".ljust(117).encode() + b"\n"
+    data = b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head
+    assert message(tmp_path, capsys, "in.npy", data) == (
+        " is no .npy file, or one cut off in its header: it has an expression where a plain value must stand"
+    )
+
+
 class Touching:
     """Unpickled, it would leave a file behind."""
 

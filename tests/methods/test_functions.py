@@ -281,6 +281,19 @@ def test_a_change_of_the_rounding_mode_is_seen_and_undone():
         guard.restore()
 
 
+@pytest.mark.parametrize(
+    ("call", "line"), [("np.broadcast_arrays([1, 2], [1, 2, 3])", 6), ("json.loads('{')", 6), ("helper.f()", 4)]
+)
+def test_what_a_called_package_raises_is_told_with_the_line_that_calls_it(call, line, tmp_path):
+    (tmp_path / "helper.py").write_text("import numpy as np\n\ndef f():\n    np.broadcast_arrays([1, 2], [1, 2, 3])\n")
+    text = f"import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n    {call}\n"
+    (tmp_path / "calls.py").write_text(text, encoding="utf-8")
+    with open_implementation(f"python:{tmp_path / 'calls.py'}:f", LIMITS) as it:
+        (reason,) = set(it.classify(rows()[:1]).reasons.values())
+    where = "helper.py" if "helper" in call else "calls.py"
+    assert reason.endswith(f" ({where}, line {line})"), reason
+
+
 def test_the_worker_loads_neither_sympy_nor_mpmath_nor_fcl(tmp_path):
     names = "{'sympy', 'mpmath', 'fcl', 'click', 'hypcheck.methods.builtin'}"
     (tmp_path / "seen.py").write_text(

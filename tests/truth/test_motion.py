@@ -266,6 +266,21 @@ def test_any_magnitude_is_decided(wide, tall):
         ((2.0, 3.0, 1.0, math.inf), (0.0,) * 3, (1.0,) * 3, "d is inf; it must be finite"),
         ((2.0, 3.0, 1.0, 1.0), (0.0, math.nan, 0.0), (1.0,) * 3, "y is nan; it must be finite"),
         ((2.0, 3.0, 1.0, 1.0), (0.0,) * 3, (0.0, 0.0, math.inf), "z is inf; it must be finite"),
+        (
+            (2.0, 3.0),
+            (0.0,) * 3,
+            (1.0,) * 3,
+            r"the sizes: 2 numbers in \(2.0, 3.0\); there must be 4: alpha, gamma, b, d",
+        ),
+        (
+            (2.0, 3.0, 1.0, 1.0),
+            (0.0, 0.0),
+            (1.0,) * 3,
+            r"a centre: 2 numbers in \(0.0, 0.0\); there must be 3: x, y, z",
+        ),
+        ((2.0, 3.0, 1.0, 1.0), (0.0,) * 3, (1.0,) * 4, "a centre: 4 numbers in .*; there must be 3: x, y, z"),
+        ((2.0, 3.0, 1.0, 1.0), None, (1.0,) * 3, "a centre: None is no sequence of numbers; there must be 3: x, y, z"),
+        ((2.0, 3.0, 1.0, 1.0), "123", (1.0,) * 3, "a centre: '123' is no sequence of numbers; there must be 3"),
     ],
 )
 def test_what_is_no_length_is_refused(sizes, start, end, message):

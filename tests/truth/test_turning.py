@@ -118,6 +118,10 @@ def test_without_an_arm_nothing_moves():
         (1, (0, 0), 1.0, r"direction is \(0, 0\)"),
         (1, (0, math.nan), 1.0, "direction is nan"),
         (1, (0, 1), math.inf, "angle is inf"),
+        (1, (0,), 1.0, r"direction: 1 number in \(0,\); there must be 2: x, y"),
+        (1, (0, 1, 2), 1.0, "direction: 3 numbers in .*; there must be 2: x, y"),
+        (None, (0, 1), 1.0, "arm is None; it must be a number"),
+        (1, (0, 1), "1", "angle is '1'; it must be a number"),
     ],
 )
 def test_what_is_no_turn_is_refused(arm, direction, angle, message):

@@ -113,13 +113,16 @@ def test_outside_its_region_only_what_is_in_reach_is_asked():
 @pytest.mark.parametrize(
     ("centre", "sentence"),
     [
-        (("a", 0, 0), "x is 'a'; it must be a number or an array"),
-        ((0, 1j, 0), "y is 1j; it must be a number or an array"),
+        (("a", 0, 0), "x is 'a'; it must be a number"),
+        ((0, 1j, 0), "y is 1j; it must be a number"),
         ((0, 0, [[1], [2, 3]]), r"z is \[\[1\], \[2, 3\]\]; it must be a number"),
-        ((10**400, 0, 0), "x is 1000000"),
+        ((10**400, 0, 0), "x is (1000000|an integer too large for float64)"),
         (([0, 1], [0, 1, 2], 0), r"x \(2,\), y \(3,\), z \(1,\), heading \(1,\) have shapes that do not go together"),
-        ((0, 0, None), "row 0: z is nan"),
-        ((0, 0, 0, math.inf), "row 0: heading is inf"),
+        ((0, 0, None), "z is None; it must be a number"),
+        (("1.5", 0, 0), "x is '1.5'; it must be a number"),
+        ((0, b"1.5", 0), "y is b'1.5'; it must be a number"),
+        ((True, 0, 0), "x is True; it must be a number"),
+        ((0, 0, 0, math.inf), "heading is inf; it must be finite"),
     ],
 )
 def test_what_is_no_centre_gets_a_sentence(centre, sentence):
@@ -127,8 +130,16 @@ def test_what_is_no_centre_gets_a_sentence(centre, sentence):
     with pytest.raises(InputError, match=sentence):
         scene.classify(*centre)
     if not any(isinstance(each, list) for each in centre):
-        with pytest.raises(InputError):
+        with pytest.raises(InputError, match=f"^{sentence}"):
             scene.position(*centre)
+
+
+def test_a_step_takes_every_kind_of_number_and_no_array_of_several():
+    scene = Scene(model.Scene("s", "position", HILLS, Mover(0.3, 0.9)))
+    for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
+        assert scene.position(one, 0, 0) == 0
+    with pytest.raises(InputError, match=r"x is of shape \(2,\); it must be a number \(classify takes arrays\)"):
+        scene.position(np.array([1.0, 2.0]), 0, 0)
 
 
 def test_nothing_asked_is_nothing_answered_and_every_layout_is_read():

@@ -133,7 +133,8 @@ def _bound(plan: Plan) -> str:
         return "Proved: every answer is right."
     unit = plan.format.unit
     return (
-        f"Proved (docs/plans.md) for rounding to nearest: an answer is right for inputs each changed by {float(plan.bound_u):g} u at most, "
+        "Proved (docs/plans.md) for rounding to nearest: "
+        f"an answer is right for inputs each changed by {float(plan.bound_u):g} u at most, "
         f"u = 2^-{plan.format.bits} = {float(unit):.3g}. So it may be wrong only in a band around contact: where "
         f"changing every size and coordinate by a share of {float(Fraction(plan.bound_u) * unit):.2g} changes the "
         "position. There is no wrong answer away from the surface, on the ring of double roots either."

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from math import cos, isfinite, nan, radians, sin
+from math import cos, isfinite, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,11 +23,10 @@ from hypcheck.kernel.world.bodies import Bodies, Levels, bodies_of, levels_of
 from hypcheck.kernel.world.grid import Grid, grid_of
 from hypcheck.kernel.world.reach import in_reach, reaches
 from hypcheck.kernel.world.step import Body, position_beside
-from hypcheck.pairs import CENTER
-from hypcheck.rows import CANNOT_SAY, Positions
+from hypcheck.pairs import CENTER, trouble_with
+from hypcheck.rows import CANNOT_SAY, Positions, as_columns, as_numbers
 from hypcheck.scene import model
 from hypcheck.scene.reading import parse_scene, read_scene
-from hypcheck.visible import visible
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -37,6 +36,8 @@ CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
 YES = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}
 """The position that is answered 1, by the question."""
+
+_ASKED = (*CENTER, "heading")
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
 _OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT)
@@ -71,9 +72,9 @@ class Scene:
         height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded centre is.
         Raises InputError for numbers that are not finite.
         """
-        columns = _columns((x, y, z, heading))
+        columns = as_columns(_ASKED, (x, y, z, heading))
         centres = np.stack(columns[:3], axis=1)
-        for name, values in zip((*CENTER, "heading"), columns, strict=True):
+        for name, values in zip(_ASKED, columns, strict=True):
             if not np.isfinite(values).all():
                 index = int(np.argmin(np.isfinite(values)))
                 raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
@@ -89,12 +90,11 @@ class Scene:
 
         Raises InputError for numbers that are not finite.
         """
-        try:
-            x, y, z, heading = float(x), float(y), float(z), float(heading)
-        except (TypeError, ValueError, OverflowError):
-            x = nan
-        if not (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading)):
-            return int(self.classify(x, y, z, heading)[0])  # which says what is wrong
+        if not (
+            type(x) is type(y) is type(z) is type(heading) is float
+            and (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading))
+        ):
+            x, y, z, heading = map(_number, _ASKED, (x, y, z, heading))
         mover, found = self.model.mover, 0
         for index in self._near(x, y, z):
             body = self._body(index)
@@ -187,28 +187,17 @@ class Scene:
         return bodies_of(self.model.hyperboloids)
 
 
-def _columns(given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """x, y, z and the heading as columns of one length; raises InputError."""
-    names = (*CENTER, "heading")
-    columns = [_numbers(name, values) for name, values in zip(names, given, strict=True)]
-    try:
-        return tuple(_one_column(each) for each in np.broadcast_arrays(*columns))
-    except ValueError:
-        shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
-        raise InputError(f"{shapes} have shapes that do not go together; each must be (n,) or a number") from None
-
-
-def _numbers(name: str, values: ArrayLike) -> Floats:
-    try:
-        return np.atleast_1d(np.asarray(values, np.float64))
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} is {visible(repr(values), 60)}; it must be a number or an array (n,)") from None
-
-
-def _one_column(values: Floats) -> Floats:
-    if values.ndim != 1:
-        raise ValueError("no column")
-    return values
+def _number(name: str, value: object) -> float:
+    """The value as a finite float64; raises InputError about anything else."""
+    if not isinstance(value, (int, float)):
+        array = as_numbers(f"{name} is", value, "it must be a number")
+        if array.size != 1:
+            raise InputError(f"{name} is of shape {array.shape}; it must be a number (classify takes arrays)")
+        value = float(array.item())
+    trouble = trouble_with(name, value)
+    if trouble is not None:
+        raise InputError(trouble)
+    return float(value)
 
 
 def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, origins: Floats) -> Positions:
