@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from hypcheck.cli.exits import Exit
-from hypcheck.cli.options import Number
+from hypcheck.cli.options import Number, Place
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option("--out", type=click.Path(path_type=Path), default=Path("reports/bench"), show_default=True)
+@click.option("--out", type=Place(), default=Path("reports/bench"), show_default=True)
 @click.option(
     "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
 )

@@ -7,12 +7,13 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from hypcheck.cli.exits import Exit, first_that_applies
-from hypcheck.cli.options import Command, Number, limits_of, with_limits
+from hypcheck.cli.options import Command, Number, Place, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import announce_file
 from hypcheck.cli.whole import LARGEST_SEED, Whole
@@ -92,7 +93,7 @@ Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing)
 @click.option("--queries", type=Whole(1), help="Rows asked at most; with no --budget the same is found again.")
 @click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
 @click.option("--show", type=Whole(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
-@click.option("--out", metavar="FILE", help="A vector file to which the worst row of each kind is added.")
+@click.option("--out", type=Place(), metavar="FILE", help="A vector file to which the worst row of each kind is added.")
 @about_one_implementation
 @click.pass_context
 def hunt(
@@ -103,7 +104,7 @@ def hunt(
     queries: int | None,
     seed: int,
     show: int,
-    out: str | None,
+    out: Path | None,
     **subject: Any,  # noqa: ANN401 - the options of SUBJECT
 ) -> None:
     """Hunt for the budget, and tell what was found; interrupted, what was found until then."""
@@ -112,7 +113,7 @@ def hunt(
     if out is not None:
         from hypcheck.hunt.keep import require_keepable
 
-        require_keepable(out)
+        require_keepable(str(out))
     plan = Plan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
         run = Hunt(target, plan)
@@ -143,7 +144,7 @@ def _shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public name for
     return show
 
 
-def _tell(run: Hunt, show: int, out: str | None) -> None:
+def _tell(run: Hunt, show: int, out: Path | None) -> None:
     from hypcheck.hunt.text import hunt_lines
 
     for line in hunt_lines(run, show):
@@ -153,7 +154,7 @@ def _tell(run: Hunt, show: int, out: str | None) -> None:
         from hypcheck.hunt.keep import keep
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
-        added = keep(out, [cluster.worst.case.row for cluster in found], made_by)
+        added = keep(str(out), [cluster.worst.case.row for cluster in found], made_by)
         click.echo(f"\n{out}: {added} rows added{'' if added == len(found) else ', the others were there'}")
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -11,6 +13,7 @@ import click
 from hypcheck.cli.whole import Whole
 from hypcheck.errors import InputError
 from hypcheck.tables.numbers import is_number, shown
+from hypcheck.tables.route import STREAM
 
 if TYPE_CHECKING:
     from hypcheck.methods.limits import Limits
@@ -35,6 +38,21 @@ class Number(click.types.FloatParamType):
             wanted += "" if math.isinf(self.greatest) else f" and at most {self.greatest:g}"
             self.fail(f"{shown(str(value))} must be {wanted}.", param, ctx)
         return number
+
+
+class Place(click.Path):
+    """Where files are written to: a path that is not empty, and "-" only where that is standard output (`stream`)."""
+
+    def __init__(self, *, stream: bool = False) -> None:
+        super().__init__(path_type=Path)
+        self.stream = stream
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:  # noqa: ANN401 - click's
+        """The path. Raises click.BadParameter."""
+        text = os.fspath(value)
+        if not text or (text == STREAM and not self.stream):
+            self.fail(f"{text!r} names neither a file nor a folder.", param, ctx)
+        return Path(text)
 
 
 _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}

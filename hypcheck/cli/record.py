@@ -9,6 +9,7 @@ import click
 
 from hypcheck.cli.exits import Exit
 from hypcheck.cli.groups import Group
+from hypcheck.cli.options import Place
 from hypcheck.tables.route import STREAM
 from hypcheck.visible import visible
 
@@ -29,24 +30,26 @@ def check(context: click.Context, /, record: Path) -> None:
 
     RECORD is a record.jsonl, the folder of a run, or - for standard input.
 
-    Ends with 0 when it is whole, 1 when it is cut off (its run was interrupted: what was finished is good), 2 when it
-    is damaged.
+    Ends with 0 when it is whole, 1 when it is cut off (its run was interrupted: what was finished is good) or when a
+    newer run in its folder has not finished, 2 when it is damaged.
     """
-    from hypcheck.record.reading import file_of
+    from hypcheck.record.reading import file_and_newer
     from hypcheck.record.repairing import check as condition_of
 
-    file = file_of(record)
+    file, newer = file_and_newer(record)
     found = condition_of(file)
     sums = "with their checksums" if found.sealed else f"without checksums, as schema {found.schema} has them"
     click.echo(f"{visible(file)}: {_kept(found)}, {sums}; {_ending(found)}")
-    context.exit(Exit.HELD if found.complete else Exit.WRONG)
+    if newer:
+        click.echo(f"it is of an older run: {visible(newer)}")
+    context.exit(Exit.HELD if found.complete and not newer else Exit.WRONG)
 
 
 @record_.command(short_help="Keep everything up to the last good line.")
 @click.argument("record", type=click.Path(path_type=Path))
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=Place(stream=True),
     required=True,
     help="Where what is good is written (- is standard output).",
 )

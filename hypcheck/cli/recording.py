@@ -38,22 +38,24 @@ def record_and_report(
     options: Mapping[str, Any],
     parts: Callable[[Recorder], Sequence[Part]],
     exit_code: Callable[[], int],
-    title: str,
+    title: str = "",
     settings: Mapping[str, Any] | None = None,
     files: Mapping[str, str] | None = None,
     carried: Sequence[Line] = (),
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `title` is told when the run
-    begins, and so are the `settings`, which its header has; `files` are the sha256 of those under test, by path;
-    `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises InputError where
-    `out` cannot be written, or another run is writing there.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. When the run begins its `title` is
+    told, if it has one, and the `settings`, which the header has; reports of an earlier run are removed, and its record
+    stays until the new one takes its place. `files` are the sha256 of those under test, by path; `carried` are lines of
+    a run that is gone on with, whose record may be the one in `out`. Raises InputError where `out` cannot be written,
+    or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.growing import Growing
     from hypcheck.record.owning import owning
     from hypcheck.record.reading import FILE, GROWING
+    from hypcheck.report.write import remove_reports
 
     growing = out / GROWING
     known = {"files": files, "settings": settings}
@@ -67,12 +69,16 @@ def record_and_report(
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {(error.strerror or str(error)).lower()}") from None
         try:
+            remove_reports(out)
             todo = parts(recorder)
-            _say(title)
+            if title:
+                _say(title)
             announce(settings)
             _run(todo)
             record = recorder.close(exit_code())
         except BaseException as error:
+            if isinstance(error, OSError):
+                _require_folder(out, error)
             _ended_early(error, growing, recorder)
             raise
         _settle(recorder, growing, out / FILE)
@@ -93,11 +99,18 @@ def _require_no_folder(*files: Path) -> None:
             raise InputError(f"--out {file.parent} cannot be written: {file.name} in it is a folder")
 
 
+def _require_folder(out: Path, error: OSError) -> None:
+    """Raise InputError where a run that an error of the system ended has lost the folder that it writes to."""
+    if not out.is_dir():
+        raise InputError(f"--out {out} is no folder any more: it was replaced or removed during the run") from error
+
+
 def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
     """Raises InputError where the record cannot take its place; it is then where it grew."""
     try:
         recorder.settle(path)
     except OSError as error:
+        _require_folder(path.parent, error)
         reason = (error.strerror or str(error)).lower()
         raise InputError(f"cannot write {path}: {reason}; what was finished is in {growing}") from error
 

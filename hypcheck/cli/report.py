@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hypcheck.cli.options import Place
 from hypcheck.cli.progress import in_lines
 from hypcheck.errors import InputError
 from hypcheck.report.write import REPORTS, kept, write_reports
 from hypcheck.tables.streams import same_file, writing
+from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
@@ -34,7 +36,7 @@ each run, never times of two machines.
 @click.command(help=_HELP, short_help="Make any report of a record, and show what changed against another.")
 @click.argument("record", type=click.Path(path_type=Path))
 @click.option("--format", "formats", multiple=True, type=click.Choice(list(REPORTS)), help="May be given repeatedly.")
-@click.option("--out", type=click.Path(path_type=Path), help="A file, or a folder.")
+@click.option("--out", type=Place(), help="A file, or a folder.")
 @click.option("--against", type=click.Path(path_type=Path), help="An earlier record, or the folder of its run.")
 def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Path | None) -> None:
     """Make reports of a record."""
@@ -76,11 +78,14 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
 
 
 def _read(path: Path, subject: Path) -> Record:
+    from hypcheck.record.reading import file_and_newer
     from hypcheck.report.reading import notes, read_checked
 
+    _, newer = file_and_newer(path)
     record = read_checked(path)
     if path is subject:
-        for note in notes(record):
+        older = [f"this is an older run: {visible(newer)}"] if newer else []
+        for note in [*older, *notes(record)]:
             click.echo(f"hypcheck: note: {note}", err=True)
     return record
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from hypcheck.cli.groups import Group
-from hypcheck.cli.options import Number
+from hypcheck.cli.options import Number, Place
 from hypcheck.cli.progress import watched
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 SEED = click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-OUT = click.option("--out", type=click.Path(path_type=Path), help="A folder for the JSON and the pictures.")
+OUT = click.option("--out", type=Place(), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Decide exactly what happens between the positions too.")
 FORMAT = click.option(
     "--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True, help="To the terminal."

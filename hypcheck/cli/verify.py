@@ -12,7 +12,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.options import Number, limits_of, with_limits
+from hypcheck.cli.options import Number, Place, limits_of, with_limits
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.resuming import folder_of, resumed
 from hypcheck.cli.settings import FILE, Settings, in_effect
@@ -46,9 +46,7 @@ _COUNT = Whole(1)
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option(
-    "--out", type=click.Path(path_type=Path), default=Path("reports/latest"), show_default=True, help="For the reports."
-)
+@click.option("--out", type=Place(), default=Path("reports/latest"), show_default=True, help="For the reports.")
 @click.option(
     "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
 )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import shlex
 from pathlib import Path
 
+from hypcheck.errors import InputError
 from hypcheck.record.model import Record
 from hypcheck.record.scanning import Scan
 from hypcheck.tables.streams import reading
@@ -24,6 +26,22 @@ def file_of(path: Path) -> Path:
 def interrupted_in(path: Path) -> Path:
     """The file of a record to go on with: in the folder of a run, that of one that was killed goes before."""
     return path / GROWING if (path / GROWING).is_file() else file_of(path)
+
+
+def file_and_newer(path: Path) -> tuple[Path, str]:
+    """As file_of, and a sentence about a newer run in its folder that has not finished; empty where there is none.
+
+    Raises InputError where the newer run is the only one.
+    """
+    file = file_of(path)
+    growing = file.with_name(GROWING)
+    if file.name != FILE or not growing.is_file():
+        return file, ""
+    goes_on = f"its command with --resume {shlex.quote(str(file.parent))} goes on with it where it names a SPEC"
+    newer = f"{growing} is of a newer run, which was killed or is still at work; {goes_on}"
+    if not file.exists():
+        raise InputError(f"{file} is not there; {newer}")
+    return file, newer
 
 
 def read(path: Path) -> Record:

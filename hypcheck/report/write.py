@@ -87,6 +87,15 @@ def files_of(record: Record) -> list[str]:
     return [each.file for each in every if not each.shows or record.of(each.shows)]
 
 
+def remove_reports(directory: Path) -> None:
+    """Remove the reports that every run writes, so that none is taken for one of the run that begins.
+
+    Raises InputError where one cannot be removed.
+    """
+    for name in kept():
+        _remove(directory / REPORTS[name].file)
+
+
 def write_reports(
     record: Record, directory: Path, formats: Sequence[str] | None = None, against: Record | None = None
 ) -> list[Written]:

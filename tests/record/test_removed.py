@@ -10,7 +10,7 @@ import stat
 import pytest
 
 from hypcheck.cli.recording import Part, record_and_report
-from hypcheck.errors import NothingJudgedError
+from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
 from hypcheck.record.reading import FILE, GROWING
 
@@ -41,6 +41,24 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
         record = read(out / FILE)
         assert [line["reason"] for line in record.lines] == ["before"]
         assert bool(record.footer) is (end is None)
+
+
+@pytest.mark.parametrize("keeps", [True, False])
+def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(tmp_path, keeps):
+    out = tmp_path / "out"
+
+    def parts(recorder):
+        def replaces(_):
+            shutil.rmtree(out)
+            out.write_text("a file")
+            if keeps:
+                recorder.keep(done=1)
+
+        return [Part("", 1, replaces)]
+
+    with pytest.raises(InputError, match="out is no folder any more: it was replaced or removed during the run"):
+        record_and_report(out, {}, parts, lambda: 0)
+    assert out.read_text() == "a file"
 
 
 def test_links_planted_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):

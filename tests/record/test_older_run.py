@@ -1,0 +1,97 @@
+"""An older run in a folder is never taken for the newer one that began there and has not finished."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.record import Recorder
+from hypcheck.record.growing import Growing
+from hypcheck.record.reading import FILE, GROWING
+
+pytestmark = pytest.mark.usefixtures("text_reports")
+
+
+@pytest.fixture
+def held(tmp_path):
+    """The folder of a run that held."""
+    out = tmp_path / "out"
+    words = ["verify", "builtin:fast", "--families", "tower-body", "--count", "2", "--out", str(out)]
+    assert main(words) == 0
+    return out
+
+
+def test_reports_of_an_earlier_run_are_gone_while_a_run_goes_on_and_its_record_is_not(held):
+    before = (held / FILE).read_bytes()
+    (held / "notes.txt").write_text("of the user")
+    assert '"passed": true' in (held / "summary.json").read_text()
+    found = []
+
+    def parts(recorder):
+        return [Part("", 1, lambda _: found.append({each.name: each.read_bytes() for each in held.iterdir()}))]
+
+    record_and_report(held, {}, parts, lambda: 0)
+    assert set(found[0]) == {FILE, GROWING, "notes.txt"}
+    assert found[0][FILE] == before
+
+
+@pytest.fixture
+def killed(held):
+    """The same folder, in which a newer run was killed."""
+    with Growing(held / GROWING) as growing:
+        Recorder(growing, {"specs": ["builtin:fast"], "max_abstained": 0})
+    return held
+
+
+@pytest.mark.parametrize("named", ["", FILE])
+def test_record_check_ends_1_where_a_newer_run_has_not_finished(killed, capsys, named):
+    assert main(["record", "check", str(killed / named)]) == 1
+    first, second = capsys.readouterr().out.splitlines()
+    assert first.endswith("it is whole, of a run that ended with 0")
+    assert second.startswith(f"it is of an older run: {killed / GROWING} is of a newer run")
+
+
+def test_report_says_that_it_shows_an_older_run_and_how_to_go_on(killed, capsys):
+    assert main(["report", str(killed)]) == 0
+    said = capsys.readouterr()
+    assert said.out.startswith("HELD")
+    (line,) = said.err.splitlines()
+    assert line.startswith(f"hypcheck: note: this is an older run: {killed / GROWING} is of a newer run")
+    assert f"--resume {killed} goes on with it" in line
+
+
+@pytest.mark.parametrize("words", [["report"], ["record", "check"]])
+def test_a_folder_with_nothing_but_an_unfinished_run_is_told_as_such(killed, capsys, words):
+    (killed / FILE).unlink()
+    assert main([*words, str(killed)]) == 2
+    assert f"{FILE} is not there; {killed / GROWING} is of a newer run" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("out", ["", "-"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["verify", "builtin:fast"],
+        ["bench"],
+        ["report", "nowhere"],
+        ["hunt", "builtin:fast"],
+        ["simulate", "forest"],
+        ["simulate", "tower"],
+    ],
+)
+def test_out_that_is_empty_or_a_stream_is_refused(tmp_path, monkeypatch, capsys, words, out):
+    monkeypatch.chdir(tmp_path)
+    assert main([*words, "--out", out]) == 2
+    assert f"'--out': {out!r} names neither a file nor a folder" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_record_repair_writes_to_standard_output_and_refuses_an_empty_out(held, monkeypatch, capsysbinary):
+    monkeypatch.chdir(held)
+    before = sorted(held.iterdir())
+    assert main(["record", "repair", FILE, "--out", ""]) == 2
+    capsysbinary.readouterr()
+    assert main(["record", "repair", FILE, "--out", "-"]) == 0
+    assert capsysbinary.readouterr().out == (held / FILE).read_bytes()
+    assert sorted(held.iterdir()) == before
