@@ -12,12 +12,35 @@ import signal
 from collections.abc import Iterator
 from contextlib import suppress
 
-GUARD = (
-    'read -r _; kill -s KILL -- "-$1";'
-    ' grep -ls "$2" /proc/[0-9]*/environ | while IFS=/ read -r _ _ each _; do kill -s KILL "$each"; done'
-)
-"""For a shell: it reads until its standard input ends, which only we hold open, and then kills the group $1 and whoever
-has the mark $2."""
+GUARD = """
+(
+    while sleep "$3"; do
+        read -r line < /proc/$PPID/stat || exit
+        set -- "$1" "$2" "$3" "$4" ${line##*) }
+        if [ "$5" = T ] && [ "${54}" = "$4" ]; then
+            [ "$seen" ] && kill -s CONT "$PPID"
+            seen=1
+        else
+            seen=
+        fi
+    done
+) &
+read -r _
+kill -s KILL -- "-$1"
+grep -ls "$2" /proc/[0-9]*/environ | while IFS=/ read -r _ _ each _; do kill -s KILL "$each"; done
+kill -s KILL 0
+"""
+"""For a shell that leads a group: it reads until its standard input ends, which only we hold open, and then kills the
+group $1, whoever has the mark $2, and itself.
+
+Meanwhile it looks at us every $3 seconds. If it finds us stopped by the signal number $4 twice in turn, it lets us go
+on: the program may have sent it, and nobody else might ever undo it. The field `exit_code` of a `stat`, the 52nd, tells
+which signal stopped a process, until its parent has taken note of that, as a shell does at a terminal, where somebody
+can undo it (Linux 5.17 and later; earlier it is 0, and nothing is undone). Ctrl-Z is another signal.
+"""
+
+LOOK = 5
+"""Seconds between two looks of a guard."""
 
 _ROUNDS = 5
 """Looks for who was started while others were ended."""

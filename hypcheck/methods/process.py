@@ -22,7 +22,7 @@ from itertools import chain
 from typing import IO, cast
 
 from hypcheck.methods.clock import Clock
-from hypcheck.methods.detached import GUARD, end_marked, new_mark
+from hypcheck.methods.detached import GUARD, LOOK, end_marked, new_mark
 from hypcheck.methods.evidence import Tail
 from hypcheck.methods.faults import FaultError, Outcome, StartError
 from hypcheck.methods.limits import Limits
@@ -259,7 +259,7 @@ def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
     """The guard of a group; None where the system has no shell."""
     try:
         return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
-            ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark),
+            ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark, str(LOOK), str(int(signal.SIGSTOP))),
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -270,7 +270,7 @@ def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
 
 
 def _dismiss(guard: subprocess.Popen[bytes]) -> None:
-    guard.kill()  # before its input ends, which it would take for our death
+    os.killpg(guard.pid, signal.SIGKILL)  # before its input ends, which it would take for our death
     guard.communicate()
 
 

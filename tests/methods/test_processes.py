@@ -126,7 +126,7 @@ def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
 def test_who_does_not_leave_is_killed_with_its_children(name, token):  # noqa: F811
     with open_implementation(command(name), LIMITS) as it:
         it.classify(rows())
-        eventually(lambda: len(living(token)) == 3)  # the command, its child, the guard
+        eventually(lambda: len(living(token)) == 5)  # the command, its child, the guard with its clock
         start = time.monotonic()
     assert time.monotonic() - start < 3
     assert all_gone(token) == []
@@ -145,6 +145,41 @@ def test_an_error_of_ours_in_the_middle_of_a_question_leaves_nothing(token):  # 
     assert all_gone(token) == []
     with it:  # and whoever goes on gets the answers to the question then asked
         assert it.classify(rows(lucky=True)).answered.all()
+
+
+STOPS = """
+import os, signal, sys, time
+from hypcheck.methods import process
+from hypcheck.methods.limits import Limits
+from hypcheck.methods.opening import open_implementation
+from tests.miniatures import command, rows
+
+process.LOOK = 0.1
+with open_implementation(command("stops_its_parent"), Limits()) as it:
+    assert it.classify(rows()).answered.all()
+print("answered")
+"""
+
+
+def stopped_by_a_signal_that_tells(process: int) -> bool:
+    """Whether the system tells which signal stopped a process, as the guard needs to know."""
+    os.kill(process, signal.SIGSTOP)
+    os.waitid(os.P_PID, process, os.WSTOPPED | os.WNOWAIT)
+    with open(f"/proc/{process}/stat") as file:
+        return file.read().split()[-1] == str(int(signal.SIGSTOP))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells by which signal a process was stopped")
+def test_an_implementation_that_stops_its_parent_does_not_hang_the_run(token):  # noqa: F811
+    with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]) as sleeper:
+        told = stopped_by_a_signal_that_tells(sleeper.pid)
+        sleeper.kill()
+    if not told:
+        pytest.skip("this kernel does not tell by which signal a process was stopped")
+    ours = subprocess.Popen([sys.executable, "-c", STOPS], stdout=subprocess.PIPE)
+    with ours:
+        assert ours.communicate(timeout=30)[0] == b"answered\n"
+    assert all_gone(token) == []
 
 
 @needs_proc
