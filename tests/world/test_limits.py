@@ -137,7 +137,7 @@ def test_what_is_no_centre_gets_a_sentence(centre, sentence):
 def test_a_step_takes_every_kind_of_number_and_no_array_of_several():
     scene = Scene(model.Scene("s", "position", HILLS, Mover(0.3, 0.9)))
     for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
-        assert scene.position(one, 0, 0) == 0
+        assert scene.position(one, 0, 0) == -1  # the mover is narrower than the waist
     with pytest.raises(InputError, match=r"x is of shape \(2,\); it must be a number \(classify takes arrays\)"):
         scene.position(np.array([1.0, 2.0]), 0, 0)
 
