@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import subprocess
-import sys
 from importlib import import_module
 from pathlib import Path
 from unittest import mock
@@ -21,6 +20,7 @@ from hypcheck.cli.main import main
 from hypcheck.cli.settings import _KEYS, _UNSET, ABOUT_ONE, COMMANDS, FILE, read_settings
 from hypcheck.errors import InputError
 from hypcheck.record import read
+from tests.undrawn import COMMAND
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -342,11 +342,10 @@ def test_what_init_writes_is_understood(tmp_path, monkeypatch, language):
 
 
 def test_what_init_writes_for_python_is_gated_by_its_settings(tmp_path):
-    program = [sys.executable, "-m", "hypcheck"]
     environment = {"PYTHONPATH": str(Path(__file__).parents[1]), "PATH": ""}
     run = {"cwd": tmp_path, "env": environment, "capture_output": True, "text": True}
-    subprocess.run([*program, "init", "--language", "python"], check=True, **run)
-    right = subprocess.run([*program, "verify", "--families", "forest-type-1", "--count", "5"], check=False, **run)
+    subprocess.run([*COMMAND, "init", "--language", "python"], check=True, **run)
+    right = subprocess.run([*COMMAND, "verify", "--families", "forest-type-1", "--count", "5"], check=False, **run)
     assert right.returncode == 0, right.stderr
-    wrong = subprocess.run([*program, "verify", "--families", "ring", "--count", "5"], check=False, **run)
+    wrong = subprocess.run([*COMMAND, "verify", "--families", "ring", "--count", "5"], check=False, **run)
     assert wrong.returncode == 1, wrong.stderr

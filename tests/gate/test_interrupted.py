@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
 
 from hypcheck.record import read
 from tests.miniatures import all_gone, needs_proc, token  # noqa: F401
+from tests.undrawn import COMMAND
 
 
 @needs_proc
@@ -20,7 +20,7 @@ def test_what_was_finished_is_told(tmp_path, token, number, code, workers):  # n
     out, summary = tmp_path / "out", tmp_path / "summary.md"
     spec = "python:tests.gate.subjects:wrong_now_and_then"
     options = ["--families", "tower-body", "--count", "1000000000", "--workers", workers]
-    command = [sys.executable, "-m", "hypcheck", "verify", spec, "--out", str(out), *options]
+    command = [*COMMAND, "verify", spec, "--out", str(out), *options]
     sign = tmp_path / "sign"
     github = {"GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(summary), "GATE_TEST_SIGN": str(sign)}
     process = subprocess.Popen(
@@ -53,7 +53,7 @@ def test_no_process_outlives_a_run_that_is_killed(tmp_path, token):  # noqa: F81
     sign = tmp_path / "sign"
     words = ["verify", "python:tests.gate.subjects:sleeps", "--out", str(tmp_path / "out"), "--families", "tower-body"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "hypcheck", *words, "--workers", "2", "--timeout", "60"],
+        [*COMMAND, *words, "--workers", "2", "--timeout", "60"],
         env={**os.environ, "GATE_TEST_SIGN": str(sign)},
     )
     until = time.monotonic() + 60

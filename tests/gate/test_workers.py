@@ -18,6 +18,7 @@ from hypcheck.gate.workers import LostError, Workers
 from hypcheck.methods.limits import Limits
 from hypcheck.record import read
 from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
+from tests.undrawn import COMMAND
 
 RIGHT = Opening("builtin:table-2-float32", Limits())
 
@@ -60,7 +61,7 @@ def test_processes_that_cannot_begin_end_the_run(monkeypatch):
 def test_one_worker_may_end_as_well(tmp_path):
     """Who asks for one has it in a process of its own, so that the run does not end with it."""
     words = ["verify", KILLS.spec, "--families", "uniform", "--count", "2501", "--workers", "1", "--out", str(tmp_path)]
-    command = [sys.executable, "-m", "hypcheck", *words]
+    command = [*COMMAND, *words]
     done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
     assert done.returncode == 1, done.stderr
     (group,) = read(tmp_path / "record.jsonl").of("group")

@@ -9,78 +9,56 @@ import re
 
 import pytest
 
-from hypcheck.report.html.page import render
-from tests import report_samples as samples
 from tests.report import browser, page_checks
-from tests.report.bench_lines import bench_record
-from tests.report.hostile import hostile_record
-
-
-def failing(number):
-    proof = {"type": "proof", "formula": "table-2", "holds": False, "statement": "c2 is not c2"}
-    return [{**proof, "quantity": f"c{place}"} for place in range(number)]
-
-
-def small_record():
-    """Failures, one method and one map: every kind of thing that a check looks at, and little of each."""
-    kept = [line for line in samples.lines() if line.get("method") == "table-2-float32"]
-    return samples.record([*kept, *failing(9)], exit_code=1)
-
-
-PAGES = {
-    "small": small_record,
-    "verify": samples.record,
-    "bench": bench_record,
-    "hostile": hostile_record,
-}
+from tests.report.pages import RECORDS, page_of
 
 
 @pytest.fixture(scope="module")
 def chromium():
-    with browser.opened() as running:
-        yield running
+    with browser.opened() as window:
+        yield window
 
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
-    found = {name: folder / f"{name}.html" for name in PAGES}
+    found = {name: folder / f"{name}.html" for name in RECORDS}
     for name, path in found.items():
-        path.write_bytes(render(PAGES[name]()))
+        path.write_bytes(page_of(name))
     return found
 
 
-@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("name", RECORDS)
 def test_everywhere(chromium, files, name):
     """On a desk, then on a telephone, in the light and in the dark."""
-    with browser.Visit(chromium, files[name]) as visit:
-        assert page_checks.unreachable(visit) == []
-        assert page_checks.unsorted(visit) == []
-        assert page_checks.untold(visit) == []
-        assert page_checks.blank(visit) == []
-        assert page_checks.overlapping(visit) == []
-        visit.page.set_viewport_size({"width": 360, "height": 800})
-        assert page_checks.overflowing(visit) == []
-        for scheme in ("light", "dark"):
-            visit.page.emulate_media(color_scheme=scheme)
-            assert page_checks.faint(visit) == []
-        assert page_checks.quiet(visit) == []
+    visit = chromium.visit(files[name])
+    assert page_checks.unreachable(visit) == []
+    assert page_checks.unsorted(visit) == []
+    assert page_checks.untold(visit) == []
+    assert page_checks.blank(visit) == []
+    assert page_checks.overlapping(visit) == []
+    visit.page.set_viewport_size({"width": 360, "height": 800})
+    assert page_checks.overflowing(visit) == []
+    for scheme in ("light", "dark"):
+        visit.page.emulate_media(color_scheme=scheme)
+        assert page_checks.faint(visit) == []
+    assert page_checks.quiet(visit) == []
 
 
 @pytest.mark.parametrize("name", ["small", "bench"])
 def test_filters_and_paper(chromium, files, name):
-    with browser.Visit(chromium, files[name]) as visit:
-        assert page_checks.folded_on_paper(visit) == []
-        assert page_checks.unfiltered(visit) == []
+    visit = chromium.visit(files[name])
+    assert page_checks.folded_on_paper(visit) == []
+    assert page_checks.unfiltered(visit) == []
 
 
 def test_the_dark_scheme_is_dark_and_paper_is_light(chromium, files):
-    with browser.Visit(chromium, files["small"]) as visit:
-        ground = "getComputedStyle(document.body).backgroundColor"
-        visit.page.emulate_media(color_scheme="dark")
-        assert visit.page.evaluate(ground) == "rgb(20, 24, 29)"
-        visit.page.emulate_media(media="print")
-        assert visit.page.evaluate(ground) == "rgb(255, 255, 255)"
+    visit = chromium.visit(files["small"])
+    ground = "getComputedStyle(document.body).backgroundColor"
+    visit.page.emulate_media(color_scheme="dark")
+    assert visit.page.evaluate(ground) == "rgb(20, 24, 29)"
+    visit.page.emulate_media(media="print")
+    assert visit.page.evaluate(ground) == "rgb(255, 255, 255)"
 
 
 def without(pattern, replacement=""):
@@ -163,5 +141,5 @@ def test_every_check_can_fail(chromium, files, tmp_path, fault):
     path = tmp_path / "broken.html"
     path.write_text(broken, encoding="utf-8")
     width = 360 if check is page_checks.overflowing else 1280
-    with browser.Visit(chromium, path, width=width) as visit:
-        assert check(visit) != []
+    visit = chromium.visit(path, width=width)
+    assert check(visit) != []

@@ -10,6 +10,7 @@ import pytest
 
 from hypcheck.report.write import REPORTS
 from tests.report.hostile import SCRIPT, hostile_record
+from tests.report.pages import page_of
 from tests.report.test_markdown import PARSER
 
 UNSEEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u200e\u200f\ud800-\udfff]")
@@ -24,7 +25,8 @@ def record():
 
 @pytest.fixture(scope="module")
 def texts(record):
-    return {name: report.render(record).decode("utf-8") for name, report in REPORTS.items()}
+    others = {name: report.render(record) for name, report in REPORTS.items() if name != "html"}
+    return {name: content.decode("utf-8") for name, content in {**others, "html": page_of("hostile")}.items()}
 
 
 @pytest.mark.parametrize("name", REPORTS)

@@ -18,7 +18,7 @@ from hypcheck.report.plots.table import PLOTS, draw
 from hypcheck.report.write import Around
 from tests import report_samples as samples
 from tests.report.bench_lines import bench_record
-from tests.report.hostile import hostile_record
+from tests.report.pages import page_of
 
 VOID = {"meta", "link", "br", "img", "input", "rect", "use", "path", "image"}
 
@@ -55,12 +55,29 @@ class Elements(HTMLParser):
             self.texts[self.open[-1]].append(data)
 
 
-RECORDS = {"verify": samples.record, "bench": bench_record, "hostile": hostile_record}
+RECORDS = ("verify", "bench", "hostile")
 
 
 @pytest.fixture(scope="module")
 def pages():
-    return {name: page.render(make()).decode("utf-8") for name, make in RECORDS.items()}
+    return {name: page_of(name).decode("utf-8") for name in RECORDS}
+
+
+@pytest.fixture
+def no_plots(monkeypatch):
+    """Pages are made without matplotlib, whose plots take most of their time."""
+    without(monkeypatch, "matplotlib")
+
+
+def without(monkeypatch, module):
+    imported = builtins.__import__
+
+    def import_others(name, *arguments, **options):
+        if name.partition(".")[0] == module:
+            raise ImportError(f"No module named {name!r}")
+        return imported(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", import_others)
 
 
 @pytest.mark.parametrize("name", RECORDS)
@@ -120,7 +137,7 @@ def test_ids_are_ones_own_and_links_lead_somewhere(pages, name):
     assert links | labels | clips <= set(ids)
 
 
-def test_what_failed_stands_before_what_holds():
+def test_what_failed_stands_before_what_holds(no_plots):
     proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": "x"}
     text = page.render(samples.record([*samples.lines(), proof], exit_code=6)).decode("utf-8")
     assert text.index("verdict failed") < text.index("What failed") < text.rindex("The oracles")
@@ -128,7 +145,7 @@ def test_what_failed_stands_before_what_holds():
     assert "TRUNCATED" in page.render(samples.record(exit_code=None)).decode("utf-8")
 
 
-def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed():
+def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_plots):
     weakened = [{"option": "--tolerance", "value": "1e+18", "default": "8", "source": "hypcheck.toml"}]
     record = samples.record()
     header = {**record.header, "settings": {"file": "hypcheck.toml", "weakened": weakened}}
@@ -138,7 +155,7 @@ def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed():
     assert "Settings" not in page.render(record).decode("utf-8")
 
 
-def test_changes_stand_there_too():
+def test_changes_stand_there_too(no_plots):
     text = page.render(bench_record(), Around(against=bench_record())).decode("utf-8")
     assert text.index("What changed") < text.index("Which method to use when")
 
@@ -157,14 +174,7 @@ def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
     ("module", "what"), [("jinja2", "jinja2 cannot be imported"), ("matplotlib", "The plots are missing")]
 )
 def test_without_an_extra(monkeypatch, module, what):
-    imported = builtins.__import__
-
-    def without(name, *arguments, **options):
-        if name.partition(".")[0] == module:
-            raise ImportError(f"No module named {name!r}")
-        return imported(name, *arguments, **options)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    without(monkeypatch, module)
     if module == "jinja2":
         with pytest.raises(UnavailableError, match=r"hypcheck\[report\]"):
             page.render(samples.record())

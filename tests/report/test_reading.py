@@ -82,13 +82,16 @@ def test_constants_that_are_no_json_are_refused(tmp_path, constant):
 
 def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
     """Whatever is left out, there is a sentence or a report."""
-    header, *lines = map(json.loads, samples.text_and_record([*samples.lines(), *bench_lines.lines()])[0].splitlines())
-    first = {line["type"]: place for place, line in reversed(list(enumerate(lines)))}
-    for place in first.values():
-        for field in set(REQUIRED[lines[place]["type"]]) - {"type"}:
+    every = [*samples.lines(), *bench_lines.lines()]
+    first = {line["type"]: line for line in reversed(every)}
+    header, *lines = map(json.loads, samples.text_and_record(list(first.values()))[0].splitlines())
+    path = tmp_path / "record.jsonl"
+    path.write_bytes(resealed([header, *lines]))
+    read_checked(path)
+    for place, whole in enumerate(lines):
+        for field in set(REQUIRED[whole["type"]]) - {"type"}:
             less = [dict(line) for line in lines]
             del less[place][field]
-            path = tmp_path / "record.jsonl"
             path.write_bytes(resealed([header, *less]))
             with pytest.raises(InputError, match=rf"{field}|footer counts"):
                 read_checked(path)

@@ -12,6 +12,7 @@ import pytest
 
 from hypcheck.errors import UnavailableError
 from hypcheck.report.pictures import errors, front, pareto
+from hypcheck.report.pictures import map as scene_map
 from hypcheck.report.plots.style import ROLES, colour, new_figure, styled
 from hypcheck.report.plots.svg import Plot, css, inline, standalone
 from hypcheck.report.plots.table import draw
@@ -103,9 +104,11 @@ def test_pictures_of_a_benchmark_have_all_their_plots(picture, plots):
 
 
 def test_the_same_record_is_the_same_bytes_in_every_process():
+    """A picture of a benchmark, and the map of a run of verify behind it."""
     code = (
-        "import sys; from hypcheck.report.pictures import pareto; from tests.report.bench_lines import bench_record;"
-        "sys.stdout.buffer.write(pareto.render(bench_record()))"
+        "import sys; from hypcheck.report.pictures import map, pareto; from tests import report_samples as samples;"
+        "from tests.report.bench_lines import bench_record;"
+        "sys.stdout.buffer.write(pareto.render(bench_record()) + map.render(samples.record()))"
     )
     found = {
         subprocess.run(
@@ -113,4 +116,4 @@ def test_the_same_record_is_the_same_bytes_in_every_process():
         ).stdout
         for seed in ("1", "2")
     }
-    assert found == {pareto.render(bench_record())}
+    assert found == {pareto.render(bench_record()) + scene_map.render(samples.record())}

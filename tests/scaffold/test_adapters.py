@@ -8,7 +8,6 @@ import re
 import shlex
 import shutil
 import subprocess
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -21,6 +20,7 @@ from hypcheck.methods.limits import Limits
 from hypcheck.methods.opening import open_implementation
 from hypcheck.scaffold.languages import LANGUAGES, Language
 from hypcheck.scaffold.project import Project
+from tests.undrawn import COMMAND
 
 TOOLS = {
     "c": ("cc",),
@@ -90,7 +90,7 @@ def built(request, tmp_path_factory):
     (folder / "Cargo.toml").write_text("[workspace]\nmembers = []\n")
     (folder / "go.work").write_text("go 1.20\n")
     (folder / "package.json").write_text('{"type": "commonjs"}\n')
-    (programs / "hypcheck").write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m hypcheck "$@"\n')
+    (programs / "hypcheck").write_text(f'#!/bin/sh\nexec {shlex.join(COMMAND)} "$@"\n')
     (programs / "hypcheck").chmod(0o755)
     environment = {**os.environ, "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
     project = Built(LANGUAGES[name], folder, [], environment)

@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
 
 from hypcheck.record import read
+from tests.undrawn import COMMAND
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_what_was_finished_is_written(tmp_path, number, code):
-    command = [sys.executable, "-m", "hypcheck", "verify", "--self", "--out", str(tmp_path), "--count", "400"]
+    command = [*COMMAND, "verify", "--self", "--out", str(tmp_path), "--count", "400"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     part = tmp_path / "record.jsonl.part"
     deadline = time.monotonic() + 60
