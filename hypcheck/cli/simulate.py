@@ -37,7 +37,10 @@ def common(command: Command) -> Command:
 
 @click.group(cls=Group, short_help="The paper's two applications: a walker among trees, a quadcopter in a tower.")
 def simulate() -> None:
-    """Simulate the applications of the paper's section 3, with every assumption in a scene file (docs/simulate.md)."""
+    """Simulate the two applications of the paper, with every assumption in a scene file (docs/simulate.md).
+
+    They are the walker among trees of section 3.1 and the quadcopter in a cooling tower of sections 3.2 and 4.
+    """
 
 
 @simulate.command(short_help="A walker among many trees, by Procedure 1 in float32.")
@@ -45,7 +48,7 @@ def simulate() -> None:
 @click.option("--steps", type=Whole(0), help="Steps to try.  [default: as the scene says]")
 @common
 def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
-    """A walker among trees of both types, by Procedure 1 with what Table 2 takes out of the loop.
+    """A walker among trees of both types (section 3.1), by Procedure 1 with what Table 2 takes out of the loop.
 
     She obeys the procedure in float32. Told are the evaluations that a line makes needless, and the phantom contacts:
     places far from any tree where the procedure stops her all the same.
@@ -86,7 +89,7 @@ def tower(
     form: str,
     **flags: bool,
 ) -> None:
-    """A quadcopter in a cooling tower, by Procedures 2.a and 2.b.
+    """A quadcopter in a cooling tower (sections 3.2 and 4), by Procedures 2.a and 2.b.
 
     Three flights of 25 positions, as in the paper's Figure 4. With --table 5 also the executions with Δ ≤ 0 for each
     speed and response time, with standard errors, beside the printed figures. The same seed gives the same result,

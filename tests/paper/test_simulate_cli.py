@@ -155,6 +155,17 @@ def test_bad_input_is_one_sentence(capsys, arguments, message):
     assert "Traceback" not in err
 
 
+@pytest.mark.parametrize(
+    ("command", "scenes", "sections"),
+    [("forest", ["forest"], "section 3.1"), ("tower", ["tower", "tower-simplest"], "sections 3.2 and 4")],
+)
+def test_the_help_and_the_scenes_of_a_simulation_name_the_same_sections_of_the_paper(capsys, command, scenes, sections):
+    assert main(["simulate", "--help"]) == main(["simulate", command, "--help"]) == 0
+    assert " ".join(capsys.readouterr().out.split()).count(sections) == 2
+    for scene in scenes:
+        assert f"the paper's {sections}" in shipped_text(scene).partition("name =")[0]
+
+
 def test_a_shipped_scene_can_be_printed_and_used(capsys, tmp_path):
     _, out, _ = run(capsys, "simulate", "tower", "--show-scene")
     assert out == shipped_text("tower")
