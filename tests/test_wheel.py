@@ -110,18 +110,24 @@ def build(variant: Variant, home: Path) -> None:
     quietly(*build, *forms, tree, env=variant.environment)
 
 
-def install(home: Path) -> None:
-    """Install the wheel into an empty environment, then link its declared dependencies from ours into it.
+def make_environment(folder: Path) -> Path:
+    """Make an environment of the declared dependencies, linked from ours, and return its interpreter.
 
     They are linked by name, not seen through --system-site-packages: what is not declared cannot be imported.
     """
-    environment = home / "environment"
-    venv.create(environment, with_pip=True, symlinks=True)
-    (wheel,) = (home / "dist").glob("*.whl")
-    python = environment / "bin/python"
-    quietly(python, "-m", "pip", "install", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
+    venv.create(folder, with_pip=True, symlinks=True)
+    python = folder / "bin/python"
     site = Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
     link(dependencies(""), site)
+    return python
+
+
+def install(home: Path) -> None:
+    """Install the wheel into an environment that has its dependencies alone, and lay the extra's beside it."""
+    python = make_environment(home / "environment")
+    (wheel,) = (home / "dist").glob("*.whl")
+    quietly(python, "-m", "pip", "install", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
+    quietly(python, "-m", "pip", "check", "--disable-pip-version-check")
     (home / "report-extra").mkdir()
     link(dependencies(REPORT) - dependencies(""), home / "report-extra")
 
@@ -224,12 +230,16 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         ("info", 0, "oracles"),
         ("classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0", 0, "exterior"),
         ("init --language c", 0, "Type next"),
+        ("init --language go --from 1.2.0", 0, "added to"),
         ("completion bash", 0, "complete -o"),
     ],
 }
 """Command lines in the order in which they are run in one empty folder, with the exit code and a part of the output."""
 
-WITHOUT_A_COMPILER = {"plan tower --measure": (2, "does not compile")}
+WITHOUT_A_COMPILER = {
+    "plan tower --measure": (2, "does not compile"),
+    "bench --scene tower --out scene": (0, "left out"),
+}
 
 
 @pytest.mark.parametrize("name", STEPS)
@@ -247,6 +257,44 @@ def test_the_installed_package_with_the_report_extra_writes_the_page_with_its_pl
     done = installed.run(f"{GATED} --out run", tmp_path, installed.report_extra)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "</svg>" in (tmp_path / "run/report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("source", ["wheel", "git"] if ALL else ["wheel"])
+def test_the_workflow_of_init_runs_as_written_in_a_fresh_clone_and_gates_two_languages(installed, source, tmp_path):
+    """Its command lines, in an environment without hypcheck. The stubs are right in the family that is asked here."""
+    repository, clone, environment = tmp_path / "engine", tmp_path / "clone", tmp_path / "environment"
+    repository.mkdir()
+    (wheel,) = (installed.home / "dist").glob("*.whl")
+    named = f"file://{ROOT}"
+    if source == "wheel":
+        named = f"./{Path(shutil.copy(wheel, repository)).name}"
+    for language in ("python", "c") if installed.variant.compiler else ("python",):
+        done = installed.run(f"init --language {language} --from {named}", repository)
+        assert done.returncode == 0, done.stderr
+    settings = repository / "hypcheck.toml"
+    settings.write_text(settings.read_text() + 'families = ["forest-type-1"]\ncount = 10\n')
+    commit(repository, clone)
+    python = make_environment(environment)
+    variables = installed.variant.environment | {"PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
+    lines = re.findall(r"run: \|\n +(.*)\n", (clone / ".github/workflows/hypcheck.yml").read_text())
+    assert len(lines) == 1 + 2 * len(list(clone.glob("hypcheck-*/")))
+    for line in [*lines, "hypcheck verify"]:
+        said = quietly("/bin/sh", "-e", "-c", line, cwd=clone, env=variables)
+        assert "HELD" in said or "verify" not in line
+    assert Path(quietly(python, "-c", "import hypcheck; print(hypcheck.__file__)", cwd=tmp_path)).is_relative_to(
+        environment
+    )
+    assert {path.name for path in clone.iterdir()} >= {"reports", "hypcheck-report"}
+    assert quietly("git", "-C", clone, "status", "--porcelain") == ""
+
+
+def commit(repository: Path, clone: Path) -> None:
+    """Commit everything in a folder, and clone it."""
+    quietly("git", "-C", repository, "init", "--quiet")
+    quietly("git", "-C", repository, "add", ".")
+    who = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
+    quietly("git", "-C", repository, *who, "commit", "--quiet", "-m", "Gate the predicates")
+    quietly("git", "clone", "--quiet", repository, clone)
 
 
 def test_the_table_of_steps_has_every_command():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -12,14 +12,17 @@ from hypcheck.tables.streams import writing
 from hypcheck.visible import counted
 
 
-def write_all(root: Path, texts: Mapping[str, str], *, force: bool) -> None:
-    """Write each text to its path below `root`, which is made where it is not there; replace files only by `force`.
+def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Collection[str] = ()) -> None:
+    """Write each text to its path below `root`, which is made where it is not there.
+
+    Files that are there are replaced only by `force`, or where their path is one of `replaced`.
 
     Every text is on the disk, beside its place, before the first takes its place; an error leaves nothing new behind.
     Raises InputError naming a path that is in the way or that the system refuses.
     """
     targets = {root / path: text for path, text in texts.items()}
-    _refuse([target for target in targets if os.path.lexists(target)], force=force)
+    there = [root / path for path in texts if os.path.lexists(root / path) and path not in replaced]
+    _refuse(there, force=force)
     with ExitStack() as stack:
         for target in targets:
             stack.enter_context(_folder(target.parent))

@@ -294,7 +294,7 @@ def test_it_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec):
 def test_what_building_leaves_behind_is_ignored(built, spec):
     if shutil.which("git") is None:
         pytest.skip("git is not on the PATH")
-    project = Project(built.language, "stub", "")
+    project = Project(built.language, "stub")
     built.run("git init --quiet .")
     done = built.run("git status --porcelain --untracked-files=all -- 'hypcheck-*'")
     shown = {line[3:] for line in done.stdout.splitlines()}

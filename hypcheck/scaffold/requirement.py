@@ -1,0 +1,209 @@
+"""What the workflow of `hypcheck init` installs: `--from` as pip reads it, naming one state of the source for ever.
+
+No package index is known to have hypcheck, and a name that nobody holds there is free for anyone to take.
+So nothing is installed that was not named, and what is named is pinned: a git repository by a commit, a file by its
+SHA-256, a release by its version. The text ends up in YAML and in a shell's command line, so only characters that mean
+nothing in either pass.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import subprocess
+from dataclasses import dataclass, replace
+from pathlib import Path
+from urllib.parse import quote, unquote
+
+from hypcheck.errors import InputError
+
+_LONGEST = 300
+_SAFE = re.compile(r"[\w.~][\w .:/@+~=,%#!\[\]-]*", re.ASCII)
+_NAME = r"[A-Za-z0-9](?:[\w.-]*[A-Za-z0-9])?(?:\[[\w.,-]+\])?"
+_NUMBER = r"(?:\d+!)?\d+(?:\.\d+)*(?:(?:a|b|rc)\d+)?(?:\.post\d+)?(?:\.dev\d+)?(?:\+[\w.]+)?"
+_VERSION = re.compile(_NUMBER, re.ASCII)
+_RELEASE = re.compile(rf"({_NAME}) ?={{2,3}} ?({_NUMBER})", re.ASCII)
+_DIRECT = re.compile(rf"(?P<project>{_NAME}) ?@ ?(?P<url>[\w+]+://.*)", re.ASCII)
+_URL = re.compile(
+    r"(?P<git>git\+)?(?P<scheme>[\w+]+)://((?P<user>[^/\s]*)@)?(?P<place>[^@#]*)(?P<end>[@#].*)?", re.ASCII
+)
+_PART = r"[\w~%][\w.~+%-]*"
+_PLACE = re.compile(rf"\w[\w.-]*(:\d+)?(/{_PART})+", re.ASCII)
+_FILE = re.compile(r"(/[\w.~+%-]+)+", re.ASCII)
+_SCP = re.compile(rf"(?P<user>\w[\w.-]*)@(?P<host>\w[\w.-]*):(?P<path>{_PART}(/{_PART})*)(?P<end>@.*)?", re.ASCII)
+_USER = re.compile(r"\w[\w.-]*", re.ASCII)
+_REF = re.compile(r"@(?P<ref>\w[\w./+-]*)", re.ASCII)
+_COMMIT = re.compile(r"[0-9a-f]{40}")
+_ABBREVIATED = re.compile(r"[0-9a-f]{7,39}")
+_DIGEST = re.compile(r"#sha256=[0-9a-f]{64}")
+_ARCHIVES = (".whl", ".tar.gz", ".zip")
+_SECONDS = 15.0
+"""For a repository to say which commit a name stands for."""
+
+RIGHT = (
+    "a git URL such as https://host/owner/hypcheck.git@v1.2.0, a wheel or sdist (a path, or a URL), "
+    "or one version on a package index, such as hypcheck==1.2.0"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Requirement:
+    """What pip is to install, as pip reads it; `says` are sentences about it, for the user and for the workflow.
+
+    `repository` and `ref` are those of git, while the commit is still to be asked for.
+    """
+
+    text: str
+    says: tuple[str, ...] = ()
+    repository: str = ""
+    ref: str = ""
+
+
+def requirement(source: str, directory: Path) -> Requirement:
+    """What `--from` asks for, for a workflow of the repository in `directory`; a git repository is not asked yet.
+
+    Raises InputError about anything that is not RIGHT, and about a URL that holds a password, which must not stand in a
+    workflow.
+    """
+    if len(source) > _LONGEST:
+        raise InputError(f"--from is longer than {_LONGEST} characters; it must be {RIGHT}")
+    if os.path.exists(source) and ("/" in source or source.endswith(_ARCHIVES)):
+        return _of_path(Path(source), directory)
+    if not _SAFE.fullmatch(source):
+        raise _wrong(source)
+    if _VERSION.fullmatch(source):
+        return _of_index("hypcheck", source)
+    if release := _RELEASE.fullmatch(source):
+        return _of_index(release[1], release[2])
+    if short := _SCP.fullmatch(source):
+        return _of_git("hypcheck", f"ssh://{short['user']}@{short['host']}/{short['path']}", short["end"], source)
+    direct = _DIRECT.fullmatch(source)
+    return _of_url(direct["project"], direct["url"], source) if direct else _of_url("hypcheck", source, source)
+
+
+def pinned(wanted: Requirement) -> Requirement:
+    """The same at the commit that its branch or tag is on now, told in `says`.
+
+    A remote repository that cannot be asked is told of too. Raises InputError where a local one cannot, or has no such
+    branch or tag.
+    """
+    if not wanted.repository or _COMMIT.fullmatch(wanted.ref):
+        return wanted
+    named = wanted.ref or "HEAD"
+    refs = _refs(wanted.repository)
+    if isinstance(refs, str):
+        if wanted.repository.startswith("file:"):
+            raise InputError(f"--from: git cannot read {wanted.repository}: {refs}")
+        told = f"{wanted.repository} could not be asked for the commit of {named} ({refs}); name one by @COMMIT"
+        return replace(wanted, says=(*wanted.says, f"not pinned: {told}"))
+    commit = next((refs[name] for name in _names(named) if name in refs), None)
+    if commit is None and _ABBREVIATED.fullmatch(named):
+        return wanted
+    if commit is None:
+        raise InputError(f"--from: {wanted.repository} has no branch or tag {named!r}")
+    text = f"{wanted.text.removesuffix('@' + wanted.ref) if wanted.ref else wanted.text}@{commit}"
+    return replace(
+        wanted,
+        text=text,
+        says=(*wanted.says, f"pinned to the commit that {named} of {wanted.repository} was on when init ran"),
+    )
+
+
+def _names(ref: str) -> tuple[str, ...]:
+    """What a name may stand for, in pip's order: a branch before a tag, and of an annotated tag its commit."""
+    return (ref, f"refs/heads/{ref}", f"refs/tags/{ref}^{{}}", f"refs/tags/{ref}")
+
+
+def _refs(repository: str) -> dict[str, str] | str:
+    """The commit of each name in a repository, or why they are not known."""
+    quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_SSH_COMMAND": "ssh -o BatchMode=yes"}
+    words = ["git", "ls-remote", "--", repository]
+    try:
+        done = subprocess.run(  # noqa: S603 - git of the PATH, and a URL whose characters were looked at
+            words, env=quiet | os.environ, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS, check=False
+        )
+    except OSError as error:
+        return f"git cannot be started: {(error.strerror or str(error)).lower()}"
+    except subprocess.TimeoutExpired:
+        return f"no answer within {_SECONDS:g} s"
+    if done.returncode:
+        said = done.stderr.decode(errors="replace").strip().splitlines()
+        return said[0].removeprefix("fatal: ").strip() if said else f"git ends with {done.returncode}"
+    lines = (line.partition("\t") for line in done.stdout.decode(errors="replace").splitlines())
+    return {name: commit for commit, _, name in lines if _COMMIT.fullmatch(commit)}
+
+
+def _of_index(project: str, version: str) -> Requirement:
+    told = f"pip takes {project} {version} from the package index that is set where the workflow runs, PyPI by default"
+    return Requirement(f"{project}=={version}", (f"{told}: see that this is the project you mean",))
+
+
+def _of_url(project: str, url: str, source: str) -> Requirement:
+    """A repository or an archive at a URL."""
+    found = _URL.fullmatch(url)
+    if not found:
+        raise _wrong(source)
+    scheme, place, user = found["scheme"], found["place"].rstrip("/"), found["user"]
+    local = scheme == "file" and not user and _FILE.fullmatch(place)
+    if not local and not (scheme in {"https", "ssh"} and _PLACE.fullmatch(place)):
+        raise _wrong(source)
+    if user is not None and (scheme == "https" or not _USER.fullmatch(user)):
+        raise InputError(
+            "--from holds what may be a secret before its @, and the workflow is for all to read; "
+            "it must be https://host/… without a user, or ssh://user@host/…"
+        )
+    if place.endswith(_ARCHIVES) and not found["git"] and scheme != "ssh":
+        return _of_archive(project, f"{scheme}://{place}", found["end"] or "", source)
+    return _of_git(project, f"{scheme}://{user + '@' if user else ''}{place}", found["end"], source)
+
+
+def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement:
+    ref = _REF.fullmatch(end or "")
+    if end and not ref:
+        raise _wrong(source)
+    says = (_here(url),) if url.startswith("file:") else ()
+    return Requirement(f"{project} @ git+{url}{end or ''}", says, url, ref["ref"] if ref else "")
+
+
+def _of_archive(project: str, url: str, end: str, source: str) -> Requirement:
+    if end and not _DIGEST.fullmatch(end):
+        raise _wrong(source)
+    if url.startswith("file:"):
+        path = Path(unquote(url.removeprefix("file://")))
+        return Requirement(f"{project} @ {url}{end or _digest(path)}", (_here(url),))
+    loose = "not pinned: add #sha256=DIGEST to its end, or another file may be installed that has its name one day"
+    return Requirement(f"{project} @ {url}{end}", () if end else (loose,))
+
+
+def _of_path(path: Path, directory: Path) -> Requirement:
+    """A file or folder here: in the repository it is pinned by the repository; elsewhere by its digest or commit."""
+    whole = path.resolve()
+    if not (whole.is_dir() or whole.name.endswith(_ARCHIVES)):
+        raise InputError(f"--from is {str(path)!r}, which is neither a folder nor a wheel or sdist; it must be {RIGHT}")
+    if whole.is_relative_to(directory.resolve()) and whole != directory.resolve():
+        text = f"./{whole.relative_to(directory.resolve())}"
+        if not _SAFE.fullmatch(text):
+            raise InputError(f"--from is {str(path)!r}; its path must be of letters, digits and . _ - / alone")
+        return Requirement(text, (f"{text} must be in the repository when the workflow runs",))
+    return _of_url("hypcheck", f"{'git+' if whole.is_dir() else ''}file://{quote(str(whole))}", str(path))
+
+
+def _digest(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            found = hashlib.sha256()
+            while part := file.read(1 << 20):
+                found.update(part)
+    except OSError as error:
+        raise InputError(f"--from: cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+    return f"#sha256={found.hexdigest()}"
+
+
+def _here(url: str) -> str:
+    return f"the machine that runs the workflow must have {url} too"
+
+
+def _wrong(source: str) -> InputError:
+    path = "://" not in source and (source.startswith((".", "/", "~")) or source.endswith(_ARCHIVES))
+    return InputError(f"--from is {source!r}{', which is not there' if path else ''}; it must be {RIGHT}")
