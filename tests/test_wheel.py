@@ -275,7 +275,10 @@ def test_the_workflow_of_init_runs_as_written_in_a_fresh_clone_and_gates_two_lan
     settings.write_text(settings.read_text() + 'families = ["forest-type-1"]\ncount = 10\n')
     commit(repository, clone)
     python = make_environment(environment)
-    variables = installed.variant.environment | {"PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
+    variables = installed.variant.environment | {
+        "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}",
+        "CI": "true",
+    }
     lines = re.findall(r"run: \|\n +(.*)\n", (clone / ".github/workflows/hypcheck.yml").read_text())
     assert len(lines) == 1 + 2 * len(list(clone.glob("hypcheck-*/")))
     for line in [*lines, "hypcheck verify"]:
