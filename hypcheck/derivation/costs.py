@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from hypcheck.derivation.counting import Operations, count, hoisted
+from hypcheck.derivation.counting import Operations, count
 from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.hoisting import hoist
 from hypcheck.derivation.program import Program, cut
 from hypcheck.derivation.root_formulas import ROOTS_TRIGONOMETRIC, SWEEP
 from hypcheck.derivation.rotor_listings import ROTORS
@@ -46,7 +47,7 @@ def cost_of(formula: Formula) -> Cost:
 
 
 def _cost(program: Program, title: str, source: str) -> Cost:
-    parts = hoisted(program, SIZES_OF_A_SCENE & set(program.inputs))
+    parts = hoist(program, SIZES_OF_A_SCENE & set(program.inputs))
     fixed = SIZES_OF_A_SCENE | {step.name for step in parts.outside}
     divisors = [step.arguments[1] for step in parts.inside if step.operation == "div"]
     by_fixed = sum(isinstance(divisor, int) or divisor in fixed for divisor in divisors)
@@ -64,6 +65,6 @@ def discriminant_share() -> tuple[int, int]:
     """The rounded operations of Procedure 2.a for a position: those from coefficients to the four Δ(g_i), and all."""
     program = FORMULAS["procedure-2a"].program
     coefficients = ("c0_s", *(f"{name}_g{rotor}" for rotor in ROTORS for name in ("c1", "c2")))
-    parts = hoisted(program, SIZES_OF_A_SCENE & set(program.inputs))
+    parts = hoist(program, SIZES_OF_A_SCENE & set(program.inputs))
     of_discriminants = cut(program, coefficients, tuple(f"delta_g{rotor}" for rotor in ROTORS)).steps
     return count(step for step in parts.inside if step in of_discriminants).rounded, count(parts.inside).rounded

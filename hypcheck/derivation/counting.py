@@ -1,11 +1,11 @@
-"""How much work a program is, and which part of it depends on sizes alone and leaves the loop over positions."""
+"""How many operations a program takes, by kind."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from hypcheck.derivation.program import Program, Step
+from hypcheck.derivation.program import Step
 
 _FIELD_OF = {
     "add": "additions",
@@ -51,14 +51,6 @@ class Operations:
         return self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
 
 
-@dataclass(frozen=True, slots=True)
-class Hoisting:
-    """A program's steps in two parts: those that depend on fixed inputs alone, and those that move with the rest."""
-
-    outside: tuple[Step, ...]
-    inside: tuple[Step, ...]
-
-
 def count(steps: Iterable[Step]) -> Operations:
     """The operations in `steps`."""
     counts: dict[str, int] = {}
@@ -67,22 +59,3 @@ def count(steps: Iterable[Step]) -> Operations:
         if field is not None:
             counts[field] = counts.get(field, 0) + 1
     return Operations(**counts)
-
-
-def hoisted(program: Program, fixed_inputs: Collection[str]) -> Hoisting:
-    """The program's steps, parted by whether they depend on `fixed_inputs` (and constants) alone.
-
-    Raises ValueError where one of these is no input of the program.
-    """
-    unknown = sorted(set(fixed_inputs) - set(program.inputs))
-    if unknown:
-        raise ValueError(f"program {program.name} has no input {', '.join(unknown)}")
-    fixed = set(fixed_inputs)
-    outside, inside = [], []
-    for step in program.steps:
-        if fixed.issuperset(step.reads):
-            fixed.add(step.name)
-            outside.append(step)
-        else:
-            inside.append(step)
-    return Hoisting(tuple(outside), tuple(inside))

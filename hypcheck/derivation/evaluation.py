@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from hypcheck.derivation.program import Argument, Program, Step, needed
+from hypcheck.derivation.program import Program, needed
 
 
 @dataclass(frozen=True)
@@ -28,67 +28,115 @@ class Arithmetic:
     guard: Callable[[], AbstractContextManager[Any]] = nullcontext
 
 
+class Evaluator:
+    """A program made ready for one arithmetic: a function from inputs by name to the wanted values, in their order.
+
+    Only the steps that the wanted names depend on are evaluated, and only the inputs that these read are asked for;
+    `inputs` names them. `given` are values by name that stay the same from call to call, converted once. Names are
+    looked up once, so that a call on small arrays spends its time on arithmetic; an intermediate value is let go after
+    its last use, so that large arrays take no more memory than they must.
+
+    Raises KeyError where a wanted name does not exist, and ValueError where the arithmetic lacks an operation. A call
+    raises ValueError where an input is missing; further names among its inputs are ignored.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        arithmetic: Arithmetic,
+        wanted: Iterable[str],
+        given: Mapping[str, Any] | None = None,
+    ) -> None:
+        layout = _layout(program, tuple(wanted))
+        fixed = given or {}
+        self.inputs = tuple(name for name in layout.inputs if name not in fixed)
+        self._program, self._arithmetic, self._wanted = program, arithmetic, layout.wanted
+        self._varying = tuple((name, layout.places[name]) for name in self.inputs)
+        self._moves = tuple((_operation(arithmetic, move.operation), *move.places) for move in layout.moves)
+        self._cells: list[Any] = [None] * len(layout.places)
+        with arithmetic.guard():
+            for constant in layout.constants:
+                self._cells[layout.places[constant]] = arithmetic.convert(constant)
+            for name in layout.inputs:
+                if name in fixed:
+                    self._cells[layout.places[name]] = arithmetic.convert(fixed[name])
+
+    def __call__(self, inputs: Mapping[str, Any]) -> tuple[Any, ...]:
+        """The wanted values."""
+        missing = [name for name in self.inputs if name not in inputs]
+        if missing:
+            raise ValueError(f"program {self._program.name} needs a value for {', '.join(missing)}")
+        cells = self._cells.copy()
+        with self._arithmetic.guard():
+            for name, place in self._varying:
+                cells[place] = self._arithmetic.convert(inputs[name])
+            for operation, takes, gives, spends in self._moves:
+                cells[gives] = operation(*[cells[place] for place in takes])
+                for place in spends:
+                    cells[place] = None
+        return tuple([cells[place] for place in self._wanted])
+
+
 def evaluate(program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> dict[str, Any]:
     """The value of every input, as converted, and of every step, by name and in order.
 
     `inputs` needs a value for each of the program's inputs; others are ignored. Raises ValueError where one is missing.
     """
-    with arithmetic.guard():
-        values = _converted(program, arithmetic, inputs, program.inputs)
-        for step in program.steps:
-            values[step.name] = _perform(step, arithmetic, values)
-    return values
+    names = (*program.inputs, *(step.name for step in program.steps))
+    return dict(zip(names, outputs(program, arithmetic, inputs, names), strict=True))
 
 
 def outputs(
     program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any], wanted: Iterable[str]
 ) -> tuple[Any, ...]:
-    """The values of the wanted names alone.
+    """The values of the wanted names alone, as an Evaluator gives them; for a program that is evaluated once."""
+    return Evaluator(program, arithmetic, wanted)(inputs)
 
-    Steps they do not depend on are not evaluated, inputs they do not depend on may be missing, and each intermediate
-    value is let go after its last use, so that arrays take no more memory than they must.
-    """
-    names = tuple(wanted)
-    read, schedule = _schedule(program, names)
-    with arithmetic.guard():
-        values = _converted(program, arithmetic, inputs, read)
-        for step, spent in schedule:
-            values[step.name] = _perform(step, arithmetic, values)
-            for name in spent:
-                del values[name]
-        return tuple(values[name] for name in names)
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """A step by places: those it takes, the one it gives, and those that no later step takes."""
+
+    operation: str
+    places: tuple[tuple[int, ...], int, tuple[int, ...]]
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """Where the values of a program stand in a list: the inputs that are read, constants, and each needed step."""
+
+    inputs: tuple[str, ...]
+    constants: tuple[int, ...]
+    places: Mapping[str | int, int]
+    moves: tuple[_Move, ...]
+    wanted: tuple[int, ...]
 
 
 @cache
-def _schedule(
-    program: Program, wanted: tuple[str, ...]
-) -> tuple[tuple[str, ...], tuple[tuple[Step, tuple[str, ...]], ...]]:
-    """The inputs that are read, and each needed step with the names that no later step reads."""
+def _layout(program: Program, wanted: tuple[str, ...]) -> _Layout:
     steps = needed(program, wanted)
-    last_use = {name: index for index, step in enumerate(steps) for name in step.reads}
-    spent: list[list[str]] = [[] for _ in steps]
-    for name, index in last_use.items():
-        if name not in wanted:
-            spent[index].append(name)
-    read = tuple(name for name in program.inputs if name in last_use or name in wanted)
-    return read, tuple((step, tuple(names)) for step, names in zip(steps, spent, strict=True))
+    read = {name for step in steps for name in step.reads} | set(wanted)
+    inputs = tuple(name for name in program.inputs if name in read)
+    constants = sorted({argument for step in steps for argument in step.arguments if isinstance(argument, int)})
+    labels: list[str | int] = [*inputs, *constants, *(step.name for step in steps)]
+    places = {label: place for place, label in enumerate(labels)}
+    last_use = {name: number for number, step in enumerate(steps) for name in step.reads if name not in wanted}
+    moves = tuple(
+        _Move(
+            step.operation,
+            (
+                tuple(places[argument] for argument in step.arguments),
+                places[step.name],
+                tuple(places[name] for name in dict.fromkeys(step.reads) if last_use.get(name) == number),
+            ),
+        )
+        for number, step in enumerate(steps)
+    )
+    return _Layout(inputs, tuple(constants), places, moves, tuple(places[name] for name in wanted))
 
 
-def _converted(
-    program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any], names: tuple[str, ...]
-) -> dict[str, Any]:
-    missing = [name for name in names if name not in inputs]
-    if missing:
-        raise ValueError(f"program {program.name} needs a value for {', '.join(missing)}")
-    return {name: arithmetic.convert(inputs[name]) for name in names}
-
-
-def _perform(step: Step, arithmetic: Arithmetic, values: Mapping[str, Any]) -> Any:
-    operation = arithmetic.operations.get(step.operation)
+def _operation(arithmetic: Arithmetic, name: str) -> Callable[..., Any]:
+    operation = arithmetic.operations.get(name)
     if operation is None:
-        raise ValueError(f"{arithmetic.name} arithmetic has no {step.operation}")
-    return operation(*(_value(argument, arithmetic, values) for argument in step.arguments))
-
-
-def _value(argument: Argument, arithmetic: Arithmetic, values: Mapping[str, Any]) -> Any:
-    return values[argument] if isinstance(argument, str) else arithmetic.convert(argument)
+        raise ValueError(f"{arithmetic.name} arithmetic has no {name}")
+    return operation

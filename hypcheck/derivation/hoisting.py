@@ -1,71 +1,68 @@
-"""Taking out of the loop what does not change in it, as the paper's Table 2 does with the sizes."""
+"""Taking out of a loop over centres what depends on the sizes alone, as the paper's Table 2 does."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from hypcheck.derivation.evaluation import Arithmetic, outputs
-from hypcheck.derivation.program import NUMBER, Program, cut, kind_of, needed
+from hypcheck.derivation.evaluation import Arithmetic, Evaluator
+from hypcheck.derivation.program import NUMBER, Program, Step, cut, kind_of
 
 
-def hoisted(
+@dataclass(frozen=True, slots=True)
+class Hoisting:
+    """A program's steps in two parts: those that depend on fixed inputs alone, and those that move with the rest."""
+
+    outside: tuple[Step, ...]
+    inside: tuple[Step, ...]
+
+
+def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
+    """The program's steps, parted by whether they depend on the `fixed` inputs (and constants) alone.
+
+    Raises ValueError where one of these is no input of the program.
+    """
+    unknown = sorted(set(fixed) - set(program.inputs))
+    if unknown:
+        raise ValueError(f"program {program.name} has no input {', '.join(unknown)}")
+    known = set(fixed)
+    outside, inside = [], []
+    for step in program.steps:
+        if known.issuperset(step.reads):
+            known.add(step.name)
+            outside.append(step)
+        else:
+            inside.append(step)
+    return Hoisting(tuple(outside), tuple(inside))
+
+
+def split(program: Program, wanted: tuple[str, ...], fixed: tuple[str, ...]) -> tuple[Program, Program]:
+    """A program in two: what the fixed inputs alone decide, and what is left, up to the wanted names.
+
+    Inputs of a program are numbers, so a comparison of fixed numbers stays in the second part: it costs one operation.
+    Raises KeyError where a wanted name does not exist.
+    """
+    kinds = dict.fromkeys(program.inputs, NUMBER)
+    for step in program.steps:
+        kinds[step.name] = kind_of(step, kinds)
+    numbers = [step.name for step in hoist(program, fixed).outside if kinds[step.name] == NUMBER]
+    left = cut(program, numbers, wanted)
+    read = {name for step in left.steps for name in step.reads} | set(wanted)
+    known = [name for name in numbers if name in read]
+    return cut(program, fixed, known), cut(program, known, wanted)
+
+
+def loop_body(
     program: Program, arithmetic: Arithmetic, constants: Mapping[str, Any], wanted: Iterable[str]
-) -> Callable[[Mapping[str, Any]], tuple[Any, ...]]:
-    """The loop's body: from the other inputs to the wanted names, as evaluation.outputs gives them, bit for bit.
+) -> Evaluator:
+    """From the other inputs to the wanted values, bit for bit as without hoisting.
 
     Every number that depends on the constants alone is computed here, once. The constants may be arrays (the sizes of
-    many trees). Raises KeyError where a wanted name does not exist, and so does the body where an input is missing.
+    many trees). Raises KeyError where a wanted name does not exist.
     """
     names = tuple(wanted)
-    fixed = _fixed(program, constants, names)
-    with arithmetic.guard():
-        values = {name: arithmetic.convert(value) for name, value in constants.items()}
-    values |= dict(zip(fixed, outputs(program, arithmetic, constants, fixed), strict=True))
-    return _body(cut(program, (*constants, *fixed), names), arithmetic, values, names)
-
-
-def _fixed(program: Program, constants: Iterable[str], wanted: tuple[str, ...]) -> list[str]:
-    """The needed steps that depend on the constants alone; a comparison stays in the loop, as inputs are numbers."""
-    kinds = dict.fromkeys(program.inputs, NUMBER)
-    known = set(constants)
-    fixed = []
-    for step in needed(program, wanted):
-        kinds[step.name] = kind_of(step, kinds)
-        if known.issuperset(step.reads) and kinds[step.name] == NUMBER:
-            known.add(step.name)
-            fixed.append(step.name)
-    return fixed
-
-
-def _body(
-    program: Program, arithmetic: Arithmetic, values: Mapping[str, Any], names: tuple[str, ...]
-) -> Callable[[Mapping[str, Any]], tuple[Any, ...]]:
-    """The program with every name looked up beforehand: short loops over small arrays spend their time on names."""
-    places: dict[str | int, int] = {}
-    cells: list[Any] = []
-
-    def place(argument: str | int) -> int:
-        if argument not in places:
-            places[argument] = len(cells)
-            constant = isinstance(argument, int)
-            cells.append(arithmetic.convert(argument) if constant else values.get(str(argument)))
-        return places[argument]
-
-    steps = [
-        (arithmetic.operations[step.operation], [place(argument) for argument in step.arguments], place(step.name))
-        for step in program.steps
-    ]
-    varying = [(name, place(name)) for name in program.inputs if name not in values]
-    results = [place(name) for name in names]
-
-    def run(inputs: Mapping[str, Any]) -> tuple[Any, ...]:
-        held = cells.copy()
-        with arithmetic.guard():
-            for name, at in varying:
-                held[at] = arithmetic.convert(inputs[name])
-            for operation, arguments, at in steps:
-                held[at] = operation(*[held[argument] for argument in arguments])
-        return tuple(held[at] for at in results)
-
-    return run
+    before, body = split(program, names, tuple(constants))
+    known = tuple(step.name for step in before.steps)
+    values = Evaluator(before, arithmetic, known)(constants)
+    return Evaluator(body, arithmetic, names, {**constants, **dict(zip(known, values, strict=True))})

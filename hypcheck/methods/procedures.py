@@ -15,10 +15,13 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.derivation.evaluation import Evaluator
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.hoisting import split
 from hypcheck.derivation.program import Program
 from hypcheck.kernel import numpy_path
-from hypcheck.methods.formula import Floats, Ready, in_chunks, split
+from hypcheck.methods.formula import Floats, in_chunks
 from hypcheck.methods.method import Answers
 
 CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")
@@ -66,26 +69,23 @@ def rotor_programs() -> tuple[Program, Program]:
 
 def procedure_2a(flight: Flight) -> Answers:
     """1 where the procedure calls the movement valid, else 0; int8 (n,)."""
-    known, rotors = _rotors(flight)
-    return in_chunks(len(flight), lambda part: rotors({**known, **flight.part(part).columns})[0])
+    rotors = _rotors(flight)
+    return in_chunks(len(flight), lambda part: rotors(flight.part(part).columns)[0])
 
 
 def procedure_2b(flight: Flight, told: Callable[[Flight], object] = lambda _: None) -> Answers:
     """The same by Procedure 2.b; the rotors are asked about those positions alone that need it, and `told` is told."""
-    first, then = hull_programs()
-    names = tuple(step.name for step in first.steps)
-    hull = Ready(then, ("touching", "inside"), "float64")
-    known_hull = {**flight.craft, **_known(first, names, flight)}
-    known, rotors = _rotors(flight)
+    hull = _loop_body(hull_programs(), ("touching", "inside"), flight)
+    rotors = _rotors(flight)
 
     def chunk(part: slice) -> Answers:
         here = flight.part(part)
-        touching, inside = hull({**known_hull, **here.columns})
+        touching, inside = hull(here.columns)
         found = np.asarray(inside).astype(np.int8)
         places = np.flatnonzero(touching)
         if len(places):
             told(left := here.part(places))
-            found[places] = rotors({**known, **left.columns})[0]
+            found[places] = rotors(left.columns)[0]
         return found
 
     return in_chunks(len(flight), chunk)
@@ -114,14 +114,16 @@ def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Fl
     return [(along, across), (-across, along), (-along, -across), (across, -along)]
 
 
-def _rotors(flight: Flight) -> tuple[dict[str, float], Ready]:
-    first, then = rotor_programs()
-    names = tuple(step.name for step in first.steps)
-    return {**flight.craft, **_known(first, names, flight)}, Ready(then, ("valid",), "float64")
+def _rotors(flight: Flight) -> Evaluator:
+    return _loop_body(rotor_programs(), ("valid",), flight)
 
 
-def _known(first: Program, names: tuple[str, ...], flight: Flight) -> dict[str, float]:
-    return dict(zip(names, Ready(first, names, "float64")(flight.craft), strict=True))
+def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], flight: Flight) -> Evaluator:
+    """The second program in float64, with what the first computes of the craft."""
+    first, then = programs
+    names, arithmetic = tuple(step.name for step in first.steps), float_arithmetic("float64")
+    known = Evaluator(first, arithmetic, names)(flight.craft)
+    return Evaluator(then, arithmetic, wanted, {**flight.craft, **dict(zip(names, known, strict=True))})
 
 
 PROCEDURES: Mapping[str, Callable[[Flight], Answers]] = MappingProxyType(

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from hypcheck.derivation.counting import hoisted
 from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.hoisting import hoist
 from hypcheck.derivation.program import Program, Step
 from hypcheck.pairs import SIZES
 
@@ -17,7 +17,7 @@ from hypcheck.pairs import SIZES
 def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
     """The formula with 1/divisor before the loop, for each divisor that depends on the `fixed` inputs alone."""
     program = formula.program
-    known = {*fixed, *(step.name for step in hoisted(program, fixed).outside)}
+    known = {*fixed, *(step.name for step in hoist(program, fixed).outside)}
     steps = tuple(each for step in program.steps for each in _changed(step, known))
     return replace(formula, name=f"{formula.name}-reciprocal", program=Program(program.name, program.inputs, steps))
 

@@ -18,8 +18,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.derivation.evaluation import Evaluator
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.methods.formula import ByRows, ByScene, Floats, Ready, Sizes, in_chunks
+from hypcheck.methods.formula import ByRows, ByScene, Floats, Sizes, in_chunks
 from hypcheck.methods.method import Answers
 from hypcheck.pairs import COLUMNS, SIZES
 from hypcheck.rows import CANNOT_SAY, Rows
@@ -31,12 +33,12 @@ _LISTED = FORMULAS["table-2"].program
 _STEPS, _EXTRA_BITS = 200, 200
 """With polyroots' own 50 steps and 10 bits most cubics of the tower do not converge; it advises more of both."""
 
-_COEFFICIENTS = Ready(_LISTED, _CUBIC[:-1], "float64")
+_COEFFICIENTS = Evaluator(_LISTED, float_arithmetic("float64"), _CUBIC[:-1])
 
 
 def trigonometric(format_name: str) -> ByRows:
     """Positions by the trigonometric form, everything in one float format: a function of rows."""
-    ready = Ready(_LISTED, _CUBIC, format_name)
+    ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
 
     def answers(rows: Rows) -> Answers:
         return in_chunks(len(rows), lambda part: _sides(*ready(dict(zip(COLUMNS, rows[part].T, strict=True)))))
@@ -46,7 +48,7 @@ def trigonometric(format_name: str) -> ByRows:
 
 def trigonometric_by_scene(format_name: str) -> ByScene:
     """The same for many centres and one α, γ, b, d."""
-    ready = Ready(_LISTED, _CUBIC, format_name)
+    ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
 
     def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
         fixed = dict(zip(SIZES, sizes, strict=True))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hypcheck.casebook.draw import Floats
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.hoisting import hoisted
+from hypcheck.derivation.hoisting import loop_body
 from hypcheck.errors import InputError
 from hypcheck.paper.flights_circle import Direction, any_angle, turned
 from hypcheck.scene.model import Hyperboloid, Part, Scene, Span
@@ -77,8 +77,8 @@ class Procedures:
         rotor = {"alpha": alpha, "gamma": gamma, "b_s": small_b, "d_s": small_d, "l": craft.arm}
         hull, small = FORMULAS["procedure-2b"].program, FORMULAS["procedure-2a"].program
         self._offset = craft.offset
-        self._body = hoisted(hull, arithmetic, body, ("delta", "touching", "inside"))
-        self._rotors = hoisted(small, arithmetic, rotor, ("valid",))
+        self._body = loop_body(hull, arithmetic, body, ("delta", "touching", "inside"))
+        self._rotors = loop_body(small, arithmetic, rotor, ("valid",))
 
     def discriminant(self, at: Point) -> Floats:
         """Δ of the body's cubic, equation (13)."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from hypcheck.casebook.draw import Floats
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.hoisting import hoisted
+from hypcheck.derivation.hoisting import loop_body
 from hypcheck.kernel.world import offsets
 from hypcheck.pairs import Position
 from hypcheck.scene.model import Scene
@@ -118,7 +118,7 @@ class Procedure1:
     def __init__(self, trees: Trees, precision: str) -> None:
         columns = dict(zip(("alpha", "gamma", "b", "d"), trees.sizes.T, strict=True))
         self._trees = trees
-        self._body = hoisted(FORMULAS["table-2"].program, float_arithmetic(precision), columns, ("valid",))
+        self._body = loop_body(FORMULAS["table-2"].program, float_arithmetic(precision), columns, ("valid",))
 
     def valid(self, at: Places) -> Mask:
         """Which trees allow the movement, (n, m): whether the walker is taken to be exterior to each."""

@@ -8,10 +8,11 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.derivation.counting import Operations, count, hoisted
+from hypcheck.derivation.counting import Operations, count
 from hypcheck.derivation.evaluation import Arithmetic, evaluate, outputs
 from hypcheck.derivation.exact_arithmetic import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.derivation.hoisting import hoist
 from hypcheck.derivation.listing import listing_of, program_of, steps_of
 from hypcheck.derivation.program import Program, Step, cut, needed
 from hypcheck.pairs import COLUMNS, SIZES
@@ -151,7 +152,7 @@ def test_no_formula_has_a_step_in_vain(formula):
 def test_operations_of_table_2_as_counted_by_hand():
     # Before the loop: α/b, γ/d, their squares, A·B, + A, − B, and what the table prints inside though it is constant:
     # b², A − B + 1, 27·c0².
-    parts = hoisted(FORMULAS["table-2"].program, SIZES)
+    parts = hoist(FORMULAS["table-2"].program, SIZES)
     assert count(parts.outside) == Operations(additions=4, multiplications=6, divisions=2)
     # Inside: x² + y² and its quotient; (z/d)²; + B·P − A·Q; − P − Q; then Δ: 4 + 2 + 3 + 3 products and 4 sums.
     assert count(parts.inside) == Operations(
@@ -171,6 +172,6 @@ def test_sign_changes_are_free_and_roots_and_choices_are_counted():
 
 def test_hoisting_knows_its_inputs():
     with pytest.raises(ValueError, match="has no input height"):
-        hoisted(SMALL, ("height",))
-    assert [step.name for step in hoisted(SMALL, ("x", "y")).inside] == []
-    assert [step.name for step in hoisted(SMALL, ()).outside] == []
+        hoist(SMALL, ("height",))
+    assert [step.name for step in hoist(SMALL, ("x", "y")).inside] == []
+    assert [step.name for step in hoist(SMALL, ()).outside] == []

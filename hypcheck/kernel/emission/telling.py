@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from hypcheck.derivation.counting import Operations, count, hoisted
+from hypcheck.derivation.counting import Operations, count
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.hoisting import hoist
 from hypcheck.derivation.program import Step
 from hypcheck.kernel.emission.costs import needs_side, operations_before, thresholds_asked, told
 from hypcheck.kernel.emission.header import region
@@ -53,7 +54,7 @@ def plan_as_json(plan: Plan) -> dict[str, Any]:
 
 def printed_operations() -> Operations:
     """What Table 2 costs each centre, its constant terms taken out of the loop."""
-    return count(hoisted(FORMULAS[PRINTED].program, SIZES).inside)
+    return count(hoist(FORMULAS[PRINTED].program, SIZES).inside)
 
 
 def _asked(question: str) -> str:
