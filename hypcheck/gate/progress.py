@@ -40,7 +40,7 @@ class Progress:
         """What the line of a record says. Raises InputError naming the record where it cannot be read."""
         try:
             return cls(line["number"], line["declared"], line["cases"], restored(line["state"]), line.get("program"))
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise InputError(f"{name}: its line of progress says nothing to go on from: {error!r}") from None
 
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
 from hypcheck.errors import InputError
+from hypcheck.gate.consistency import require_lines, require_state
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Progress
+from hypcheck.gate.run import known_failures_of, rules_of, steps_of
 from hypcheck.gate.schedule import State
 from hypcheck.record import Line, Record, plain
 from hypcheck.record.writing import PROGRESS, header
@@ -70,17 +73,44 @@ def resume(record: Record, file: Path, plan: GatePlan, cases: int) -> Resumed:
     progress cannot be read; StartError where it cannot be started.
     """
     carried, progress = finished_part(record)
+    with _told_of(file):
+        _require_carried(carried, plan)
     if progress is None:
         return Resumed(carried)
     begun = Progress.of_line(progress, str(file))
+    if begun.number >= len(plan.specs):
+        raise InputError(f"{file} cannot be resumed: it goes on with an implementation behind the last one")
     _require_same(begun.program, own_sha256(), "the sha256 of hypcheck's own files", file)
     _require_same(begun.cases, cases, "the number of cases", file)
     with plan.opening(begun.number).open() as implementation:
         declared = json.loads(json.dumps(plain(asdict(implementation.declared))))
+        used = implementation.description
     for key in declared:
         title = f"the {key} that {plan.specs[begun.number]} declares"
         _require_same(begun.declared.get(key), declared[key], title, file)
+    with _told_of(file):
+        require_state(begun.state, steps_of(plan, used), plan, rules_of(plan, used, known_failures_of(plan)))
     return Resumed((*carried, progress), begun.state)
+
+
+@contextmanager
+def _told_of(file: Path) -> Iterator[None]:
+    """Whatever contradicts itself in the record is an InputError that names its file."""
+    try:
+        yield
+    except ValueError as error:
+        raise InputError(f"{file} cannot be resumed: what it says cannot be: {error}") from None
+
+
+def _require_carried(carried: Sequence[Line], plan: GatePlan) -> None:
+    """Raise ValueError where lines about an implementation that was asked to its end cannot be true."""
+    lines: list[Line] = []
+    for line in carried:
+        lines.append(line)
+        if line["type"] == "implementation":
+            if line["started"]:
+                require_lines(lines, plan)
+            lines = []
 
 
 def finished_part(record: Record) -> tuple[tuple[Line, ...], Line | None]:

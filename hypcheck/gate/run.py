@@ -11,8 +11,9 @@ from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
 from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import NothingJudgedError
-from hypcheck.gate.chunks import Chunk, chunks, found_by_search, frozen_cases
+from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.cluster import connected
+from hypcheck.gate.consistency import planned, require_all_tallied
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines
 from hypcheck.gate.plan import GatePlan
@@ -22,6 +23,7 @@ from hypcheck.gate.schedule import Crew, State, Step, states, steps
 from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import Here, Workers, keep_memory
 from hypcheck.judge import Criterion
+from hypcheck.methods.description import Description
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
@@ -41,10 +43,7 @@ def chosen(plan: GatePlan) -> tuple[Family, ...]:
 
 def size(plan: GatePlan) -> int:
     """The cases that each implementation is asked, those that it will skip included."""
-    families = chosen(plan)
-    frozen = sum(frozen_cases(family.name) for family in families)
-    found = 0 if plan.filtered else sum(map(len, found_by_search()))
-    return frozen + found + len(families) * plan.count
+    return sum(planned(plan).values())
 
 
 def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, state: State | None = None) -> None:
@@ -54,7 +53,7 @@ def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advan
     is told of neither. Interrupted, it records what was finished. Raises NothingJudgedError where not one case was
     judged, which proves nothing.
     """
-    listed, cases = _known(plan), size(plan)
+    listed, cases = known_failures_of(plan), size(plan)
     keep_memory()
     finished = sum(line["type"] == "implementation" for line in recorder.lines)
     with connected(plan.cluster) if plan.cluster else nullcontext() as client:
@@ -75,8 +74,19 @@ def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advan
         )
 
 
-def _known(plan: GatePlan) -> tuple[KnownFailure, ...]:
+def known_failures_of(plan: GatePlan) -> tuple[KnownFailure, ...]:
+    """Those that the plan lists. Raises InputError as read_known_failures does."""
     return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
+
+
+def steps_of(plan: GatePlan, used: Description) -> Iterator[Step]:
+    """The steps that ask an implementation which is judged by this description."""
+    return steps(_chunks(plan, used.domain), refuses=used.refuses)
+
+
+def rules_of(plan: GatePlan, used: Description, listed: tuple[KnownFailure, ...]) -> Rules:
+    """How an implementation is judged by this description."""
+    return Rules(Criterion(used.question, used.precision, plan.tolerance), used.domain, listed, plan.seed)
 
 
 def _chunks(plan: GatePlan, domain: Domain | None = None) -> Iterator[Chunk]:
@@ -101,11 +111,10 @@ def _gate(
     client: Client | None,
 ) -> None:
     used = implementation.description
-    criterion = Criterion(used.question, used.precision, plan.tolerance)
-    rules = Rules(criterion, used.domain, listed, plan.seed)
+    rules = rules_of(plan, used, listed)
     lines = Lines(plan, opening.spec, implementation.declared, used, rules)
     state = begun = begun or State(implementation.allowance)
-    asked = steps(_chunks(plan, used.domain), refuses=used.refuses)
+    asked = steps_of(plan, used)
     with ExitStack() as stack:
         crew = _crew(stack, implementation, opening, plan, rules, client)
         try:
@@ -120,6 +129,7 @@ def _gate(
                 keeper.keep(state)
             lines.add(state, keeper.recorder, finished=False)
             raise
+    require_all_tallied(state.total.tallies, planned(plan, used.domain, refuses=used.refuses))
     lines.add(state, keeper.recorder, finished=True)
 
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from hypcheck.bins import FARTHEST
 from hypcheck.record import Line
 from hypcheck.visible import shortened
-
-FARTHEST = 9999
-"""No octave of a float64, of a ratio of two, or of a product of a few, lies farther from 0."""
 
 _OCTAVE = re.compile(r"-?\d{1,4}|-?inf", re.ASCII)
 

@@ -13,7 +13,7 @@ from hypcheck.cli.main import main
 from hypcheck.record import Recorder, read
 from hypcheck.record.owning import OwnedError, owning
 from hypcheck.record.reading import FILE, GROWING
-from tests.gate.interrupted import paused_bytes, started, wait_for, words
+from tests.gate.interrupted import in_small_steps, paused_bytes, started, wait_for, words
 from tests.gate.test_interrupted import needs_proc
 from tests.records import resealed
 from tests.report_samples import text_and_record
@@ -22,6 +22,12 @@ from tests.report_samples import text_and_record
 @pytest.fixture(scope="module")
 def paused(tmp_path_factory):
     return paused_bytes(tmp_path_factory.mktemp("paused"))
+
+
+@pytest.fixture
+def small_steps(monkeypatch):
+    """The steps of the run that was paused."""
+    in_small_steps(monkeypatch.setattr)
 
 
 def files_in(folder):
@@ -133,12 +139,14 @@ def test_a_folder_has_one_owner_at_a_time(tmp_path):
         pass
 
 
+@pytest.mark.usefixtures("small_steps")
 def test_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
     (tmp_path / FILE).write_bytes(paused)
     said = refused(tmp_path, capsys, "--resume", str(tmp_path), "--out", "/proc/nowhere")
     assert "--out /proc/nowhere cannot be written" in said
 
 
+@pytest.mark.usefixtures("small_steps")
 def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_path):
     (tmp_path / "kept").mkdir()
     path = tmp_path / "kept" / FILE
@@ -153,6 +161,7 @@ def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_
         path.parent.chmod(0o700)
 
 
+@pytest.mark.usefixtures("small_steps")
 def test_without_out_it_goes_on_where_the_record_is(paused, tmp_path):
     (tmp_path / FILE).write_bytes(paused)
     command = words(tmp_path, "--resume", str(tmp_path / FILE))

@@ -218,8 +218,12 @@ def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp
 
 
 def test_a_result_comes_back_from_json():
-    fault = groups.Fault((0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0), "wrong", "said \ud83d")
-    worst = groups.Worst((1, 2), "a/1/1/2", (1.5, 5e-324), 0, 1, "false-clear", "wrong", float("inf"))
+    fault = groups.Fault(
+        (0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0, 1.0, 1.0, 1.0, 1.0), "wrong", "said \ud83d"
+    )
+    worst = groups.Worst(
+        (1, 2), "a/1/1/2", (1.5, 5e-324, 1.0, 1.0, 0.1, -0.0, 7e9), 0, 1, "false-clear", "wrong", float("inf")
+    )
     left = results.Open(chunks.Chunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8))
     result = Result(
         tallies={"some": groups.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
