@@ -33,11 +33,21 @@ def test_the_arithmetic_is_that_of_the_proved_formula(program):
     assert needed(program, ("delta_3", "c1", "c2", "c0")) == proved
 
 
-@pytest.mark.parametrize(("step", "u_units"), [("c0", 8), ("c1", 12), ("c2", 8)])
-def test_constants_of_the_coefficients_cover_the_counted_roundings(step, u_units):
-    count = relative_error_counts(certified.CERTIFIED, [step]).counts[step]
+@pytest.mark.parametrize(("step", "constant"), [("c0", "u_8"), ("c1", "u_12"), ("c2", "u_8")])
+@pytest.mark.parametrize("program", [certified, single], ids=["certified", "single"])
+def test_constants_of_the_coefficients_cover_the_counted_roundings(program, step, constant):
+    listing = certified.CERTIFIED if program is certified else single.SINGLE
+    count = relative_error_counts(listing, [step]).counts[step]
     # γ_k M of the exact M, and M is computed with at most 12 roundings more: one unit of room is enough for all of it.
-    assert gamma(count, U) / (1 - 12 * U) < (count + 1) * U <= u_units * U
+    assert gamma(count, U) / (1 - 12 * U) < (count + 1) * U < Fraction(program.CONSTANTS[constant])
+    assert Fraction(program.CONSTANTS[constant]) / int(constant.removeprefix("u_")) == U * Fraction(certified.SLACK)
+
+
+@pytest.mark.parametrize("step", ["h1", "h2", "h3", "delta_3"])
+def test_constant_of_the_discriminants_parts_covers_their_roundings(step):
+    known = ("h1", "h2", "h3") if step == "delta_3" else ("c0", "c1", "c2")
+    count = relative_error_counts(cut(certified.CERTIFIED, known, (step,)), (step,)).counts[step]
+    assert gamma(count, U) < Fraction(certified.CONSTANTS["u_4"])
 
 
 def test_constant_of_the_discriminant_in_single_covers_the_counted_roundings():
@@ -94,7 +104,7 @@ def test_bounds_of_the_discriminant_are_those_of_the_page(step):
 @pytest.mark.parametrize("step", ["slope_A", "slope_B", "offset_A", "offset_B"])
 def test_slopes_carry_fewer_roundings_than_their_16_units(step):
     part = cut(certified.CERTIFIED, ("c1", "c2"), (step,))
-    assert gamma(relative_error_counts(part, (step,)).counts[step], U) < 15 * U
+    assert gamma(relative_error_counts(part, (step,)).counts[step], U) < 15 * U < Fraction(certified.CONSTANTS["u_16"])
 
 
 def test_bounds_are_rounded_by_less_than_their_slack():

@@ -124,7 +124,6 @@ int hypcheck_use_level(const char *name);
 #define HC_u_12 2.6645378001992175e-15 /* 0x1.8000180000000p-49 */
 #define HC_u_16 3.55271706693229e-15 /* 0x1.0000100000000p-48 */
 #define HC_slack 1.0000009536743164 /* 0x1.0000100000000p+0 */
-#define HC_tiny 3.054936363499605e-151 /* 0x1.0000000000000p-500 */
 #define HC_least 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
 #define HC_greatest 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
 #define HC_farthest 1.6069380442589903e+60 /* 0x1.0000000000000p+200 */
@@ -293,7 +292,8 @@ static void hc_scale(hc_integer *product, hc_limb factor, const hc_integer *numb
     product->sign = number->sign;
 }
 
-/* A finite double is sign mantissa 2^exponent, the mantissa odd, or 0 with an exponent above all others. */
+/* A finite double is sign mantissa 2^exponent, the mantissa odd, or 0 with an exponent above all others, so that it does
+   not choose the unit: any exponent would give right answers, a lower one longer integers. */
 typedef struct {
     int sign;
     int exponent;
@@ -396,6 +396,10 @@ static int hc_exact_position(const double row[7]) {
         HC_INTEGER(h1_h3_4, 33585); hc_scale(&h1_h3_4, 4, &h1_h3);
         HC_INTEGER(h2_h2, 33582); hc_multiply(&h2_h2, &h2, &h2);
         HC_INTEGER(delta, 33586); hc_subtract(&delta, &h1_h3_4, &h2_h2);
+        /* A sign that is 0 decides nothing here. Where delta > 0, n2 and n1 are not 0 beside n1 > 0 and n2 < 0: with c0 < 0,
+           c1 = 0 makes 4 c2³ + 27 c0 of the sign of delta, negative for c2 < 0, and c2 = 0 makes it -4 c1³ - 27 c0². And no
+           slope is 0 on the side of the inflection that is asked for: there it would be the local maximum of g, which is
+           positive between two of three roots, and g(B) and g(-A) are not. At the inflection itself the slope is < 0. */
         if (delta.sign > 0 && n2.sign < 0 && n1.sign > 0) { /* three positive roots: are they all beyond B? */
             HC_INTEGER(N_s, 12588); hc_multiply(&N_s, &N, &s);
             HC_INTEGER(N_s_3, 12590); hc_scale(&N_s_3, 3, &N_s);
@@ -469,7 +473,7 @@ static int hc_valid(const double row[7]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_fd404b58ec3e6ee2
+#ifndef HC_EDITION_3ba7f6c7baf7617c
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -681,6 +685,7 @@ static hc_point hc_known_point(const double sizes[4], double z, double P, int si
     for (i = 0; i < 3; i++) {
         row[4] = P > 0 ? hc_short(sizes[2] * hc_rough_root(P * (1 - side * steps[i])), side < 0) : 0;
         point.R = row[4] * row[4];
+        /* The cap spares work alone: beyond it R may overflow, and then no slope below is within its limit. */
         if (point.R < HC_cap && hc_position_of(row) != side) return point;
     }
     point.R = -1;
@@ -944,7 +949,7 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_fd404b58ec3e6ee2
+#define HC_EDITION_3ba7f6c7baf7617c
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -1063,7 +1068,6 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
     const HC_NUMBER u_12 = HC_SET(HC_u_12);
     const HC_NUMBER u_16 = HC_SET(HC_u_16);
     const HC_NUMBER slack = HC_SET(HC_slack);
-    const HC_NUMBER tiny = HC_SET(HC_tiny);
     const HC_NUMBER least = HC_SET(HC_least);
     const HC_NUMBER greatest = HC_SET(HC_greatest);
     const HC_NUMBER farthest = HC_SET(HC_farthest);
@@ -1141,10 +1145,8 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
         const HC_NUMBER terms_1 = sizes_1 + BP_plus_AQ;
         const HC_NUMBER sizes_2 = A_plus_B + HC_SET(1.0);
         const HC_NUMBER terms_2 = sizes_2 + P_plus_Q;
-        const HC_NUMBER relative_1 = u_12 * terms_1;
-        const HC_NUMBER e1 = relative_1 + tiny;
-        const HC_NUMBER relative_2 = u_8 * terms_2;
-        const HC_NUMBER e2 = relative_2 + tiny;
+        const HC_NUMBER e1 = u_12 * terms_1;
+        const HC_NUMBER e2 = u_8 * terms_2;
         const HC_NUMBER e0 = u_8 * AB;
         const HC_NUMBER m0 = AB + e0;
         const HC_NUMBER size_c1 = HC_ABS(c1);

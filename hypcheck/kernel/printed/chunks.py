@@ -168,7 +168,6 @@ def certified(
     u_12 = constants["u_12"]
     u_16 = constants["u_16"]
     slack = constants["slack"]
-    tiny = constants["tiny"]
     least = constants["least"]
     greatest = constants["greatest"]
     farthest = constants["farthest"]
@@ -239,10 +238,8 @@ def certified(
     np.add(n10, n8, n8)  # terms_1 = sizes_1 + BP_plus_AQ
     np.add(n5, 1.0, n5)  # sizes_2 = A_plus_B + 1
     np.add(n5, n6, n6)  # terms_2 = sizes_2 + P_plus_Q
-    np.multiply(u_12, n8, n8)  # relative_1 = u_12 * terms_1
-    np.add(n8, tiny, n8)  # e1 = relative_1 + tiny
-    np.multiply(u_8, n6, n6)  # relative_2 = u_8 * terms_2
-    np.add(n6, tiny, n6)  # e2 = relative_2 + tiny
+    np.multiply(u_12, n8, n8)  # e1 = u_12 * terms_1
+    np.multiply(u_8, n6, n6)  # e2 = u_8 * terms_2
     np.multiply(u_8, n2, n5)  # e0 = u_8 * AB
     np.add(n2, n5, n2)  # m0 = AB + e0
     np.absolute(n4, n10)  # size_c1 = abs c1

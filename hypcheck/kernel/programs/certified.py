@@ -32,10 +32,10 @@ false; but rounded down or towards zero it is the largest finite number, and a d
 nothing. The question itself is safe in every mode: x² + y² overflows to 2¹⁰²³ at least, hence P ≥ 2⁸²² as b² < 2²⁰⁰,
 and Q likewise; infinity and NaN are not below FARTHEST.
 
-Underflow. A centre coordinate whose square underflows (or is flushed to zero) changes P by at most 2^-1021/2^-200 and
-c1, c2 by less than TINY = 2⁻⁵⁰⁰, which e1 and e2 contain. E1 ≥ 3 TINY, E2 ≥ 9 e0 > 2⁻²⁵⁰ and E3 ≥ 3 m0 e2 > 2⁻⁷⁰⁰
-exceed every underflow in h1, h2, h3 (2⁻¹⁰²¹ times a small factor), hence E, which contains a1 E3, a3 E1 and a2 E2,
-what these do to Δ.
+Underflow. A centre coordinate whose square underflows (or is flushed to zero) changes P and Q by 2^-1021/2^-200 at most
+and c1, c2 by less than 2⁻⁷⁰⁰. e1 ≥ 12u AB > 2⁻²⁴⁹ and e2 ≥ 8u contain that many times over in the unit that they have
+to spare. E1 ≥ 3 e1, E2 ≥ 9 e0 > 2⁻²⁴⁹ and E3 ≥ 3 m0 e2 > 2⁻²⁴⁹ exceed every underflow in h1, h2, h3 (2⁻¹⁰²¹ times a
+small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to Δ.
 """
 
 from __future__ import annotations
@@ -53,7 +53,6 @@ CONSTANTS = {
     "u_12": 12 * U * SLACK,
     "u_16": 16 * U * SLACK,
     "slack": SLACK,
-    "tiny": 2.0**-500,
     "least": 2.0**-100,
     "greatest": 2.0**100,
     "farthest": 2.0**200,
@@ -92,10 +91,8 @@ _COEFFICIENT_BOUNDS = """
     terms_1 = sizes_1 + BP_plus_AQ
     sizes_2 = A_plus_B + 1
     terms_2 = sizes_2 + P_plus_Q
-    relative_1 = u_12 * terms_1
-    e1 = relative_1 + tiny
-    relative_2 = u_8 * terms_2
-    e2 = relative_2 + tiny
+    e1 = u_12 * terms_1
+    e2 = u_8 * terms_2
     e0 = u_8 * AB
     m0 = AB + e0
     size_c1 = abs c1

@@ -115,7 +115,8 @@ static void hc_scale(hc_integer *product, hc_limb factor, const hc_integer *numb
     product->sign = number->sign;
 }
 
-/* A finite double is sign mantissa 2^exponent, the mantissa odd, or 0 with an exponent above all others. */
+/* A finite double is sign mantissa 2^exponent, the mantissa odd, or 0 with an exponent above all others, so that it does
+   not choose the unit: any exponent would give right answers, a lower one longer integers. */
 typedef struct {
     int sign;
     int exponent;
@@ -175,6 +176,10 @@ static int hc_exact_position(const double row[7]) {
     hc_in_units(&z, z_parts, axial_unit);
     {
         @INTEGERS@
+        /* A sign that is 0 decides nothing here. Where delta > 0, n2 and n1 are not 0 beside n1 > 0 and n2 < 0: with c0 < 0,
+           c1 = 0 makes 4 c2³ + 27 c0 of the sign of delta, negative for c2 < 0, and c2 = 0 makes it -4 c1³ - 27 c0². And no
+           slope is 0 on the side of the inflection that is asked for: there it would be the local maximum of g, which is
+           positive between two of three roots, and g(B) and g(-A) are not. At the inflection itself the slope is < 0. */
         if (delta.sign > 0 && n2.sign < 0 && n1.sign > 0) { /* three positive roots: are they all beyond B? */
             @INTEGERS_AT_B@
             return offset_at_B.sign < 0 && slope_at_B.sign > 0 ? 0 : 1;

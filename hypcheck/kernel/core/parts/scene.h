@@ -114,6 +114,7 @@ static hc_point hc_known_point(const double sizes[4], double z, double P, int si
     for (i = 0; i < 3; i++) {
         row[4] = P > 0 ? hc_short(sizes[2] * hc_rough_root(P * (1 - side * steps[i])), side < 0) : 0;
         point.R = row[4] * row[4];
+        /* The cap spares work alone: beyond it R may overflow, and then no slope below is within its limit. */
         if (point.R < HC_cap && hc_position_of(row) != side) return point;
     }
     point.R = -1;

@@ -1,0 +1,195 @@
+"""What the proofs ask of the kernel's limits, and the rules by which comparisons become answers."""
+
+from __future__ import annotations
+
+import itertools
+import subprocess
+import sys
+from fractions import Fraction
+from math import isqrt
+
+import pytest
+
+from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.program import cut
+from hypcheck.kernel import integers, scene_parallels
+from hypcheck.kernel.programs import certified, lines, parallel_lines
+from hypcheck.kernel.programs.integers import FLOAT64_BITS
+from hypcheck.pairs import Lengths, Pair, Position, to_integers
+from hypcheck.truth import exact
+from tests.kernel.compiling import STRICT, needs_compiler, program
+
+GREATEST = Fraction(sys.float_info.max)
+LEAST_NORMAL = Fraction(sys.float_info.min)
+U = Fraction(certified.U)
+
+BOUNDS = {
+    "delta_3": "E",
+    "c1": "e1",
+    "c2": "e2",
+    "slope_B": "bound_B",
+    "offset_B": "offset_bound_B",
+    "slope_A": "bound_A",
+    "offset_A": "offset_bound_A",
+}
+"""What the second stage compares, and the bound that each is compared with."""
+
+
+def rule(delta: int, c1: int, c2: int, slope_B: int, offset_B: int, slope_A: int, offset_A: int) -> Position | None:
+    """The rule for all regimes (docs/mathematics.md), each sign +1, −1, or 0 where it is not certain."""
+    if delta <= 0:
+        return Position.CONTACT if delta else None
+    if c2 < 0 < c1:  # three positive roots: B lies before all of them, or two lie before B
+        if offset_B > 0 or slope_B < 0:
+            return Position.EXTERIOR
+        return Position.CONTACT if offset_B < 0 and slope_B > 0 else None
+    if c2 > 0 or c1 < 0:  # two negative ones: both lie above −A, or −A above one of them
+        if offset_A > 0 and slope_A > 0:
+            return Position.INTERIOR
+        return Position.CONTACT if offset_A < 0 or slope_A < 0 else None
+    return None
+
+
+def test_the_second_stage_answers_by_the_rule_and_by_nothing_less():
+    sizes = dict.fromkeys(("alpha", "gamma", "b", "d", "A", "B"), 1)
+    wanted = ("exterior", "interior", "decided")
+    decision = cut(certified.CERTIFIED, (*sizes, "P_plus_Q", *BOUNDS, *BOUNDS.values()), wanted)
+    inputs = {**certified.CONSTANTS, **sizes, **dict.fromkeys(BOUNDS.values(), 2), "P_plus_Q": 1}
+    for signs in itertools.product((-1, 0, 1), repeat=len(BOUNDS)):
+        told = {**inputs, **{name: 3 * sign or 2 for name, sign in zip(BOUNDS, signs, strict=True)}}
+        exterior, interior, decided = outputs(decision, EXACT, told, wanted)
+        found = rule(*signs)
+        assert (decided, exterior - interior) == (found is not None, found or 0), signs
+
+
+@pytest.mark.parametrize("name", ["alpha", "gamma", "b", "d", "A", "B", "P_plus_Q"])
+def test_the_second_stage_answers_within_its_limits_alone(name):
+    least, most, far = (Fraction(certified.CONSTANTS[each]) for each in ("least", "greatest", "farthest"))
+    known = ("alpha", "gamma", "b", "d", "A", "B", "P_plus_Q")
+    part = cut(certified.CERTIFIED, known, ("usable",))
+    inputs = {**certified.CONSTANTS, **dict.fromkeys(known, Fraction(1))}
+    beyond = {"alpha": [0, -1], "gamma": [0, -1], "P_plus_Q": [far, 2 * far]}.get(name, [least, most, 0])
+    assert outputs(part, EXACT, inputs, ("usable",)) == (True,)
+    for value in beyond:
+        assert outputs(part, EXACT, {**inputs, name: value}, ("usable",)) == (False,)
+
+
+def test_nothing_overflows_where_the_second_stage_decides():
+    """With every size and centre at its limit the largest product of the bound is far from the largest float64."""
+    most, far = (Fraction(certified.CONSTANTS[name]) for name in ("greatest", "farthest"))
+    m2 = 2 * (2 * most + 1 + far)
+    m1 = 2 * (most * most + 2 * most + most * far)
+    m0 = 2 * most * most
+    a1, a2, a3 = 2 * (m2 * m2 + 3 * m1), 2 * (m2 * m1 + 9 * m0), 2 * (m1 * m1 + 3 * m2 * m0)
+    assert 4 * (4 * a1 * a3 + a2 * a2) < GREATEST
+    assert 2 * (3 * most + 2 * m2) * most + m1 < GREATEST
+    assert 64 * (m2 * m1) ** 2 < GREATEST
+    assert GREATEST / (2 * most * most) > far  # what x² + y² becomes when it overflows is seen
+
+
+def test_what_underflows_in_the_second_stage_is_within_the_unit_to_spare():
+    least, most = (Fraction(certified.CONSTANTS[name]) for name in ("least", "greatest"))
+    lost = 4 * most * 2 * LEAST_NORMAL / least**2  # of c1, where x², y² and z² are lost
+    assert lost < U * least * least  # AB, the least of the terms' sum that e1 is measured by
+
+
+def test_nothing_overflows_or_is_lost_in_the_first_stage():
+    slope, constant, cap = (Fraction(each) for each in (lines.GREATEST_SLOPE, lines.LEAST_CONSTANT, lines.CAP))
+    assert slope * cap * 2 < GREATEST
+    assert 64 * cap < GREATEST
+    assert 2 * LEAST_NORMAL * (1 + slope) < U * constant
+
+
+def test_squares_lost_in_single_precision_are_within_tiny():
+    least_normal = Fraction(1, 2**126)
+    lost = 2 * 2 * least_normal * (1 + Fraction(parallel_lines.GREATEST_SLOPE))
+    assert lost < Fraction(parallel_lines.TINY)
+    beside_the_axis = scene_parallels.thresholds(
+        {"beyond": None, "under": None, "within": None, "above": (0.0, 0.0)}, 1.0
+    )
+    assert beside_the_axis is not None
+    assert beside_the_axis["K_above"] >= parallel_lines.TINY
+
+
+@pytest.mark.parametrize("at", [0, 1])
+def test_a_chord_is_checked_at_both_ends(at):
+    """K + M T is 1 at T = 0 and 3 at T = 1; one end has room on either side, the other on none."""
+    inputs = {"K": 1, "M": 2, "T_0": 0, "T_1": 1, "less": lines.LESS, "more": lines.MORE}
+    heights = [1, 3]
+    for factor, below, above in ((2, True, False), (Fraction(1, 2), False, True)):
+        both = {f"R_{k}": height * factor for k, height in enumerate(heights)}
+        assert outputs(lines.CHORD, EXACT, {**inputs, **both}, ("below", "above")) == (below, above)
+        one = {**both, f"R_{at}": heights[at] / Fraction(factor)}
+        assert outputs(lines.CHORD, EXACT, {**inputs, **one}, ("below", "above")) == (False, False)
+
+
+def test_the_longest_float64_has_room_among_the_integers():
+    longest = Pair(sys.float_info.max, 1.0, 5e-324, 1.0, 5e-324, 0.0, 0.0).lengths.alpha
+    assert longest.bit_length() == FLOAT64_BITS
+    assert integers.position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
+
+
+SCENE = """
+#define HYPCHECK_IMPLEMENTATION
+#include "hypcheck.h"
+#include <stdio.h>
+int main(void) {
+    double sizes[4], top;
+    while (scanf("%la %la %la %la %la", sizes, sizes + 1, sizes + 2, sizes + 3, &top) == 5) {
+        const double z[2] = {0.0, top};
+        hc_scene scene;
+        int made = hc_make_scene(&scene, sizes, 2, z), i, k;
+        const hc_line *sides[4] = {scene.beyond, scene.within, scene.under, scene.above};
+        printf("%d %a %a %a", made, hc_short(1.0625 * top, 1), hc_short(top, 0), scene.reach);
+        for (k = 0; k < 4; k++)
+            for (i = 0; i < 3; i++) printf(" %a %a", sides[k][i].K, sides[k][i].M);
+        puts("");
+    }
+    return 0;
+}
+"""
+SIZES = (
+    (2.0, 17.8, 0.25, 0.15),
+    (0.4, 8.0, 0.3, 0.9),
+    (3.0, 1.0, 1.0, 1.0),
+    (1.0, 4.0, 1.0, 2.0),
+    (30.0, 70.0, 1e-3, 5e-4),
+)
+PROVES_NOTHING = (sys.float_info.max, -1.0)
+
+
+def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bool) -> Position:
+    """The exact position at a height, hardly above or below that R; on the axis where R is below 0."""
+    root = Fraction(isqrt(int(max(R, Fraction(0)) * 4**120)), 2**120)
+    x = (root + Fraction(1, 2**119)) if above else root * (1 - Fraction(1, 2**100))
+    alpha, gamma, b, d = map(Fraction, sizes)
+    radial, axial = to_integers((alpha, b, x)), to_integers((gamma, d, z))
+    return exact.position(Lengths(*radial, 0, *axial))
+
+
+@needs_compiler
+def test_lines_of_a_compiled_scene_hold_at_both_ends_of_their_reach(tmp_path):
+    """At T = 0 and at the greatest T the exact position just beside each line is the one that the line claims."""
+    binary = program(tmp_path, SCENE, *STRICT, "-Wno-unused-function", "-O1")
+    asked = [(*sizes, size * 1.37) for sizes in SIZES for size in (sizes[1], sizes[3])]
+    text = "\n".join(" ".join(each.hex() for each in row) for row in asked)
+    done = subprocess.run([binary], input=text, capture_output=True, text=True, check=True)
+    checked = 0
+    for (*sizes, _), line in zip(asked, done.stdout.splitlines(), strict=True):
+        made, top, short, reach, *numbers = (float.fromhex(each) for each in line.split())
+        assert made == 1
+        assert all(Fraction(each) ** 2 == Fraction(each * each) for each in (top, short))  # squares without a rounding
+        assert Fraction(reach) * (1 + 2 * U) <= Fraction(top) ** 2  # a computed T up to it is one below the greatest
+        for place, (K, M) in enumerate(zip(numbers[::2], numbers[1::2], strict=True)):
+            side, part = ("beyond", "within", "under", "above")[place // 3], place % 3
+            if K in PROVES_NOTHING or (
+                side in ("under", "above") and part
+            ):  # chords of one part end at half the height
+                continue
+            for z in (Fraction(0), Fraction(top)):
+                found = position_at(tuple(sizes), K + M * z * z, z, above=side in ("beyond", "above"))
+                assert (found is Position.EXTERIOR) == (side == "beyond") or side in ("within", "above"), (sizes, side)
+                assert (found is Position.INTERIOR) == (side == "within") or side in ("beyond", "under"), (sizes, side)
+                checked += 1
+    assert checked > 100
