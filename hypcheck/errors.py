@@ -2,7 +2,66 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from enum import IntEnum
+
 from hypcheck.visible import sentence
+
+
+class Exit(IntEnum):
+    """A process's status; others' scripts depend on the numbers."""
+
+    HELD = 0
+    WRONG = 1
+    USAGE = 2
+    SLOWER = 3
+    INCONCLUSIVE = 4
+    NOT_STARTED = 5
+    ORACLES_DISAGREE = 6
+    INTERNAL = 70
+    INTERRUPTED = 130
+    CLOSED_PIPE = 141
+    TERMINATED = 143
+
+    @property
+    def meaning(self) -> str:
+        """What the status says, in a few words."""
+        return _MEANINGS[self]
+
+
+_MEANINGS = {
+    Exit.HELD: "all held",
+    Exit.WRONG: "a wrong, lost or changing answer, or known failures drifted",
+    Exit.USAGE: "wrong usage or bad input",
+    Exit.SLOWER: "slower than the baseline allows",
+    Exit.INCONCLUSIVE: "too noisy to tell",
+    Exit.NOT_STARTED: "an implementation could not be started or broke the protocol",
+    Exit.ORACLES_DISAGREE: "our oracles disagree",
+    Exit.INTERNAL: "an internal error of hypcheck",
+    Exit.INTERRUPTED: "interrupted",
+    Exit.CLOSED_PIPE: "the reader of our output left",
+    Exit.TERMINATED: "terminated",
+}
+
+PRECEDENCE = (
+    Exit.INTERRUPTED,
+    Exit.TERMINATED,
+    Exit.CLOSED_PIPE,
+    Exit.INTERNAL,
+    Exit.USAGE,
+    Exit.ORACLES_DISAGREE,
+    Exit.NOT_STARTED,
+    Exit.WRONG,
+    Exit.SLOWER,
+    Exit.INCONCLUSIVE,
+    Exit.HELD,
+)
+"""Of several reasons to end with, the first of these is told."""
+
+
+def first_that_applies(reasons: Iterable[int]) -> Exit:
+    """The one exit code of a run that may have several: HELD where there is no reason for another."""
+    return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
 
 
 class HypcheckError(Exception):
@@ -11,7 +70,7 @@ class HypcheckError(Exception):
     Whatever it quotes, the text is one line, printable, and at most visible.LONGEST characters long.
     """
 
-    exit_code = 70
+    exit_code = Exit.INTERNAL
 
     def __init__(self, text: object = "") -> None:
         super().__init__(sentence(text))
@@ -20,20 +79,25 @@ class HypcheckError(Exception):
 class InputError(HypcheckError):
     """A bad option, file or value. The sentence says what, where, which value, and what would be right."""
 
-    exit_code = 2
+    exit_code = Exit.USAGE
 
 
 class NothingJudgedError(HypcheckError):
     """A run that asked or judged nothing; it proves nothing, so it is never a pass."""
 
-    exit_code = 2
+    exit_code = Exit.USAGE
 
 
 class UnavailableError(HypcheckError):
     """An optional part (an oracle, a plot) cannot run here; the sentence says why and what would enable it."""
 
-    exit_code = 2
+    exit_code = Exit.USAGE
 
 
 class Terminated(BaseException):
     """The system asked the process to end (SIGTERM), or its terminal has gone (SIGHUP)."""
+
+
+def system_reason(error: OSError) -> str:
+    """Why the system refused, in its own words, as the end of a sentence."""
+    return (error.strerror or str(error)).lower()

@@ -6,7 +6,7 @@ import re
 import sys
 from typing import Any
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 
 LARGEST = 64 << 20
 """Bytes of a file: half a million trees of a scene, one a line."""
@@ -20,7 +20,7 @@ def text_of(path: str) -> str:
     except FileNotFoundError:
         raise
     except OSError as error:
-        raise InputError(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+        raise InputError(f"cannot read {path}: {system_reason(error)}") from None
     except ValueError as error:  # a NUL in the name
         raise InputError(f"cannot read {path}: {error}") from None
     if len(content) > LARGEST:

@@ -27,6 +27,7 @@ from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.needs import met, prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
+from hypcheck.errors import Exit, first_that_applies
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Line, Recorder
@@ -45,10 +46,15 @@ class BenchOutcome:
     inconclusive: list[str] = field(default_factory=list)
 
     @property
-    def exit_code(self) -> int:
-        """The first that applies of 5, 1, 3 and 4; else 0."""
-        reasons = ((self.not_started, 5), (self.wrong, 1), (self.slower, 3), (self.inconclusive, 4))
-        return next((code for found, code in reasons if found), 0)
+    def exit_code(self) -> Exit:
+        """The first that applies of NOT_STARTED, WRONG, SLOWER and INCONCLUSIVE; else HELD."""
+        reasons = {
+            Exit.NOT_STARTED: self.not_started,
+            Exit.WRONG: self.wrong,
+            Exit.SLOWER: self.slower,
+            Exit.INCONCLUSIVE: self.inconclusive,
+        }
+        return first_that_applies(code for code, found in reasons.items() if found)
 
 
 @dataclass(frozen=True)

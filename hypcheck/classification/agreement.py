@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import Exit, HypcheckError
 from hypcheck.pairs import COLUMNS, Position
 
 
 class DisagreementError(HypcheckError):
     """The exact decision and the nearest point contradict each other about a pair: one of them is wrong."""
 
-    exit_code = 6
+    exit_code = Exit.ORACLES_DISAGREE
 
 
 def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measured: tuple[int, float]) -> None:

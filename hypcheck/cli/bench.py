@@ -7,12 +7,11 @@ from typing import Any
 
 import click
 
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.options import Number, Place
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
-from hypcheck.errors import InputError
+from hypcheck.errors import Exit, InputError
 
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")

@@ -72,7 +72,7 @@ def check(context: click.Context, files: tuple[str, ...]) -> None:
     Ends with 1 where a label or a head is wrong, 2 where a file is not as its schema demands.
     """
     from hypcheck.casebook.frozen.examining import examine, shipped
-    from hypcheck.cli.exits import Exit
+    from hypcheck.errors import Exit
 
     checked, faulty, heads = 0, 0, 0
     for report in examine(files or shipped()):

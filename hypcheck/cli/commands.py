@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.groups import Group
+from hypcheck.errors import Exit
 from hypcheck.version import VERSION
 
 COMMANDS = {

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 import click
 
-from hypcheck.cli.exits import Exit
-from hypcheck.errors import InputError
+from hypcheck.errors import Exit, InputError
 from hypcheck.paper.derive.asking import FORMATS, PARTS
 
 _HELP = """Show the derivation step by step, the proofs of the propositions, and what became of the paper's claims.

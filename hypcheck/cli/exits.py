@@ -1,4 +1,4 @@
-"""How the program ends: the exit codes, which of several counts, and one table from errors to code and message.
+"""How the program ends: one table from errors to exit code and message.
 
 A closed pipe ends quietly with 141, as a program that the system stops for it would: a reader that left early must not
 turn a failure into a pass, nor a run into an error of ours.
@@ -7,71 +7,14 @@ turn a failure into a pass, nor a run into an error of ours.
 from __future__ import annotations
 
 import errno
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
 
 import click
 
-from hypcheck.errors import HypcheckError, Terminated
+from hypcheck.errors import Exit, HypcheckError, Terminated, system_reason
 from hypcheck.suggesting import advice
 from hypcheck.visible import sentence
-
-
-class Exit(IntEnum):
-    """A process's status; others' scripts depend on the numbers."""
-
-    HELD = 0
-    WRONG = 1
-    USAGE = 2
-    SLOWER = 3
-    INCONCLUSIVE = 4
-    NOT_STARTED = 5
-    ORACLES_DISAGREE = 6
-    INTERNAL = 70
-    INTERRUPTED = 130
-    CLOSED_PIPE = 141
-    TERMINATED = 143
-
-    @property
-    def meaning(self) -> str:
-        """What the status says, in a few words."""
-        return _MEANINGS[self]
-
-
-_MEANINGS = {
-    Exit.HELD: "all held",
-    Exit.WRONG: "a wrong, lost or changing answer, or known failures drifted",
-    Exit.USAGE: "wrong usage or bad input",
-    Exit.SLOWER: "slower than the baseline allows",
-    Exit.INCONCLUSIVE: "too noisy to tell",
-    Exit.NOT_STARTED: "an implementation could not be started or broke the protocol",
-    Exit.ORACLES_DISAGREE: "our oracles disagree",
-    Exit.INTERNAL: "an internal error of hypcheck",
-    Exit.INTERRUPTED: "interrupted",
-    Exit.CLOSED_PIPE: "the reader of our output left",
-    Exit.TERMINATED: "terminated",
-}
-
-PRECEDENCE = (
-    Exit.INTERRUPTED,
-    Exit.TERMINATED,
-    Exit.CLOSED_PIPE,
-    Exit.INTERNAL,
-    Exit.USAGE,
-    Exit.ORACLES_DISAGREE,
-    Exit.NOT_STARTED,
-    Exit.WRONG,
-    Exit.SLOWER,
-    Exit.INCONCLUSIVE,
-    Exit.HELD,
-)
-"""Of several reasons to end with, the first of these is told."""
-
-
-def first_that_applies(reasons: Iterable[int]) -> Exit:
-    """The one exit code of a run that may have several: HELD where there is no reason for another."""
-    return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,9 +60,9 @@ def _said(error: BaseException) -> str:
 
 def _system(error: BaseException) -> Ending:
     if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
-        return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {sentence(error.strerror or str(error)).lower()}",))
+        return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {sentence(system_reason(error))}",))
     if isinstance(error, OSError) and error.errno in _SCARCE:
-        reason = sentence(error.strerror or str(error)).lower()
+        reason = sentence(system_reason(error))
         return Ending(Exit.USAGE, (f"hypcheck: error: the system gives no more: {reason}; see `ulimit -a`",))
     return _internal(error)
 

@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.exits import Exit, first_that_applies
 from hypcheck.cli.options import Command, Number, Place, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import announce_file
 from hypcheck.cli.whole import LARGEST_SEED, Whole
-from hypcheck.errors import NothingJudgedError
+from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 
 if TYPE_CHECKING:
     from hypcheck.hunt.hunting import Hunt

@@ -75,7 +75,8 @@ def _run(words: list[str]) -> int:
 
 
 def _end(error: BaseException, *, debug: bool) -> int:
-    from hypcheck.cli.exits import Exit, ending_of
+    from hypcheck.cli.exits import ending_of
+    from hypcheck.errors import Exit
 
     ending = ending_of(error)
     with suppress(OSError):

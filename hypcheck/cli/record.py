@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.groups import Group
 from hypcheck.cli.options import Place
+from hypcheck.errors import Exit
 from hypcheck.tables.route import STREAM
 from hypcheck.visible import visible
 

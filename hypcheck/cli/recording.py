@@ -13,7 +13,7 @@ import click
 
 from hypcheck.cli.progress import in_lines, watched
 from hypcheck.cli.settings import announce
-from hypcheck.errors import HypcheckError, InputError, NothingJudgedError
+from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, system_reason
 from hypcheck.visible import visible
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def record_and_report(
             stack.enter_context(owning(out))
             recorder = Recorder(stack.enter_context(Growing(growing)), options, optional, carried)
         except OSError as error:
-            raise InputError(f"--out {out} cannot be written: {(error.strerror or str(error)).lower()}") from None
+            raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
         try:
             remove_reports(out)
             todo = parts(recorder)
@@ -111,7 +111,7 @@ def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
         recorder.settle(path)
     except OSError as error:
         _require_folder(path.parent, error)
-        reason = (error.strerror or str(error)).lower()
+        reason = system_reason(error)
         raise InputError(f"cannot write {path}: {reason}; what was finished is in {growing}") from error
 
 

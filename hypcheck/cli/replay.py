@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.options import Number, limits_of, with_limits
 from hypcheck.cli.settings import announce_file
+from hypcheck.errors import Exit
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 

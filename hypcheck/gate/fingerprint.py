@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from importlib.machinery import PathFinder
 from pathlib import Path
 
+from hypcheck.errors import system_reason
 from hypcheck.methods.spec import is_file, parse_spec
 
 _BLOCK = 1 << 20
@@ -54,7 +55,7 @@ def sha256(path: Path) -> str:
     try:
         file = path.open("rb")
     except OSError as error:
-        return (error.strerror or str(error)).lower()
+        return system_reason(error)
     with file:
         while block := file.read(_BLOCK):
             digest.update(block)

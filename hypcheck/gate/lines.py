@@ -8,6 +8,7 @@ from typing import Any
 
 from hypcheck import groups
 from hypcheck.casebook.frozen import refusals
+from hypcheck.errors import Exit
 from hypcheck.gate.again import as_they_are
 from hypcheck.gate.known_failures import no_longer_failing
 from hypcheck.gate.plan import GatePlan
@@ -46,11 +47,11 @@ class GateOutcome:
                 self.failed += line["troubles"]
 
     @property
-    def exit_code(self) -> int:
+    def exit_code(self) -> Exit:
         """5 where an implementation could not be started or broke the protocol throughout, 1 where one failed."""
         if self.not_started:
-            return 5
-        return 1 if self.failed else 0
+            return Exit.NOT_STARTED
+        return Exit.WRONG if self.failed else Exit.HELD
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 from hypcheck.gate.fingerprint import files_of, sha256
 from hypcheck.methods.spec import is_file, parse_spec
 
@@ -42,7 +42,7 @@ def files_to_ship(text: str) -> tuple[Shipped, ...]:
         try:
             found.append(Shipped(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
         except OSError as error:
-            raise InputError(f"{path} cannot be sent to a cluster: {(error.strerror or str(error)).lower()}") from None
+            raise InputError(f"{path} cannot be sent to a cluster: {system_reason(error)}") from None
     return tuple(found)
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from distributed import Worker, WorkerPlugin, get_worker
 
-from hypcheck.errors import HypcheckError, InputError
+from hypcheck.errors import HypcheckError, InputError, system_reason
 from hypcheck.gate.cluster import OTHER_FILES
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
@@ -128,7 +128,7 @@ class _Held:
             self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
             return replace(job.opening, spec=spec_there(spec, job.files, self._worker, self._folder))
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+            reason = system_reason(error)
             raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
 
     def _close_idle(self) -> None:

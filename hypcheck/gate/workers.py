@@ -19,7 +19,7 @@ from multiprocessing.context import SpawnProcess
 
 import numpy as np
 
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.frozen import read_here, take
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
@@ -74,7 +74,7 @@ class Here:
 class LostError(HypcheckError):
     """Processes of ours ended, one after the other, before they had asked anything."""
 
-    exit_code = 70
+    exit_code = Exit.INTERNAL
 
 
 @dataclass

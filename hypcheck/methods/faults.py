@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import Exit, HypcheckError
 
 
 class Outcome(IntEnum):
@@ -39,10 +39,10 @@ class FaultError(Exception):
 class StartError(HypcheckError):
     """An implementation could not be started; the sentence says which, why, and what it said itself."""
 
-    exit_code = 5
+    exit_code = Exit.NOT_STARTED
 
 
 class TimingError(HypcheckError):
     """An implementation failed while it was timed; the sentence says how."""
 
-    exit_code = 1
+    exit_code = Exit.WRONG

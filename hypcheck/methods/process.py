@@ -21,6 +21,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
+from hypcheck.errors import system_reason
 from hypcheck.methods.clock import Clock
 from hypcheck.methods.detached import GUARD, LOOK, end_marked, new_mark
 from hypcheck.methods.evidence import Tail
@@ -283,7 +284,7 @@ def _not_run(program: str, error: OSError) -> str:
         return f"the program {program!r} is not executable"
     if error.errno == errno.ENOEXEC:
         return f"{program!r} is no program for this machine: another architecture, or a script without a #! line"
-    return f"the program {program!r} was not run by the system: {(error.strerror or str(error)).lower()}"
+    return f"the program {program!r} was not run by the system: {system_reason(error)}"
 
 
 def _told_by(code: int) -> str:

@@ -10,6 +10,7 @@ import secrets
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from hypcheck.errors import system_reason
 from hypcheck.record import Record
 from hypcheck.report.failure import Failure
 from hypcheck.report.markdown import render
@@ -75,7 +76,7 @@ def append_summary(record: Record, path: Path) -> str | None:
         with path.open("ab") as file:
             file.write(fitting(render(record), LARGEST_SUMMARY - already))
     except OSError as error:
-        return f"no step summary: {path}: {(error.strerror or str(error)).lower()}"
+        return f"no step summary: {path}: {system_reason(error)}"
     return None
 
 

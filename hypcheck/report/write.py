@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hypcheck.errors import InputError, UnavailableError
+from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.tables.streams import writing
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def write_reports(
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"cannot make the folder {directory}: {(error.strerror or str(error)).lower()}") from error
+        raise InputError(f"cannot make the folder {directory}: {system_reason(error)}") from error
     done: list[Written] = []
     wanted = [name for name in REPORTS if name in (kept() if formats is None else formats)]
     drawings = _drawn_ahead(record) if "html" in wanted else {}
@@ -143,4 +143,4 @@ def _remove(path: Path) -> None:
     try:
         path.unlink(missing_ok=True)
     except OSError as error:
-        raise InputError(f"cannot remove {path}: {(error.strerror or str(error)).lower()}") from error
+        raise InputError(f"cannot remove {path}: {system_reason(error)}") from error

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import quote, unquote
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 
 _LONGEST = 300
 _SAFE = re.compile(r"[\w.~][\w .:/@+~=,%#!\[\]-]*", re.ASCII)
@@ -124,7 +124,7 @@ def _refs(repository: str) -> dict[str, str] | str:
             words, env=quiet | os.environ, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS, check=False
         )
     except OSError as error:
-        return f"git cannot be started: {(error.strerror or str(error)).lower()}"
+        return f"git cannot be started: {system_reason(error)}"
     except subprocess.TimeoutExpired:
         return f"no answer within {_SECONDS:g} s"
     if done.returncode:
@@ -196,7 +196,7 @@ def _digest(path: Path) -> str:
             while part := file.read(1 << 20):
                 found.update(part)
     except OSError as error:
-        raise InputError(f"--from: cannot read {path}: {(error.strerror or str(error)).lower()}") from None
+        raise InputError(f"--from: cannot read {path}: {system_reason(error)}") from None
     return f"#sha256={found.hexdigest()}"
 
 

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 from hypcheck.tables.streams import writing
 from hypcheck.visible import counted
 
@@ -51,7 +51,7 @@ def _folder(path: Path) -> Iterator[None]:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"cannot make the folder {path}: {(error.strerror or str(error)).lower()}") from error
+        raise InputError(f"cannot make the folder {path}: {system_reason(error)}") from error
     try:
         yield
     except BaseException:

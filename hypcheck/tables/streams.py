@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import BinaryIO, TextIO
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 from hypcheck.tables.route import STREAM
 
 
@@ -178,7 +178,7 @@ def _blamed(verb: str, name: str) -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = system_reason(error)
         raise InputError(f"cannot {verb} {name}: {reason}") from error
     except ValueError as error:  # a NUL in a path, a closed standard stream
         raise InputError(f"cannot {verb} {name}: {error}") from error

@@ -10,6 +10,7 @@ from hypcheck import judge
 from hypcheck.bench.rounds import measure
 from hypcheck.derivation.printed import check_equations
 from hypcheck.derivation.proofs import prove_formulas
+from hypcheck.errors import Exit
 from hypcheck.judge import Status
 from hypcheck.methods.builtin import builtin, builtin_methods, methods_without_meshes
 from hypcheck.methods.method import Method
@@ -39,11 +40,11 @@ class Outcome:
     drift: list[str] = field(default_factory=list)
 
     @property
-    def exit_code(self) -> int:
-        """6 where the oracles or a proof contradict each other, 1 where an exact method erred or findings drifted."""
+    def exit_code(self) -> Exit:
+        """ORACLES_DISAGREE where oracles or a proof do, WRONG where an exact method erred or findings drifted."""
         if self.failed_proofs or self.disagreements:
-            return 6
-        return 1 if self.exact_methods_wrong or self.drift else 0
+            return Exit.ORACLES_DISAGREE
+        return Exit.WRONG if self.exact_methods_wrong or self.drift else Exit.HELD
 
 
 @dataclass(frozen=True)

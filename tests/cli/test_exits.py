@@ -14,12 +14,20 @@ from itertools import permutations, takewhile
 import click
 import pytest
 
-from hypcheck.cli import commands, exits
+from hypcheck.cli import commands
 from hypcheck.cli import main as cli_main
-from hypcheck.cli.exits import Exit, ending_of, first_that_applies
+from hypcheck.cli.exits import ending_of
 from hypcheck.cli.main import main
 from hypcheck.cli.progress import in_colour
-from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, Terminated, UnavailableError
+from hypcheck.errors import (
+    Exit,
+    HypcheckError,
+    InputError,
+    NothingJudgedError,
+    Terminated,
+    UnavailableError,
+    first_that_applies,
+)
 
 HYPCHECK = [sys.executable, "-m", "hypcheck"]
 PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
@@ -50,7 +58,7 @@ def test_of_several_reasons_the_first_that_applies_is_told():
         assert first_that_applies([first, second]) == min(first, second, key=order.index)
     assert first_that_applies([]) is Exit.HELD
     assert first_that_applies(order) is Exit.INTERRUPTED
-    assert set(exits.PRECEDENCE) == set(Exit)
+    assert set(PRECEDENCE) == set(Exit)
 
 
 @pytest.mark.parametrize("kind", [InputError, NothingJudgedError, UnavailableError, HypcheckError])

@@ -9,8 +9,8 @@ import pytest
 
 from hypcheck.casebook.frozen.checking import faults_of_vectors
 from hypcheck.casebook.frozen.reading import read_vectors
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.main import main
+from hypcheck.errors import Exit
 
 RIGHT = """
 import hypcheck as project

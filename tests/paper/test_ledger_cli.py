@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import pytest
 
-from hypcheck.cli.exits import Exit
 from hypcheck.cli.main import main
 from hypcheck.derivation.chains.book import chains
+from hypcheck.errors import Exit
 from hypcheck.paper.derive import choosing
 from hypcheck.paper.derive.choosing import entries_of
 from hypcheck.paper.ledger import entries

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from hypcheck.errors import InputError, UnavailableError
+from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, standalone
 from hypcheck.report.simulation import forest, tower
@@ -31,7 +31,7 @@ def make_ready(kind: str, directory: Path) -> None:
         with tempfile.TemporaryFile(dir=directory):
             pass
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = system_reason(error)
         raise InputError(f"--out {directory}: nothing can be written into it: {reason}") from error
     for name in (_json(kind), *map(_svg, PICTURES[kind][1])):
         if (directory / name).is_dir():
@@ -79,4 +79,4 @@ def _remove(path: Path) -> None:
     try:
         path.unlink(missing_ok=True)
     except OSError as error:
-        raise InputError(f"cannot remove {path}: {(error.strerror or str(error)).lower()}") from error
+        raise InputError(f"cannot remove {path}: {system_reason(error)}") from error
