@@ -20,6 +20,7 @@ from hypcheck.cli.exits import ending_of
 from hypcheck.cli.main import main
 from hypcheck.cli.progress import in_colour
 from hypcheck.errors import (
+    PRECEDENCE,
     Exit,
     HypcheckError,
     InputError,
