@@ -17,7 +17,7 @@ from hypcheck import judge
 from hypcheck.casebook import fixed_sizes, vectors
 from hypcheck.casebook.families import select
 from hypcheck.casebook.frozen import refusals
-from hypcheck.errors import HypcheckError
+from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.chunks import OCTAVES_OF, Chunk, found_by_search, frozen_cases
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.refusing import Invalid
@@ -44,7 +44,7 @@ _UNANSWERED: frozenset[str] = frozenset({Status.NONDETERMINISTIC.value, *(outcom
 class MissingCasesError(HypcheckError):
     """A run whose tallies do not hold the cases that were planned; it proves nothing, whatever they say."""
 
-    exit_code = 70
+    exit_code = Exit.INTERNAL
 
 
 def planned(plan: GatePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
