@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 import sys
 from typing import Any
 
 from hypcheck.errors import InputError, system_reason
 
-LARGEST = 64 << 20
-"""Bytes of a file: half a million trees of a scene, one a line."""
+LARGEST = 1 << 20
+"""Bytes of a file: what people write, and over ten thousand trees of a scene. Reading more of what is written to be
+read slowly would take minutes and gigabytes."""
 
 
 def text_of(path: str) -> str:
-    """The text of a file, without a byte order mark. Raises FileNotFoundError, and InputError for all else."""
+    """The text of a regular file, without a byte order mark. Raises FileNotFoundError, and InputError for all else."""
     try:
-        with open(path, "rb") as file:
+        # Without waiting: a pipe in which nobody writes would be waited for as long as nobody does.
+        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise InputError(f"cannot read {path}: is a pipe or a device; it must be a regular file")
             content = file.read(LARGEST + 1)
     except FileNotFoundError:
         raise
@@ -37,8 +43,11 @@ def text_of(path: str) -> str:
 _LONG_INTEGER = re.compile(r"0[xob][0-9A-Fa-f_]{400}")
 _TOO_LONG = "has an integer with too many digits; a number must fit into float64"
 
-MOST_DOTS = 1000
-"""Dots of a line: the parser's time grows with the square of the parts of a key, a.b.c, which is on one line."""
+MOST_DOTS = 100
+"""Dots of a line, but for decimal points and rows of dots: the parser's time and memory grow with the square of the
+parts of a key, a.b.c, which is on one line."""
+
+_NO_PART = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?!\s*[\w.])|\.{2,}")
 
 
 def parsed(text: str, name: str) -> dict[str, Any]:
@@ -46,8 +55,8 @@ def parsed(text: str, name: str) -> dict[str, Any]:
     if _LONG_INTEGER.search(text):  # which would be read, and then not be shown in any message
         raise InputError(f"{name}: {_TOO_LONG}")
     for number, line in enumerate(text.split("\n"), start=1):
-        if line.count(".") > MOST_DOTS:
-            raise InputError(f"{name}, line {number}: has more than {MOST_DOTS} dots; a key or value must be shorter")
+        if line.count(".") > MOST_DOTS and _NO_PART.sub("", line).count(".") > MOST_DOTS:
+            raise InputError(f"{name}, line {number}: has more than {MOST_DOTS} dots; a key or text must be shorter")
     if sys.version_info >= (3, 11):
         import tomllib  # noqa: PLC0415 - not loaded where there is no file
     else:

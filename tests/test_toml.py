@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from hypcheck import toml
+from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 
 
@@ -21,7 +24,8 @@ def test_a_byte_order_mark_is_left_aside(tmp_path):
         ("a = " + "[" * 5000, "a.toml: is no TOML that can be read: it is nested too deeply"),
         ("a = " + "9" * 5000, "a.toml: has an integer with too many digits"),
         ("a = 0x" + "f" * 5000, "a.toml: has an integer with too many digits"),
-        ("\n\na" + ".a" * 5000 + " = 1", "a.toml, line 3: has more than 1000 dots"),
+        ("\n\na" + ".a" * 5000 + " = 1", "a.toml, line 3: has more than 100 dots"),
+        ('"=\\"".1.1 .1 . 1' * 30 + " = 1", "a.toml, line 1: has more than 100 dots"),
         ("a = '\x1b'", r"a.toml: is no TOML: .* character '\\x1b'"),
     ],
 )
@@ -36,9 +40,10 @@ def test_what_cannot_be_read_is_one_sentence(tmp_path):
         file.truncate(toml.LARGEST + 1)
     other.write_bytes(b"a = 1\nb = '\xff'\n")
     for path, message in (
-        (large, "has more than 64 MiB"),
+        (large, "has more than 1 MiB"),
         (other, r"line 2: is not UTF-8 text: invalid start byte at byte 11"),
         (tmp_path, "cannot read .*: is a directory"),
+        (os.devnull, "cannot read .*: is a pipe or a device; it must be a regular file"),
         (tmp_path / "a\0b", "cannot read .*: embedded null byte"),
         (tmp_path / ("a" * 5000), "cannot read .*: file name too long"),
     ):
@@ -46,3 +51,21 @@ def test_what_cannot_be_read_is_one_sentence(tmp_path):
             toml.text_of(str(path))
     with pytest.raises(FileNotFoundError):
         toml.text_of(str(tmp_path / "none.toml"))
+
+
+def test_decimal_points_and_rows_of_dots_are_not_taken_for_a_long_key():
+    """A forest on one line, and a comment that rules it off."""
+    text = "trees = [" + "{ x = -0.5, y = 1.25e-3 }, " * 500 + "] #" + "." * 200
+    assert len(toml.parsed(text, "a.toml")["trees"]) == 500
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+@pytest.mark.parametrize("words", [["verify"], ["plan", "pipe.toml"], ["verify", "--known-failures", "pipe.toml"]])
+def test_a_pipe_as_settings_scene_or_known_failures_is_refused_and_not_waited_for(words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    name = "pipe.toml" if "pipe.toml" in words else "hypcheck.toml"
+    os.mkfifo(name)
+    spec = ["builtin:fast"] if words[0] == "verify" else []
+    assert main([words[0], *spec, *words[1:]]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert said == f"hypcheck: error: cannot read {name}: is a pipe or a device; it must be a regular file"

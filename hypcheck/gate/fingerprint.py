@@ -50,9 +50,11 @@ def files_of(text: str) -> Iterator[Named]:
 
 
 def sha256(path: Path) -> str:
-    """Of a file's content, in hexadecimal; of one that may be run but not read, why not."""
+    """Of a file's content, in hexadecimal; of one that may be run but not read, or is a pipe or device, why not."""
     digest = hashlib.sha256()
     try:
+        if path.exists() and not path.is_file():  # to be read it may be waited for without end
+            return "is no regular file"
         file = path.open("rb")
     except OSError as error:
         return system_reason(error)

@@ -19,6 +19,10 @@ from hypcheck.suggesting import advice
 
 SUFFIX = ".toml"
 
+MOST_HYPERBOLOIDS = 20_000
+MOST_PARTS = 100
+"""Of a file. A scene that is made in Python (hypcheck.scene.model) may have more hyperboloids."""
+
 _SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
 _HYPERBOLOID = ("name", "alpha", "gamma", "center", "height")
 _MOVER = ("b", "d", "part")
@@ -71,7 +75,7 @@ def _file(name: str) -> tuple[str, str]:
 def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:
     found: dict[str, int] = {}
     result = []
-    for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID), start=1):
+    for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
         body = Hyperboloid(
             name=table.optional("name", tables.text, f"hyperboloid {number}"),
             alpha=table.required("alpha", tables.positive),
@@ -98,7 +102,7 @@ def _mover(top: Table) -> Mover:
 
 
 def _parts(mover: Table, b: float, d: float) -> Iterable[Part]:
-    for number, table in enumerate(mover.tables("part", _PART), start=1):
+    for number, table in enumerate(mover.tables("part", _PART, MOST_PARTS), start=1):
         part = Part(
             b=table.required("b", tables.positive),
             d=table.required("d", tables.positive),

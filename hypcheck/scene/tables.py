@@ -21,6 +21,9 @@ Check = Callable[[object], Value]
 _LONGEST = 60
 """Characters of a value that a message shows."""
 
+LONGEST_TEXT = 1000
+"""Characters of a text."""
+
 
 @dataclass(frozen=True)
 class Source:
@@ -74,12 +77,14 @@ class Table:
         title = f"{self._title}.{key}" if self._path else f"[{key}]"
         return Table(self._source, (*self._path, key), title, self._content[key], keys)
 
-    def tables(self, key: str, keys: Sequence[str]) -> list[Table]:
-        """The array of tables of that key, each entitled by its number from 1; empty where it is not there."""
+    def tables(self, key: str, keys: Sequence[str], most: int) -> list[Table]:
+        """The array of tables of that key, `most` at most, each entitled by its number from 1; empty without one."""
         array = self._content.get(key, [])
         if not isinstance(array, list):
             name = ".".join([*map(str, self._path), key])
             self.refuse(f"{key} is {shown(array)}; it must be an array of tables, [[{name}]]", key)
+        if len(array) > most:
+            self.refuse(f"{self._title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
         title = f"{self._title} {key}" if self._path else key
         return [
             Table(self._source, (*self._path, key, place), f"{title} {place + 1}", content, keys)
@@ -102,8 +107,8 @@ def shown(value: object) -> str:
 
 def text(value: object) -> str:
     """A text with something in it."""
-    if not isinstance(value, str) or not value.strip():
-        raise ValueError("a text that is not empty")
+    if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
+        raise ValueError(f"a text that is not empty, of at most {LONGEST_TEXT:,} characters")
     return value
 
 

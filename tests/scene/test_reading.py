@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import codecs
-import os
 import subprocess
 import sys
 
 import pytest
 
-from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.scene import reading
 from hypcheck.scene.model import Hyperboloid, Mover, Part, Region, Scene, Span
@@ -198,14 +196,31 @@ def test_what_is_no_text_is_refused(tmp_path, content, message):
     assert message in str(caught.value)
 
 
-def test_a_file_that_is_too_large_is_not_read_to_its_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(toml, "LARGEST", 1 << 20)
-    with pytest.raises(InputError, match="has more than 1 MiB; it must be smaller"):
-        read_scene("/dev/zero" if os.path.exists("/dev/zero") else os.devnull)
+def test_a_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text(LEAST + "#" * (1 << 20))
-    with pytest.raises(InputError, match="has more than 1 MiB"):
+    with pytest.raises(InputError, match="has more than 1 MiB; it must be smaller"):
         read_scene(str(path))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "name = 'a'\nhyperboloid = [" + "{}," * 20_001 + "]",
+            "line 2: the scene has 20,001 tables hyperboloid; a file may",
+        ),
+        (
+            LEAST.replace("d = 1 }", "d = 1, part = [" + "{}," * 101 + "] }"),
+            r"\[mover\] has 101 tables part; a file may have 100 at most",
+        ),
+        (LEAST.replace("name = ", "name = 'a" + "b" * 1000 + "' #", 1), "not empty, of at most 1,000 characters"),
+    ],
+    ids=["hyperboloids", "parts", "a name"],
+)
+def test_a_scene_with_more_than_a_file_may_have_is_refused(text, message):
+    with pytest.raises(InputError, match=message):
+        parse_scene(text)
 
 
 def test_what_cannot_be_opened_is_refused(tmp_path):
