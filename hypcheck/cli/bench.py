@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +12,9 @@ from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import Exit, InputError
+
+if TYPE_CHECKING:
+    from hypcheck.record import Recorder
 
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
@@ -51,7 +54,10 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
     from hypcheck.cli.verify import names_in
+    from hypcheck.gate.fingerprint import fingerprints
+    from hypcheck.gate.ourselves import Unchanged
     from hypcheck.processes import usable_processors
+    from hypcheck.report.write import import_all
 
     quick = options["quick"]
     if options["max_slowdown"] is not None and options["baseline"] is None:
@@ -74,15 +80,25 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     )
     _refuse_replacing(options["baseline"], options["out"])
     outcome = run.BenchOutcome()
+    files = fingerprints(specs) if specs else None
+    import_all()
+    unchanged = Unchanged(files) if files is not None else None
+
+    def parts(recorder: Recorder) -> list[Part]:
+        found = [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)]
+        if unchanged is not None:
+            found.append(Part("files", 0, lambda _: outcome.wrong.extend(unchanged.record_changes(recorder))))
+        return found
+
     with TemporaryDirectory(prefix="hypcheck-bench-") as folder:
         here = replace(plan, folder=Path(folder))
         record_and_report(
             options["out"],
             plan.options,
-            lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)],
+            parts,
             lambda: outcome.exit_code,
             f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods",
-            in_effect(context),
+            {"files": files, "program": unchanged.program if unchanged else None, "settings": in_effect(context)},
         )
     if outcome.exit_code == Exit.INCONCLUSIVE:
         click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)

@@ -39,17 +39,16 @@ def record_and_report(
     parts: Callable[[Recorder], Sequence[Part]],
     exit_code: Callable[[], int],
     title: str = "",
-    settings: Mapping[str, Any] | None = None,
-    files: Mapping[str, str] | None = None,
+    optional: Mapping[str, Any] | None = None,
     carried: Sequence[Line] = (),
 ) -> Record:
     """Run the parts, keep their record in `out` with reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. When the run begins its `title` is
-    told, if it has one, and the `settings`, which the header has; reports of an earlier run are removed, and its record
-    stays until the new one takes its place. `files` are the sha256 of those under test, by path; `carried` are lines of
-    a run that is gone on with, whose record may be the one in `out`. Raises InputError where `out` cannot be written,
-    or another run is writing there.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `optional` are the fields of the
+    header that not every run has, of which None is left out. When the run begins, its `title` is told, if it has one,
+    and its settings; reports of an earlier run are removed, and its record stays until the new one takes its place.
+    `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises InputError where
+    `out` cannot be written, or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.growing import Growing
@@ -58,14 +57,13 @@ def record_and_report(
     from hypcheck.report.write import remove_reports
 
     growing = out / GROWING
-    known = {"files": files, "settings": settings}
-    optional = {name: dict(value) for name, value in known.items() if value is not None}
+    known = {name: value for name, value in (optional or {}).items() if value is not None}
     with ExitStack() as stack:
         try:
             out.mkdir(parents=True, exist_ok=True)
             _require_no_folder(out / FILE, growing)
             stack.enter_context(owning(out))
-            recorder = Recorder(stack.enter_context(Growing(growing)), options, optional, carried)
+            recorder = Recorder(stack.enter_context(Growing(growing)), options, known, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
         try:
@@ -73,7 +71,7 @@ def record_and_report(
             todo = parts(recorder)
             if title:
                 _say(title)
-            announce(settings)
+            announce(known.get("settings"))
             _run(todo)
             record = recorder.close(exit_code())
         except BaseException as error:

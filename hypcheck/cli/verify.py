@@ -160,7 +160,7 @@ def _ourselves(options: dict[str, Any], settings: Mapping[str, Any] | None) -> i
         lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
         lambda: outcome.exit_code,
         options["title"],
-        settings,
+        {"settings": settings},
     )
     return outcome.exit_code
 
@@ -170,9 +170,11 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str
     from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.known_failures import update
     from hypcheck.gate.lines import GateOutcome
+    from hypcheck.gate.ourselves import Unchanged
     from hypcheck.gate.plan import GatePlan
     from hypcheck.gate.resuming import Resumed
     from hypcheck.methods.description import parse_domain
+    from hypcheck.report.write import import_all
 
     listed: Path | None = options["known_failures"]
     plan = GatePlan(
@@ -198,6 +200,8 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str
         )
     cases, files = run.size(plan), fingerprints(plan.specs, plan.known_failures)
     shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
+    import_all()
+    unchanged, changed = Unchanged(files), list[str]()
     begun: Resumed | int = Resumed()
     if options["resume"] is not None:
         begun = resumed(options["resume"], options["out"], plan, shown, files, cases)
@@ -214,17 +218,17 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str
                 lambda advance: run.run(plan, recorder, outcome, advance, state),
                 "cases",
                 done,
-            )
+            ),
+            Part("files", 0, lambda _: changed.extend(unchanged.record_changes(recorder))),
         ],
-        lambda: outcome.exit_code,
+        lambda: outcome.exit_code or int(bool(changed)),
         options["title"],
-        settings,
-        files=files,
+        {"files": files, "program": unchanged.program, "settings": settings},
         carried=begun.carried,
     )
-    if options["update"] and listed is not None:
+    if options["update"] and listed is not None and not changed:
         click.echo(update(listed, record))
-    return outcome.exit_code
+    return outcome.exit_code or int(bool(changed))
 
 
 def names_in(text: str | None) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ import numpy as np
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.frozen import read_here, take
+from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
 from hypcheck.gate.rules import Rules
 from hypcheck.gate.subject import Crashed
@@ -72,7 +73,7 @@ class Here:
 
 
 class LostError(HypcheckError):
-    """Processes of ours ended, one after the other, before they had asked anything."""
+    """Processes of ours ended, one after the other, before they had asked anything, or are not of this program."""
 
     exit_code = Exit.INTERNAL
 
@@ -96,7 +97,7 @@ class Workers:
         self.ahead = AHEAD * count
         self._rules = rules
         self._most = implementation.most
-        self._what = opening, rules, implementation.declared
+        self._what = opening, rules, implementation.declared, own_sha256()
         self._tasks: dict[int, tuple[Task, Allowance]] = {}
         self._deaths: dict[int, int] = {}
         self._unborn = 0
@@ -229,11 +230,12 @@ class Workers:
             worker.process.join()
 
 
-def _serve(line: Connection, opening: Opening, rules: Rules, declared: Description) -> None:
+def _serve(line: Connection, opening: Opening, rules: Rules, declared: Description, program: str) -> None:
     """What a worker does: perform the tasks that come, until there are no more or the parent is gone."""
     end_with_parent()
     keep_memory()
     try:
+        _require_same_program(program)
         with opening.open() as implementation:
             require_same_description(implementation, declared)
             line.send(None)
@@ -247,6 +249,12 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
         line.send(error)
     except Exception as error:  # noqa: BLE001 - whatever it is, the parent tells it
         line.send(RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+
+
+def _require_same_program(program: str) -> None:
+    """Raise LostError where this process was made of other files than the one that began the run."""
+    if own_sha256() != program:
+        raise LostError("hypcheck's own files were changed while an implementation was asked")
 
 
 def is_stopped(process: SpawnProcess) -> bool:

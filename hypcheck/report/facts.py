@@ -47,7 +47,8 @@ def paper_facts(record: Record) -> Iterator[str]:
 def method_facts(record: Record) -> Iterator[str]:
     """For each precision how many methods err beyond the tolerance, and the answer that is farthest from right."""
     tolerance = record.header["options"].get("tolerance")
-    beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(float(tolerance))} u"
+    told = isinstance(tolerance, (int, float))
+    beyond = f"the tolerance of {figure(float(tolerance))} u" if told else "the tolerance"
     found = [each for each in implementations(record) if each.asked]
     for precision in dict.fromkeys(each.precision for each in found if not each.exact):
         methods = [each for each in found if each.precision == precision and not each.exact]

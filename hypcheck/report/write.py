@@ -5,7 +5,9 @@ A format's module is imported when a report of it is made.
 
 from __future__ import annotations
 
+import pkgutil
 from collections.abc import Collection, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -74,6 +76,14 @@ class Written:
 
     path: Path
     skipped: str | None = None
+
+
+def import_all() -> None:
+    """Import every module that makes a report, so that none is read from the disk after foreign code has run."""
+    package = import_module("hypcheck.report")
+    for each in pkgutil.walk_packages(package.__path__, "hypcheck.report."):
+        with suppress(ImportError):  # of an extra that is not installed
+            import_module(each.name)
 
 
 def kept() -> list[str]:
