@@ -14,6 +14,11 @@ def visible(text: object, width: int | None = None) -> str:
     return shown if width is None else shortened(shown, width)
 
 
+def printable(line: object) -> str:
+    """The text of one line with its blanks as they are; what visible() escapes is escaped, ends of lines too."""
+    return "".join(map(_escaped, str(line)))
+
+
 LONGEST = 1000
 """Characters of a sentence: a file that is wrong from end to end does not fill the screen."""
 

@@ -10,7 +10,7 @@ import click
 from hypcheck.cli.groups import Group
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import InputError
-from hypcheck.visible import counted
+from hypcheck.visible import counted, printable
 
 _FORMATS = ("json", "csv", "npy")
 
@@ -29,7 +29,7 @@ def list_() -> None:
     from hypcheck.casebook.frozen.showing import list_lines
 
     for line in list_lines():
-        click.echo(line)
+        click.echo(printable(line))
 
 
 @cases.command(short_help="Show a family, or a case with its proof.")
@@ -40,7 +40,7 @@ def show(name: str, as_json: bool) -> None:
     from hypcheck.casebook.frozen.showing import show as lines_of
 
     for line in lines_of(name, as_json=as_json):
-        click.echo(line)
+        click.echo(printable(line))
 
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
@@ -77,9 +77,9 @@ def check(context: click.Context, files: tuple[str, ...]) -> None:
     checked, faulty, heads = 0, 0, 0
     for report in examine(files or shipped()):
         for wrong in report.head:
-            click.echo(f"{report.path}, line {wrong.line}: {wrong.sentence}")
+            click.echo(printable(f"{report.path}, line {wrong.line}: {wrong.sentence}"))
         for fault in report.faults:
-            click.echo(f"{report.path}, line {fault.line}, case {fault.case}: {fault.sentence}")
+            click.echo(printable(f"{report.path}, line {fault.line}, case {fault.case}: {fault.sentence}"))
         checked += report.count
         faulty += len({fault.case for fault in report.faults})
         heads += bool(report.head)
@@ -100,7 +100,7 @@ def freeze(names: tuple[str, ...], into: Path) -> None:
     from hypcheck.casebook.frozen.freezing import NAMES
     from hypcheck.casebook.frozen.freezing import freeze as write
 
-    write(names or NAMES, into, lambda name: click.echo(into / f"{name}.json"))
+    write(names or NAMES, into, lambda name: click.echo(printable(into / f"{name}.json")))
 
 
 def _format_of(target: str) -> str:

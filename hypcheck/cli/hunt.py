@@ -17,6 +17,7 @@ from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import announce_file
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
+from hypcheck.visible import printable
 
 if TYPE_CHECKING:
     from hypcheck.hunt.hunting import Hunt
@@ -147,14 +148,14 @@ def _tell(run: Hunt, show: int, out: Path | None) -> None:
     from hypcheck.hunt.text import hunt_lines
 
     for line in hunt_lines(run, show):
-        click.echo(line)
+        click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
         from hypcheck.hunt.keep import keep
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         added = keep(str(out), [cluster.worst.case.row for cluster in found], made_by)
-        click.echo(f"\n{out}: {added} rows added{'' if added == len(found) else ', the others were there'}")
+        click.echo(f"\n{printable(out)}: {added} rows added{'' if added == len(found) else ', the others were there'}")
 
 
 def _exit_code(run: Hunt) -> Exit:

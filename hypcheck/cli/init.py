@@ -12,6 +12,7 @@ import click
 from hypcheck.errors import InputError
 from hypcheck.scaffold.languages import LANGUAGES
 from hypcheck.scaffold.project import Project
+from hypcheck.visible import printable
 
 _NAMELESS = "predicate"
 """The name where neither --name nor the folder has one."""
@@ -60,9 +61,9 @@ def init(language: str, directory: Path, name: str | None, source: str | None, *
     texts = project.files() | shared
     write_all(directory, texts, force=force, replaced=added)
     for path in texts:
-        click.echo(f"{directory / path}{_remark(path, project, added)}")
+        click.echo(printable(f"{directory / path}{_remark(path, project, added)}"))
     for sentence in (*told, *(wanted.says if wanted is not None else ())):
-        click.echo(sentence)
+        click.echo(printable(sentence))
     _say_next(project, directory)
 
 
@@ -73,9 +74,9 @@ def _remark(path: str, project: Project, added: Collection[str]) -> str:
 
 
 def _say_next(project: Project, directory: Path) -> None:
-    click.echo(f"\nType next{'' if directory == Path() else f', in {shlex.quote(str(directory))}'}:\n")
+    click.echo(f"\nType next{'' if directory == Path() else f', in {printable(shlex.quote(str(directory)))}'}:\n")
     for command in project.commands:
-        click.echo(f"    {command}")
+        click.echo(printable(f"    {command}"))
     click.echo(f"\nThe second passes. The third fails, on the ring for one, until {project.predicate} is yours.")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from hypcheck.cli.hunt import about_one_implementation, opened
+from hypcheck.visible import printable
 
 _HELP = """Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
 
@@ -39,5 +40,5 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of
     with opened(spec, **subject) as target:
         run = simplify(replace(target, extreme=is_extreme(given.name)), Pair.from_row(given.row))
     for line in minimised_lines(run):
-        click.echo(line)
+        click.echo(printable(line))
     click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(run.last.case.row)))}")

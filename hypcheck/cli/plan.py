@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hypcheck.visible import printable
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -44,9 +46,9 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
         click.echo(json.dumps({**told, "measured": [line(each) for each in times]} if measure else told))
         return
     for text in plan_lines(found):
-        click.echo(text)
+        click.echo(printable(text))
     for place, each in enumerate(times, start=1):
-        click.echo(f"{place}. {each.says}")
+        click.echo(printable(f"{place}. {each.says}"))
 
 
 def planned(scene: str, precision: str, question: str | None) -> Plan:

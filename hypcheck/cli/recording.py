@@ -14,7 +14,7 @@ import click
 from hypcheck.cli.progress import in_lines, watched
 from hypcheck.cli.settings import announce
 from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, system_reason
-from hypcheck.visible import visible
+from hypcheck.visible import printable, visible
 
 if TYPE_CHECKING:
     from hypcheck.record import Line, Record, Recorder
@@ -161,7 +161,7 @@ def _tell(record: Record, lines: Sequence[str]) -> None:
     summary = os.environ.get("GITHUB_STEP_SUMMARY")
     trouble = github.append_summary(record, Path(summary)) if summary else None
     if trouble:
-        click.echo(f"hypcheck: {trouble}", err=True)
+        click.echo(f"hypcheck: {printable(trouble)}", err=True)
 
 
 def _run(parts: Sequence[Part]) -> None:

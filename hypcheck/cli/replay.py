@@ -10,6 +10,7 @@ import click
 from hypcheck.cli.options import Number, limits_of, with_limits
 from hypcheck.cli.settings import announce_file
 from hypcheck.errors import Exit
+from hypcheck.visible import printable
 
 _HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
@@ -72,5 +73,5 @@ def replay(
         used = implementation.description
         done = run(asked, implementation, Criterion(used.question, used.precision, Fraction(tolerance)), formula)
     for line in [replay_as_json(done)] if as_json else replay_lines(done):
-        click.echo(line)
+        click.echo(printable(line))
     context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)

@@ -13,7 +13,7 @@ from hypcheck.cli.progress import in_lines
 from hypcheck.errors import InputError
 from hypcheck.report.write import REPORTS, kept, write_reports
 from hypcheck.tables.streams import same_file, writing
-from hypcheck.visible import visible
+from hypcheck.visible import printable, visible
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
@@ -86,7 +86,7 @@ def _read(path: Path, subject: Path) -> Record:
     if path is subject:
         older = [f"this is an older run: {visible(newer)}"] if newer else []
         for note in [*older, *notes(record)]:
-            click.echo(f"hypcheck: note: {note}", err=True)
+            click.echo(f"hypcheck: note: {printable(note)}", err=True)
     return record
 
 
@@ -109,7 +109,7 @@ def _into_file(record: Record, source: Path, out: Path, name: str, against: Reco
     content = REPORTS[name].render(record, Around(_beside(source, out), against))
     with writing(str(out)) as file:
         file.write(content)
-    click.echo(f"{name}: {out}")
+    click.echo(f"{name}: {printable(out)}")
 
 
 def _beside(source: Path, out: Path) -> list[str]:
@@ -122,4 +122,4 @@ def _beside(source: Path, out: Path) -> list[str]:
 
 def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Record | None) -> None:
     for each in write_reports(record, out, wanted, against):
-        click.echo(f"{each.path}" if each.skipped is None else f"no {each.path.name}: {each.skipped}")
+        click.echo(printable(each.path if each.skipped is None else f"no {each.path.name}: {each.skipped}"))

@@ -13,6 +13,7 @@ from hypcheck.cli.options import Number, Place
 from hypcheck.cli.progress import watched
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
+from hypcheck.visible import printable
 
 if TYPE_CHECKING:
     from hypcheck.scene.model import Scene
@@ -145,7 +146,7 @@ def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path 
         from hypcheck.report.simulation.writing import write_simulation
 
         written = write_simulation(result, out)
-    for line in [json.dumps(result, ensure_ascii=False)] if form == "json" else lines:
-        click.echo(line)
+    for line in [json.dumps(result)] if form == "json" else lines:
+        click.echo(printable(line))
     for line in written:
-        click.echo(line, err=True)
+        click.echo(printable(line), err=True)

@@ -18,7 +18,7 @@ from hypcheck.cli.resuming import folder_of, resumed
 from hypcheck.cli.settings import FILE, Settings, in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
-from hypcheck.visible import visible
+from hypcheck.visible import printable, visible
 
 OURS_ONLY = ("oracles", "judged", "roots", "meshes")
 """Options of a run without SPEC."""
@@ -227,7 +227,7 @@ def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str
         carried=begun.carried,
     )
     if options["update"] and listed is not None and not changed:
-        click.echo(update(listed, record))
+        click.echo(printable(update(listed, record)))
     return outcome.exit_code or int(bool(changed))
 
 
