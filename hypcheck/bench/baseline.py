@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
+from statistics import median
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contenders import Contender
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.statistics import CONFIDENCE, ratios, resampled_medians
+from hypcheck.bench.statistics import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
 from hypcheck.record import Line, read
 from hypcheck.record.reading import file_of
@@ -72,12 +74,15 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
 
 
 def speeds_of(lines: Iterable[Line]) -> Baseline:
-    """The speeds among lines of a record that have a ratio, and the noise."""
+    """The speeds among lines of a record that have a ratio, and the noise.
+
+    Earlier versions wrote LEAST_NS where an empty call was no shorter; what has no other time is held to nothing.
+    """
     found = list(lines)
     speeds = {
         (line["method"], line["workload"], line["mode"]): line
         for line in found
-        if line["type"] == "speed" and line["ratio"] is not None
+        if line["type"] == "speed" and line["ratio"] is not None and median(chain(*line["samples_ns"])) > LEAST_NS
     }
     floors = {(line["workload"], line["mode"]): float(line["floor"]) for line in found if line["type"] == "noise"}
     return Baseline(speeds, floors)

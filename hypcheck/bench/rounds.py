@@ -18,13 +18,20 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+_LONGEST = 4
+"""So many times as long as it must last a sample may be, for the sake of more takes."""
+
 Clocked = Callable[[int], tuple[int, int]]
 """Does its work as often as asked; the nanoseconds that took, and the sum of the answers of one time."""
 
 SHORTEST_S = 0.01
-"""What a sample lasts at least, by repeating the work: 10⁵ ticks of the clock."""
+"""What the takes of a sample last at least together, by repeating the work: 10⁵ ticks of the clock."""
 
 MOST_LOOPS = 1_000_000
+
+TAKES = 5
+"""A sample is the fastest of so many takes, each a part of its length: what interrupts a process only ever adds time,
+and of several short takes it seldom meets all. Work that takes long is taken less often."""
 
 
 class RefusedError(Exception):
@@ -35,7 +42,7 @@ class RefusedError(Exception):
 class Entry:
     """Something to be timed: `run` handles `rows` rows each time, and the sum of its answers must be `checksum`.
 
-    Without a checksum that of the first sample stands. `loops` are calibrated where they are not given.
+    Without a checksum that of the first sample stands. `loops` and `takes` are calibrated where they are not given.
     """
 
     name: str
@@ -43,11 +50,15 @@ class Entry:
     run: Clocked
     checksum: int | None = None
     loops: int | None = None
+    takes: int = 1
 
 
 @dataclass(slots=True)
 class Samples:
-    """What was measured of one entry: nanoseconds a row in each round; `refused` says why it was left off, if so."""
+    """What was measured of one entry: nanoseconds a row in each round; `refused` says why it was left off, if so.
+
+    A sample is the fastest of `takes` takes, each of `loops` times the work.
+    """
 
     name: str
     rows: int
@@ -55,6 +66,7 @@ class Samples:
     checksum: int
     samples_ns: list[float] = field(default_factory=list)
     refused: str | None = None
+    takes: int = 1
 
     @property
     def median_ns(self) -> float:
@@ -111,7 +123,7 @@ def measure(
 
 def _calibrated(entry: Entry, shortest_s: float) -> Samples:
     """The entry warmed up, with loops enough for a sample of that length."""
-    found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0)
+    found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
     try:
         _calibrate(entry, found, shortest_s)
     except RefusedError as refused:
@@ -124,25 +136,34 @@ def _calibrate(entry: Entry, found: Samples, shortest_s: float) -> None:
     if entry.checksum is None:
         found.checksum = checksum
     if entry.loops is None:
-        loops, shortest = 1, shortest_s * 1e9
+        loops, shortest = 1, shortest_s / TAKES * 1e9
         while took < shortest / 8 and loops < MOST_LOOPS:  # too short a time tells too little of how many are needed
             loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
             took, checksum = entry.run(loops)
+        took = min(took, entry.run(loops)[0])  # an interrupted one would make for too short takes
         found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
+        lasts = max(1, took * found.loops / loops)
+        found.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
     _check(found, checksum)
 
 
 def _sample(entry: Entry, found: Samples) -> None:
-    if found.refused is not None:
-        return
-    try:
-        took, checksum = entry.run(found.loops)
-    except RefusedError as refused:
-        found.refused = str(refused)
-        return
-    _check(found, checksum)
+    takes = [_take(entry, found) for _ in range(found.takes)]
     if found.refused is None:
-        found.samples_ns.append(took / (found.loops * found.rows))
+        found.samples_ns.append(min(takes) / (found.loops * found.rows))
+
+
+def _take(entry: Entry, found: Samples) -> float:
+    """Nanoseconds; what is refused is asked no more, and takes for ever."""
+    if found.refused is None:
+        try:
+            took, checksum = entry.run(found.loops)
+        except RefusedError as refused:
+            found.refused = str(refused)
+        else:
+            _check(found, checksum)
+            return took
+    return math.inf
 
 
 def _check(found: Samples, checksum: int) -> None:

@@ -234,14 +234,17 @@ def _measure(run: _Run, advance: Advance) -> None:
 
 def _compare(run: _Run, advance: Advance) -> None:
     if run.baseline is not None:
-        names = gated(run.plan, run.found)
+        names, compared = gated(run.plan, run.found), False
         for line in comparisons(run.plan, run.baseline, speeds_of(run.speeds), names):
             run.recorder.add("comparison", **line)
+            compared |= line["gates"]
             where = f"{line['method']} on {line['workload']}, {line['mode']}"
             if line["gates"] and line["verdict"] == "slower":
                 run.outcome.slower.append(f"{where}: {line['change']:.2f} times as slow as the baseline")
             if line["gates"] and line["verdict"] == "inconclusive":
                 run.outcome.inconclusive.append(f"{where}: {line['change']:.2f} times as slow, give or take the noise")
+        if not compared:
+            run.outcome.inconclusive.append("nothing that both runs timed is held to the baseline")
         advance(1)
 
 

@@ -43,9 +43,6 @@ FIRST_AGAIN = "the first again"
 
 EMPTY_CALL = "an empty call"
 
-LEAST_NS = 0.01
-"""What is left at least of a time from which an empty call was taken off."""
-
 Key = tuple[str, str, str]
 """A method, a workload and a mode."""
 
@@ -55,23 +52,28 @@ class Session:
     """What one process is to measure.
 
     `expected` are the prints of the answers by method, workload and mode; a method whose answers have another print is
-    refused. `loops` are those of the first process, for all to do alike; it is given none.
+    refused. `loops` are loops and takes of the first process, for all to do alike; it is given none.
     """
 
     plan: BenchPlan
     number: int
     expected: Mapping[Key, str]
-    loops: Mapping[Key, int]
+    loops: Mapping[Key, tuple[int, int]]
 
 
 @dataclass(frozen=True)
 class Measured:
-    """What one process measured of one method, workload and mode; `empty_ns` is taken off the samples already."""
+    """What one process measured of one method, workload and mode; `empty_ns` is taken off the samples already.
+
+    What is left of them may be less than nothing, where noise made the call that does nothing take longer. `calls_ns`
+    are the samples of that call, in nanoseconds a row of the method.
+    """
 
     key: Key
     samples: Samples
     empty_ns: float
     timed_by: str
+    calls_ns: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -154,9 +156,10 @@ def _measured(session: Session, here: _Field) -> Iterator[Measured]:
         found = samples[name]
         empty = samples.get(here.empty_of.get(REFERENCE if name == AGAIN else name, ""))
         empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
-        off = empty_ns if here.where[1] == "single" else empty_ns / ready.rows
-        found.samples_ns = [max(LEAST_NS, sample - off) for sample in found.samples_ns]
-        yield Measured((name, *here.where), found, empty_ns, ready.timed_by)
+        share = 1 if here.where[1] == "single" else 1 / ready.rows
+        found.samples_ns = [sample - share * empty_ns for sample in found.samples_ns]
+        calls = () if empty is None else tuple(share * sample for sample in empty.samples_ns)
+        yield Measured((name, *here.where), found, empty_ns, ready.timed_by, calls)
     for name in here.empties:
         yield Measured((name, *here.where), samples[name], 0.0, "process")
 
@@ -166,7 +169,8 @@ def _rounds(session: Session, here: _Field, todo: Mapping[str, Prepared]) -> dic
     for name, each in todo.items():
         total = here.sums.get(REFERENCE if name == AGAIN else name)
         total = int(each.answers().sum(dtype=np.int64)) if total is None else total
-        entries.append(Entry(name, each.rows, each.run, total, session.loops.get((name, *where))))
+        loops, takes = session.loops.get((name, *where), (None, 1))
+        entries.append(Entry(name, each.rows, each.run, total, loops, takes))
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
     rounds = BUILDS if where[1] == "build" else session.plan.rounds

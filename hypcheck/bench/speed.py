@@ -10,7 +10,7 @@ from hypcheck.bench import session
 from hypcheck.bench.accuracy import Answered
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.session import AGAIN, COST, EMPTY_CALL, NOT_ANSWERED, Key, Measured, Session
-from hypcheck.bench.statistics import Estimate, estimate, ratios
+from hypcheck.bench.statistics import LEAST_NS, Estimate, estimate, ratios
 from hypcheck.processes import fresh, perform
 
 Advance = Callable[[int], object]
@@ -30,30 +30,59 @@ def expected(answers: list[Answered]) -> dict[Key, str]:
 def measured(plan: BenchPlan, prints: Mapping[Key, str], advance: Advance) -> Found:
     """What the processes measured, one process after the other; the first calibrates for all."""
     found: Found = {}
-    loops: dict[Key, int] = {}
+    loops: dict[Key, tuple[int, int]] = {}
     for number in range(plan.processes):
         with fresh(1) as executor:
             ((_, results),) = perform(session.run, [Session(plan, number, prints, loops)], executor)
         for each in results:
             found.setdefault(each.key, []).append(each)
-            loops.setdefault(each.key, each.samples.loops)
+            loops.setdefault(each.key, (each.samples.loops, each.samples.takes))
         advance(1)
     return found
 
 
 def lines(found: Found) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The record's lines, each with its type: noise before the speeds it belongs to; those refused last."""
+    """The record's lines, each with its type: noise before the speeds it belongs to; those without a time last."""
     found = {key: parts for key, parts in found.items() if not key[1].startswith(COST)}
-    for (name, workload, mode), parts in found.items():
-        if name == AGAIN and not _refusal(parts):
-            yield "noise", {"workload": workload, "mode": mode, **_noise(found, workload, mode)}
-    for key, parts in found.items():
-        if key[0] != AGAIN and not key[0].startswith(EMPTY_CALL) and not _refusal(parts):
-            yield "speed", _line(found, key)
-    for (name, workload, mode), parts in found.items():
-        reason = _refusal(parts)
-        if reason:
-            yield "refused", {"method": name, "workload": workload, "mode": mode, "reason": reason}
+    refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
+    hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
+    timed = {key: parts for key, parts in found.items() if key not in refused and key not in hidden}
+    for name, workload, mode in timed:
+        if name == AGAIN and (REFERENCE, workload, mode) in timed:
+            yield "noise", {"workload": workload, "mode": mode, **_noise(timed, workload, mode)}
+    for key in timed:
+        if key[0] != AGAIN and not key[0].startswith(EMPTY_CALL):
+            yield "speed", _line(timed, key)
+    for kind, reasons in (("unmeasured", hidden), ("refused", refused)):
+        for (name, workload, mode), reason in reasons.items():
+            if kind == "refused" or name != AGAIN:
+                yield kind, {"method": name, "workload": workload, "mode": mode, "reason": reason}
+
+
+def _hidden(parts: list[Measured]) -> str | None:
+    """Why the time cannot be told from that of a call that does nothing, which is taken off; None where it can.
+
+    It can where the 95 % intervals of the two medians, before anything is taken off, do not meet.
+    """
+    if not all(each.calls_ns for each in parts):
+        return None
+    call = estimate([[left + median(each.calls_ns) for left in each.samples.samples_ns] for each in parts])
+    empty = estimate([each.calls_ns for each in parts])
+    if call.low > empty.high and any(map(_possible, parts)):
+        return None
+    return (
+        f"its time, {_told(call)}, cannot be told from that of a call that does nothing, {_told(empty)}, which must be "
+        "taken off"
+    )
+
+
+def _told(time: Estimate) -> str:
+    return f"{time.median:.3g} ns ({time.low:.3g} to {time.high:.3g})"
+
+
+def _possible(part: Measured) -> list[float]:
+    """The samples of a process of which something is left; no clock tells more than six digits of them."""
+    return [float(f"{sample:.6g}") for sample in part.samples.samples_ns if sample > LEAST_NS]
 
 
 def _refusal(parts: list[Measured]) -> str | None:
@@ -64,14 +93,17 @@ def _line(found: Found, key: Key) -> dict[str, Any]:
     name, workload, mode = key
     parts = found[key]
     first = parts[0].samples
-    time, ratio = estimate(samples_of(parts)), _ratio(found, key)
+    samples = [possible for part in parts if (possible := _possible(part))]
+    dropped = sum(len(part.samples.samples_ns) for part in parts) - sum(map(len, samples))
+    time, ratio = estimate(samples), _ratio(found, key)
     return {
         "method": name,
         "workload": workload,
         "mode": mode,
         "rows": first.rows,
         "loops": first.loops,
-        "samples_ns": samples_of(parts),
+        "samples_ns": samples,
+        **({"dropped": dropped} if dropped else {}),
         "median_ns": time.median,
         "ci95_ns": [time.low, time.high],
         "ratio": None if ratio is None else ratio.median,
@@ -87,7 +119,8 @@ def _ratio(found: Found, key: Key) -> Estimate | None:
     reference = found.get((REFERENCE, workload, mode))
     if reference is None or _refusal(reference):
         return None
-    return estimate(ratios(samples_of(found[key]), samples_of(reference)))
+    pairs = ratios(samples_of(found[key]), samples_of(reference))
+    return estimate(pairs) if any(pairs) else None
 
 
 def _noise(found: Found, workload: str, mode: str) -> dict[str, Any]:

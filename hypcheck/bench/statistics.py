@@ -19,6 +19,10 @@ DRAWS = 2000
 CONFIDENCE = 0.95
 _SEED = 20_230_917
 
+LEAST_NS = 0.01
+"""No sample is as short: a byte of an answer takes longer to write. What is left of a time from which an empty call was
+taken off may be, where noise made that call take longer; it says nothing of the work."""
+
 Samples = Sequence[Sequence[float]]
 """A number for each round, for each process."""
 
@@ -47,9 +51,12 @@ def estimate(samples: Samples) -> Estimate:
 
 
 def ratios(samples: Samples, reference: Samples) -> list[list[float]]:
-    """Round by round, how often longer than the reference: processes and rounds of both go together in order."""
+    """Round by round, how often longer than the reference: processes and rounds of both go together in order.
+
+    A round in which either has an impossible sample has no ratio.
+    """
     return [
-        [mine / theirs for mine, theirs in zip(own, other, strict=False) if theirs > 0]
+        [mine / theirs for mine, theirs in zip(own, other, strict=False) if min(mine, theirs) > LEAST_NS]
         for own, other in zip(samples, reference, strict=False)
     ]
 

@@ -103,10 +103,25 @@ class CommandSession:
         self._known = rows[-1:].copy()
         return answers
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int] | None:  # noqa: ARG002
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where it does not offer that."""
+    def time(
+        self,
+        rows: Rows,
+        repeat: int,
+        *,
+        by_scene: bool = False,  # noqa: ARG002
+        each: bool = False,
+    ) -> tuple[int, int] | None:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where it does not offer that.
+
+        `each`: by a question for each row.
+        """
         if not self.description.time:
             return None
+        parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
+        nanoseconds, totals = zip(*(self._time(part, repeat) for part in parts), strict=True)
+        return sum(nanoseconds), sum(totals)
+
+    def _time(self, rows: Rows, repeat: int) -> tuple[int, int]:
         self._sequence += 1
         reply = TimeReply(self._sequence)
         question = f"time {self._sequence} {len(rows)} {repeat} binary"

@@ -22,7 +22,7 @@ Without the mark, what foreign code wrote into our pipe would be taken for a rep
 question. The first reply, which comes unasked, has the mark 0.
 """
 
-CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE = b"clas", b"scen", b"time", b"tims"
+CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE, TIME_EACH = b"clas", b"scen", b"time", b"tims", b"each"
 READY, ANSWERS, TIMED, ERROR, PROTOCOL = b"here", b"answ", b"took", b"erro", b"prot"
 
 TIMES = struct.Struct("=qq")

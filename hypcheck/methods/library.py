@@ -21,9 +21,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.kernel.choice import compiled
 from hypcheck.methods.frames import UNWRITTEN
 from hypcheck.methods.subject import Answers, ContractError, LoadError, room_at
 from hypcheck.rows import Rows
+from hypcheck.visible import counted
 
 _FENCE = 64
 _HINTS = (
@@ -44,6 +46,7 @@ class Library:
                 'void hypcheck_classify(size_t n, const double *rows, int8_t *positions), in C++ as extern "C"'
             )
         self._classify = _entry(library.hypcheck_classify, (ctypes.c_size_t, *[ctypes.c_void_p] * 2))
+        self._address = ctypes.cast(library.hypcheck_classify, ctypes.c_void_p).value
         self.scene = _has(library, "hypcheck_classify_scene")
         if self.scene:
             pointers = [ctypes.c_void_p] * 4
@@ -81,6 +84,34 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, int(positions.written().sum(dtype=np.int64))
 
+    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+
+        The calls are made by the compiled kernel where there is one. No rows stand for a call that does nothing: of a
+        function of ours, or, where calls are made by ctypes, of this library about no rows.
+        """
+        positions = _Positions(rows)
+        try:
+            call_each = compiled().call_each
+        except (ImportError, AttributeError):  # not built at install, or built before there was a call_each
+            return self._seconds_by_ctypes(rows, repeat, positions)
+        address = self._address if len(rows) else 0
+        asked, answers = (rows, positions.room) if len(rows) else (np.zeros((1, 7)), np.zeros(1, dtype=np.int8))
+        start = time.perf_counter_ns()
+        call_each(address, asked, answers, repeat)
+        took = time.perf_counter_ns() - start
+        return took, int(positions.written().sum(dtype=np.int64))
+
+    def _seconds_by_ctypes(self, rows: Rows, repeat: int, positions: _Positions) -> tuple[int, int]:
+        function, begin, room, n = self._classify, rows.ctypes.data, positions.address, len(rows)
+        calls = [(1, begin + 56 * place, room + place) for place in range(n)] or [(0, begin, room)]
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            for words in calls:
+                function(*words)
+        took = time.perf_counter_ns() - start
+        return took, int(positions.written().sum(dtype=np.int64))
+
 
 def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
     """Sizes, x, y, z, each at an address of its own modulo 64, all of them others when the rows' is another."""
@@ -101,10 +132,15 @@ class _Positions:
         self._room.fill(UNWRITTEN)
         self.address = self._room.ctypes.data + _FENCE
 
+    @property
+    def room(self) -> NDArray[np.int8]:
+        """Where the answers go."""
+        return self._room[_FENCE:-_FENCE]
+
     def written(self) -> NDArray[np.int8]:
         if (self._room[:_FENCE] != UNWRITTEN).any() or (self._room[-_FENCE:] != UNWRITTEN).any():
-            raise ContractError(f"it wrote outside of the {self._n} positions that it was given")
-        return self._room[_FENCE:-_FENCE]
+            raise ContractError(f"it wrote outside of the {counted(self._n, 'position')} that it was given")
+        return self.room
 
 
 def _loaded(path: str) -> ctypes.CDLL:

@@ -30,8 +30,11 @@ class Session(Protocol):
         """An integer for each row, not looked at."""
         ...
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int] | None:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where that is not offered."""
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int] | None:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where that is not offered.
+
+        `each`: by a call for each row.
+        """
         ...
 
     @property

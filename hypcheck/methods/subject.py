@@ -43,6 +43,13 @@ class Subject(Protocol):
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         ...
 
+    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+
+        Of a library no rows stand for a call that does nothing.
+        """
+        ...
+
 
 def as_json(description: object) -> str:
     """A description that code holds, as the text that goes to our process; raises LoadError."""

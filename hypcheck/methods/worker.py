@@ -104,8 +104,8 @@ Reply = tuple[bytes, bytes | memoryview, int]
 
 def _reply(subject: Subject, asked: bytes, repeat: int, rows: Rows) -> Reply:
     try:
-        if asked in {frames.TIME, frames.TIME_SCENE}:
-            times = subject.seconds(rows, repeat, by_scene=asked == frames.TIME_SCENE)
+        if asked in {frames.TIME, frames.TIME_SCENE, frames.TIME_EACH}:
+            times = _times(subject, asked, repeat, rows)
             return frames.TIMED, frames.TIMES.pack(*times), 8
         classify = subject.classify_scene if asked == frames.CLASSIFY_SCENE else subject.classify
         answers: Answers = np.ascontiguousarray(classify(rows))
@@ -115,6 +115,12 @@ def _reply(subject: Subject, asked: bytes, repeat: int, rows: Rows) -> Reply:
         traceback.print_exc()
         return frames.ERROR, _sentence(f"it {told(error)}"), 1
     return frames.ANSWERS, answers.data.cast("B"), answers.itemsize
+
+
+def _times(subject: Subject, asked: bytes, repeat: int, rows: Rows) -> tuple[int, int]:
+    if asked == frames.TIME_EACH:
+        return subject.seconds_each(rows, repeat)
+    return subject.seconds(rows, repeat, by_scene=asked == frames.TIME_SCENE)
 
 
 def _sentence(text: str) -> bytes:

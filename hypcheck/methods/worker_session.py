@@ -83,9 +83,10 @@ class WorkerSession:
             raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(len(rows), 'row')}")
         return frames.integers(body, width)
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers."""
-        _, body = self._ask(frames.TIME_SCENE if by_scene else frames.TIME, rows, repeat, frames.TIMED)
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; `each`: by a call for each row."""
+        asked = frames.TIME_EACH if each else frames.TIME_SCENE if by_scene else frames.TIME
+        _, body = self._ask(asked, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
             raise _broken(f"{counted(len(body), 'byte')} of times")
         nanoseconds, total = frames.TIMES.unpack(body)

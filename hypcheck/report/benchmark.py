@@ -66,7 +66,12 @@ def _of(line: Line) -> str:
 
 
 def _compared(record: Record) -> Iterator[Failure]:
-    """Speeds that were held to an earlier run's."""
+    """Speeds that were held to an earlier run's; a run of which none could be has not passed."""
+    if record.header["options"].get("baseline") and not any(
+        line.get("gates", True) for line in record.of("comparison")
+    ):
+        message = "nothing is held to the baseline: no time of what is to be held to it was measured in both runs"
+        yield Failure(SUBJECT, "baseline", "all workloads", INCONCLUSIVE, message)
     for line in record.of("comparison"):
         if line["verdict"] in (SLOWER, INCONCLUSIVE) and line.get("gates", True):
             words = "is slower than the baseline allows" if line["verdict"] == SLOWER else "was too noisy to compare"

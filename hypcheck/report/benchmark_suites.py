@@ -38,6 +38,8 @@ def _times(record: Record, failed: Sequence[Failure]) -> Iterator[Case]:
         ratio = "" if line["ratio"] is None else f"{figure(line['ratio'])} times the reference's time, "
         said = f"{ratio}{figure(line['median_ns'])} ns"
         yield Case(_name(line), output=(said,))
+    for line in record.of("unmeasured"):
+        yield Case(_name(line), Trouble("skipped", "unmeasured", str(line["reason"])))
     for line in record.of("refused"):
         yield Case(_name(line), _trouble(failed, "refused", line["method"], _group(line)))
 

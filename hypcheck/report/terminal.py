@@ -65,6 +65,7 @@ def summary_lines(
         *([] if against is None else _changes(record, against)),
         *_advice(record),
         *_absent(record),
+        *_unmeasured(record),
         *oracle_facts(record),
         *paper_facts(record),
         *_under_test(record),
@@ -137,6 +138,17 @@ def _advice(record: Record) -> Iterator[str]:
 def _absent(record: Record) -> Iterator[str]:
     """What was left out because something is not there, and what would bring it."""
     yield from (f"left out: {line['reason']}" for line in record.of("absent"))
+
+
+def _unmeasured(record: Record) -> Iterator[str]:
+    """What could not be timed, and how many samples of what could be were impossible."""
+    for line in record.of("unmeasured"):
+        yield f"not measured: {line['method']} on {line['workload']}, {line['mode']}: {line['reason']}"
+    dropped = [line for line in record.of("speed") if line.get("dropped")]
+    if dropped:
+        number = sum(line["dropped"] for line in dropped)
+        where = listed([f"{line['method']} ({line['workload']}, {line['mode']})" for line in dropped])
+        yield f"{counted(number, 'sample')} dropped, no longer than the empty call that is taken off: {where}"
 
 
 def _reports(written: Sequence[Written]) -> Iterator[str]:

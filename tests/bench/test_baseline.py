@@ -141,7 +141,7 @@ def test_what_is_no_baseline_for_this_run_is_refused(tmp_path, options, message)
 
 
 def test_the_folder_of_a_run_stands_for_its_record(tmp_path):
-    line = {"method": "mine", "workload": "uniform", "mode": "batch", "ratio": 2.0}
+    line = {"method": "mine", "workload": "uniform", "mode": "batch", "ratio": 2.0, "samples_ns": [[3.0]]}
     recorded(tmp_path / "record.jsonl", [line])
     found = read_baseline(BenchPlan(quick=True, baseline=tmp_path))
     assert list(found.speeds) == [("mine", "uniform", "batch")]

@@ -39,15 +39,22 @@ def test_each_round_begins_with_another_and_leaves_none_out():
 
 def test_loops_make_a_sample_of_the_length_that_is_asked_for():
     found = measured([Entry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
-    assert found.loops == 1000
+    assert found.loops * found.takes == 1000
     assert found.samples_ns == [250.0] * 3
     assert found.median_ns == 250.0
 
 
 def test_slow_work_is_done_once_a_sample():
     clock = Clock("a", [], ns=10**8)
-    assert measured([Entry("a", 1, clock)], shortest_s=1e-3)["a"].loops == 1
-    assert clock.repeats == [1, 1, 1, 1]
+    found = measured([Entry("a", 1, clock)], shortest_s=1e-3)["a"]
+    assert (found.loops, found.takes) == (1, 1)
+    assert clock.repeats[2:] == [1, 1, 1]
+
+
+def test_a_sample_is_the_fastest_of_its_takes_so_that_an_interruption_does_not_count():
+    times = iter([9000, 1000, 1100, 8000, 7000] * 3)
+    entry = Entry("a", 1, lambda repeat: (0 if repeat == 1 else repeat * next(times), 3), 3, loops=7, takes=5)
+    assert measured([entry])["a"].samples_ns == [1000.0] * 3
 
 
 def test_a_clock_that_stands_still_does_not_hang():

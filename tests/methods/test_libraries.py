@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import platform
 import re
@@ -10,6 +11,7 @@ import sys
 import pytest
 
 from hypcheck.errors import InputError
+from hypcheck.methods import library as libraries
 from hypcheck.methods.faults import Outcome, StartError
 from hypcheck.methods.opening import open_implementation
 from tests.miniatures import (
@@ -25,7 +27,7 @@ SHARED = ("-shared", "-fPIC")
 FAULTS = {
     "SEGFAULT": (Outcome.CRASH, "ended by SIGSEGV"),
     "NOT_WRITTEN": (Outcome.PROTOCOL, "answered -86, which is what stands where a library writes nothing"),
-    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside of the 1 positions that it was given"),
+    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside of the 1 position that it was given"),
     "CHANGES_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: upward"),
     "CHANGES_SSE_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: downward"),
 }
@@ -73,6 +75,22 @@ def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right
         for n, batch in ((70_000, None), (70_000, 70_000), (50, 1), (700, 77)):
             assert it.classify(some[:n], batch=batch).answers.tolist() == signs(some[:n]).tolist()
         assert it.time(some[:1000], 3) > 0
+        assert 0 < it.time(some[:1000], 3, each=True)
+
+
+@pytest.mark.parametrize("loop", ["in C", "by ctypes"])
+def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_nothing(loop, tmp_path, monkeypatch):
+    if loop == "by ctypes":
+        monkeypatch.setattr(libraries, "compiled", lambda: (_ for _ in ()).throw(ImportError("not built")))
+    counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
+    calls = ctypes.c_long.in_dll(ctypes.CDLL(str(tmp_path / f"{loop[-1]}.so")), "calls_about_one_row")
+    some = rows(40)
+    took, total = counting.seconds_each(some, 25)
+    assert took > 0
+    assert total == sum(signs(some).tolist())
+    assert calls.value == 40 * 25
+    assert counting.seconds_each(some[:0], 25)[1] == 0
+    assert calls.value == 40 * 25
 
 
 def test_a_relative_path_is_relative_to_the_working_directory(right, monkeypatch):

@@ -284,9 +284,9 @@ def lines():
     ]
 
 
-def bench_record(body=None, exit_code=0):
+def bench_record(body=None, exit_code=0, options=None):
     """The record of these lines, the sample's own unless given; None as exit code: truncated."""
-    return record(lines() if body is None else body, exit_code, OPTIONS)
+    return record(lines() if body is None else body, exit_code, {**OPTIONS, **(options or {})})
 
 
 def scene_times(ratio):

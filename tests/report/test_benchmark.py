@@ -125,6 +125,36 @@ def test_what_was_left_out_is_told_with_what_brings_it():
     assert "left out: coal cannot be imported; pip install 'hypcheck[peers]' brings it\n" in text
 
 
+def test_what_could_not_be_measured_is_told_everywhere_and_fails_nothing():
+    hidden = {
+        "type": "unmeasured",
+        "method": "fast",
+        "workload": "flight",
+        "mode": "single",
+        "reason": "it is too short",
+    }
+    body = [{**line, "dropped": 3} if line["type"] == "speed" else line for line in bench_lines.lines()]
+    record = bench_record([*body, hidden])
+    assert failures(record) == []
+    text = terminal.render(record).decode()
+    assert "not measured: fast on flight, single: it is too short\n" in text
+    assert "samples dropped, no longer than the empty call that is taken off: " in text
+    page = markdown.render(record).decode()
+    assert "`fast` on flight, single: it is too short" in page
+    assert "3 impossible samples dropped" in page
+    root = ElementTree.fromstring(junit.render(record))  # noqa: S314 - just written
+    (case,) = [each for each in root.iter("testcase") if each.get("name") == "fast on flight, single"]
+    assert case.find("skipped").get("message") == "it is too short"
+
+
+def test_a_run_of_which_nothing_is_held_to_its_baseline_has_not_passed():
+    body = [line for line in bench_lines.lines() if line["type"] != "comparison"]
+    record = bench_record(body, 4, {"baseline": "before/record.jsonl"})
+    (failure,) = failures(record)
+    assert failure.kind == "inconclusive"
+    assert verdict(record).sentence.startswith("INCONCLUSIVE, exit code 4: ")
+
+
 def test_as_test_suites():
     record = bench_record([*lines("comparison", verdict="slower"), REFUSED], 1)
     root = ElementTree.fromstring(junit.render(record))  # noqa: S314 - just written

@@ -24,8 +24,9 @@ from hypcheck.methods.opening import open_implementation
 from hypcheck.methods.spec import parse_spec
 from hypcheck.rows import Rows
 
-SINGLES = 16
-"""Rows that are asked one by one, each as often as a sample needs: foreign code is asked about one row at a time so."""
+SINGLES = {"library": 256, "python": 64, "command": 16}
+"""Rows that are asked one by one, by the kind of SPEC. Our worker takes them in turn, so that a branch predictor does
+not learn them; a command is asked a question for each."""
 
 _TRIED = 64
 _JUDGED_S, _TIMED_S = 4.0, 0.01
@@ -91,7 +92,7 @@ def contenders(found: Iterable[Foreign], limits: Limits) -> Iterable[Contender]:
             exact=description.precision == "exact",
             judged=each.judged,
             timed=each.timed,
-            singles=SINGLES,
+            singles=SINGLES[kind],
             note=f"as {each.spec}",
         )
 
@@ -118,26 +119,25 @@ class Outside:
         answers = partial(self._asked, rows, by_scene=by_scene)
         if self._clock is None:
             return Prepared(len(rows), self._round_trips(rows), answers, "process")
-        return Prepared(len(rows), self._times([rows], answers, by_scene=by_scene), answers, self._clock)
+        return Prepared(len(rows), self._times(rows, answers, by_scene=by_scene), answers, self._clock)
 
     def single(self, rows: Rows) -> Prepared | None:
         """A row a question; a command without a clock of its own is not asked, since the pipe would be timed."""
         if self._clock is None:
             return None
         answers = partial(self._asked, rows, by_scene=False)
-        parts = [rows[place : place + 1] for place in range(len(rows))]
-        return Prepared(len(rows), self._times(parts, answers, by_scene=False), answers, self._clock)
+        return Prepared(len(rows), self._times(rows, answers, each=True), answers, self._clock)
 
     def build(self, rows: Rows) -> None:
         """Nothing that we know of is built."""
 
     def empty(self, rows: Rows, mode: str) -> Empty | None:
-        """Of a library a call about no rows; of a command without a clock a question about one; else nothing."""
+        """Of a library a call that does nothing; of a command without a clock a question about one row; else none."""
         name = f"of {self.implementation.spec}"
         if self._clock is None and mode == "batch":
             return Empty(name, Prepared(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
         if self.kind == "library" and mode == "single":
-            calls = self._times([rows[:0]], _none, by_scene=False)
+            calls = self._times(rows[:0], _none, each=True)
             return Empty(name, Prepared(1, calls, _none))
         return None
 
@@ -158,16 +158,18 @@ class Outside:
             self.trouble = f"{reason}; the row is {', '.join(map(repr, rows[place].tolist()))}"
         return answered.answers
 
-    def _times(self, parts: Sequence[Rows], answers: Callable[[], Answers], *, by_scene: bool) -> Clocked:
+    def _times(
+        self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, each: bool = False
+    ) -> Clocked:
         """By the clock of whoever runs it, which checks its own sum against the answers (methods/implementation.py)."""
         right = int(answers().sum(dtype=np.int64))
 
         def run(repeat: int) -> tuple[int, int]:
             try:
-                took = [self.implementation.time(part, repeat, by_scene=by_scene) for part in parts]
+                took = self.implementation.time(rows, repeat, by_scene=by_scene, each=each)
             except TimingError as error:
                 raise RefusedError(str(error)) from None
-            return sum(each or 0 for each in took), right
+            return took or 0, right
 
         return run
 

@@ -21,7 +21,7 @@ from hypcheck.report.content.blocks import (
     table,
 )
 from hypcheck.report.measured import lost, measured, noise_floor, workloads
-from hypcheck.report.text import figure, with_interval
+from hypcheck.report.text import counted, figure, with_interval
 
 _TIMES = prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"
@@ -37,10 +37,19 @@ def sections(record: Record) -> Iterator[Section]:
         (Code(line["method"]), f" on {line['workload']}, {line['mode']}: {line['reason']}")
         for line in record.of("refused")
     ]
-    if record.of("speed") or refused:
+    unmeasured = [
+        (Code(line["method"]), f" on {line['workload']}, {line['mode']}: {line['reason']}")
+        for line in record.of("unmeasured")
+    ]
+    if record.of("speed") or refused or unmeasured:
         blocks: list[Block] = [Paragraph(_TIMES)]
         if refused:
             blocks += [Paragraph("Not timed, because its answers were not what they must be:"), bullets(refused)]
+        if unmeasured:
+            blocks += [
+                Paragraph("Not to be timed here, which fails nothing and holds nobody to a baseline:"),
+                bullets(unmeasured),
+            ]
         yield Section("Run times", (*blocks, Figures("speeds"), _times(record)))
     if record.of("memory"):
         yield Section("Memory", (Paragraph(_MEMORY), _memory(record)))
@@ -78,7 +87,10 @@ def _noise(floor: float | None) -> Cell:
 
 
 def _how(line: Line) -> tuple[Cell, Cell]:
-    return count(line["rows"]), Cell(line["timed_by"])
+    dropped = counted(line.get("dropped", 0), "impossible sample")
+    return count(line["rows"]), Cell(
+        f"{line['timed_by']}, {dropped} dropped" if "dropped" in line else line["timed_by"]
+    )
 
 
 def _memory(record: Record) -> Table:

@@ -1,0 +1,76 @@
+"""From samples to the record's lines: the impossible is dropped, and what cannot be told is said not to be measured."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from hypcheck.bench import run, speed
+from hypcheck.bench.baseline import speeds_of
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.bench.rounds import Samples
+from hypcheck.bench.session import AGAIN, Measured
+from hypcheck.record import Recorder
+
+WHERE = ("uniform", "single")
+
+
+def parts(name, samples, calls=()):
+    """What two processes measured of a method, a call that does nothing already taken off."""
+    key = (name, *WHERE)
+    return key, [Measured(key, Samples(name, 10, 5, 0, list(samples)), 0.0, "worker", tuple(calls)) for _ in range(2)]
+
+
+def lines(*found):
+    reference = [parts(name, [100.0, 101.0, 102.0]) for name in (REFERENCE, AGAIN)]
+    return list(speed.lines(dict([*reference, *found])))
+
+
+def of(found, kind, name):
+    return [line for each, line in found if each == kind and line["method"] == name]
+
+
+def test_an_impossible_sample_is_dropped_and_counted():
+    """30 ns were taken off each; one of the calls was much shorter, as no call can be that does the work."""
+    found = lines(parts("theirs", [20.0, -29.0, 21.0, 22.0, 21.0, 21.0, 21.0], [30.0] * 7))
+    (line,) = of(found, "speed", "theirs")
+    assert line["samples_ns"] == [[20.0, 21.0, 22.0, 21.0, 21.0, 21.0]] * 2
+    assert line["dropped"] == 2
+    assert (line["median_ns"], line["ratio"]) == (21.0, pytest.approx(0.2, rel=0.03))
+    assert "dropped" not in of(found, "speed", REFERENCE)[0]
+
+
+@pytest.mark.parametrize("samples", [[-3.0, 2.0, -1.0, 4.0], [0.01, 0.0, -0.02, 0.0], [5.0, 4.0, -1.0, 9.0]])
+def test_a_time_that_cannot_be_told_from_an_empty_call_is_not_measured_and_says_why(samples):
+    found = lines(parts("theirs", samples, [200.0, 210.0, 190.0, 205.0]))
+    assert of(found, "speed", "theirs") == []
+    (line,) = of(found, "unmeasured", "theirs")
+    assert (line["workload"], line["mode"]) == WHERE
+    assert "cannot be told from that of a call that does nothing, 202 ns (190 to 210)" in line["reason"]
+
+
+def test_a_time_of_which_nothing_was_taken_off_is_always_measured():
+    assert len(of(lines(parts("theirs", [0.5, 0.6])), "speed", "theirs")) == 1
+
+
+def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_pass(tmp_path):
+    before = [{"type": kind, **line} for kind, line in lines(parts("fast-numpy", [20.0, 21.0], [3.0, 3.1]))]
+    after = [{"type": kind, **line} for kind, line in lines(parts("fast-numpy", [-1.0, 0.2], [3.0, 3.1]))]
+    plan = BenchPlan(methods=("fast-numpy",), baseline=tmp_path)
+    for now, inconclusive in ((before, 0), (after, 1)):
+        outcome = run.BenchOutcome()
+        recorder = Recorder(io.StringIO(), plan.options)
+        state = run._Run(plan, recorder, outcome, contenders(plan), baseline=speeds_of(before), speeds=now)
+        run._compare(state, lambda steps: None)
+        assert len(outcome.inconclusive) == inconclusive
+        assert outcome.slower == []
+
+
+def test_a_baseline_of_an_earlier_version_is_not_compared_where_its_times_were_lost():
+    """It wrote 0.01 ns where an empty call was no shorter, and gated 46 millionths to 17,900."""
+    line = {"type": "speed", "method": "theirs", "workload": "uniform", "mode": "single", "ratio": 1e-6}
+    kept = {**line, "mode": "batch", "samples_ns": [[5.0, 6.0]]}
+    known = speeds_of([{**line, "samples_ns": [[0.01, 0.01, 7.0]]}, kept])
+    assert list(known.speeds) == [("theirs", "uniform", "batch")]
