@@ -162,8 +162,10 @@ def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement
     ref = _REF.fullmatch(end or "")
     if end and not ref:
         raise _wrong(source)
-    says = (_here(url),) if url.startswith("file:") else ()
-    return Requirement(f"{project} @ git+{url}{end or ''}", says, url, ref["ref"] if ref else "")
+    local = url.startswith("file:")
+    # pip before 24.1 takes `NAME @ git+file:///…` for a path, and the URL alone for what it is.
+    text = f"git+{url}" if local and project == "hypcheck" else f"{project} @ git+{url}"
+    return Requirement(f"{text}{end or ''}", (_here(url),) if local else (), url, ref["ref"] if ref else "")
 
 
 def _of_archive(project: str, url: str, end: str, source: str) -> Requirement:

@@ -29,8 +29,8 @@ SOURCES = {
     "ssh://git@example.org/hypcheck.git@release/1.x": "hypcheck @ git+ssh://git@example.org/hypcheck.git@release/1.x",
     "git@example.org:owner/hypcheck.git": "hypcheck @ git+ssh://git@example.org/owner/hypcheck.git",
     f"hypcheck[report] @ {GIT}@{COMMIT}": f"hypcheck[report] @ {GIT}@{COMMIT}",
-    "file:///srv/hypcheck.git@v1": "hypcheck @ git+file:///srv/hypcheck.git@v1",
-    "git+file:///srv/a%20b/.hypcheck": "hypcheck @ git+file:///srv/a%20b/.hypcheck",
+    "file:///srv/hypcheck.git@v1": "git+file:///srv/hypcheck.git@v1",
+    "git+file:///srv/a%20b/.hypcheck": "git+file:///srv/a%20b/.hypcheck",
     f"https://example.org/h-1-py3-none-any.whl{DIGEST}": f"hypcheck @ https://example.org/h-1-py3-none-any.whl{DIGEST}",
     f"hypcheck@https://example.org/h-1.tar.gz{DIGEST}": f"hypcheck @ https://example.org/h-1.tar.gz{DIGEST}",
 }
@@ -92,7 +92,7 @@ def repository(tmp_path):
 @pytest.mark.parametrize(("end", "name"), [("", "HEAD"), ("@main", "HEAD"), ("@v1", "v1^{commit}")])
 def test_a_branch_or_tag_of_a_repository_is_pinned_to_its_commit(end, name, repository, tmp_path):
     wanted = pinned(requirement(f"file://{repository}{end}", tmp_path))
-    assert wanted.text == f"hypcheck @ git+file://{repository}@{git(repository, 'rev-parse', name)}"
+    assert wanted.text == f"git+file://{repository}@{git(repository, 'rev-parse', name)}"
     assert any(said.startswith(f"pinned to the commit that {end[1:] or 'HEAD'} of") for said in wanted.says)
 
 
