@@ -21,15 +21,15 @@ def answer_as_text(answer: Answer) -> str:
     label = answer.decision.position.label
     lines = [
         f"{label}, tangent" if answer.decision.tangent else label,
-        f"clearance  {_number(answer.clearance)} spheroid radii ({_meaning(answer.clearance)})",
+        f"clearance  {_radii(answer.clearance)} ({_meaning(answer.clearance)})",
         f"kind       {kind_as_text(kind)}",
         *_titled("proof", proof_lines(answer.pair, answer.certificate)),
     ]
     return "\n".join(lines)
 
 
-def _number(value: float) -> str:
-    return repr(value).removesuffix(".0")
+def _radii(value: float) -> str:
+    return f"{repr(value).removesuffix('.0')} spheroid {'radius' if value == 1 else 'radii'}"
 
 
 def _meaning(clearance: float) -> str:

@@ -53,8 +53,8 @@ def _usage(error: BaseException) -> Ending:
 
 def _said(error: BaseException) -> str:
     if isinstance(error, click.NoSuchOption):
-        meant = advice(error.option_name, error.possibilities or (), most=1, otherwise="")
-        return f"there is no option {error.option_name!r}" + f"; {meant}" * bool(meant.strip())
+        meant = advice(error.option_name, error.possibilities or (), most=1)
+        return f"there is no option {error.option_name!r}" + f"; {meant}" * meant.startswith("did you mean")
     return error.format_message() if isinstance(error, click.ClickException) else str(error)
 
 

@@ -17,7 +17,7 @@ from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import announce_file
 from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
-from hypcheck.visible import printable
+from hypcheck.visible import counted, printable
 
 if TYPE_CHECKING:
     from hypcheck.hunt.hunting import Hunt
@@ -155,7 +155,10 @@ def _tell(run: Hunt, show: int, out: Path | None) -> None:
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         added = keep(str(out), [cluster.worst.case.row for cluster in found], made_by)
-        click.echo(f"\n{printable(out)}: {added} rows added{'' if added == len(found) else ', the others were there'}")
+        click.echo(
+            f"\n{printable(out)}: {counted(added, 'row')} added"
+            f"{'' if added == len(found) else ', the others were there'}"
+        )
 
 
 def _exit_code(run: Hunt) -> Exit:

@@ -25,7 +25,10 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
     tolerance = float(run.target.criterion.tolerance)
     yield f"{_name(run.target)}: {counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
     judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
-    yield f"{_answers(run.wrong)} wrong{judged if run.wrong else ''}"
+    if run.answered:
+        yield f"{_answers(run.wrong)} wrong{judged if run.wrong else ''}"
+    else:
+        yield "no row was answered, so no answer was judged"
     if run.abstained:
         yield f'{_answers(run.abstained)} "cannot say"'
     if found:
@@ -69,7 +72,7 @@ def _finding(finding: Finding, target: Target) -> Iterator[str]:
     answer = in_words(case.answer, target.criterion.question)
     yield _titled("row", f"{decimals(case.row)}  ({', '.join(COLUMNS)})")
     yield _titled("hex", ",".join(map(hex_of, case.row)))
-    yield _titled("truth", f"{case.truth.label}; answered: {answer}, which is a {case.mistake.value} by {_u(finding)}")
+    yield _titled("truth", f"{case.truth.label}; answered: {answer} ({case.mistake.value}, wrong by {_u(finding)})")
     yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 
 

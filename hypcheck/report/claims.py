@@ -39,10 +39,10 @@ def claims(line: Line) -> Iterator[str]:
         yield f"judged as {listed([_said(name, used[name]) for name in changed])}, as the options say"
     again, restarts = line["again"], line["restarts"]
     other = again["within"] + again["beyond"]
-    yield (
-        f"asked again about {counted(again['asked'], 'case')}, {other:,} answered otherwise"
-        f" ({again['beyond']:,} beyond the tolerance); {counted(restarts, 'restart')}"
-    )
+    asked = f"asked again about {counted(again['asked'], 'case')}, {other:,} answered otherwise"
+    beyond = f" ({again['beyond']:,} beyond the tolerance)"
+    repeated = f"{asked}{beyond}" if again["asked"] else "nothing to ask again: no answer was judged"
+    yield f"{repeated}; {counted(restarts, 'restart')}"
 
 
 def described(description: Mapping[str, Any]) -> str:

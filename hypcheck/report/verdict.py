@@ -135,7 +135,7 @@ def _breaks_promise(line: Line, status: str) -> bool:
 def _broken(name: str, line: Line, status: str, number: int, replays: Replays) -> Failure:
     family = line["family"]
     promise = " promises to be exact, but" if line["exact"] else ":"
-    message = f"{name}{promise} {number:,} of {counted(line['asked'], 'case')} ended {status}"
+    message = f"{name}{promise} {number:,} of {counted(line['asked'], 'case')} ended as {status}"
     first = next((case for case in line["worst"] if case["status"] == status), None)
     fault = next((case for case in line.get("faults", ()) if case["status"] == status), None)
     if fault is not None:

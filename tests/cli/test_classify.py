@@ -51,7 +51,7 @@ def test_the_answer_is_what_a_hand_computes(row, known, capsys):
     assert lines[0] == (f"{label}, tangent" if tangent else label)
     if clearance is not None:
         shown = clearance if clearance == "inf" else f"{clearance:g}"
-        assert lines[1].startswith(f"clearance  {shown} spheroid radii")
+        assert lines[1].startswith(f"clearance  {shown} spheroid radi")
 
 
 def test_a_center_may_be_negative_in_every_notation(capsys):

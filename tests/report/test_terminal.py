@@ -47,7 +47,7 @@ def test_failures_follow_the_verdict_with_their_cases():
     said = "nearest: contact, tangent: False, None; exact decision: exterior, tangent: False, exterior"
     assert lines[1] == f"  ✗ tangent/1/1/3: {said}"
     assert lines[2] == "  ✗ hessian: not proved: it is 3Δ"
-    assert lines[3].startswith("  ✗ fast promises to be exact, but 1 of 5 cases ended wrong; tangent/1/1/0 is ")
+    assert lines[3].startswith("  ✗ fast promises to be exact, but 1 of 5 cases ended as wrong; tangent/1/1/0 is ")
 
 
 def test_an_interrupted_run_says_so_first():

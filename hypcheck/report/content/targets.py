@@ -26,7 +26,8 @@ _TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "g
 _BASELINE = prose(
     "Ratios to the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
     " *Slower* is what exceeds what is allowed even at the interval's lower end; *inconclusive*, what the noise does"
-    " not let tell."
+    " not let tell. In brackets are verdicts that are only shown: they are about methods that nobody asked to be held"
+    " to the baseline, and decide nothing."
 )
 
 
@@ -51,7 +52,8 @@ def _interval(value: float, ends: list[float] | None) -> Cell:
 def _baseline(lines: list[Line]) -> Table:
     numbers = map(number, ("before", "after", "change", "allowed"))
     columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
-    ranked = sorted(lines, key=lambda line: ["slower", "inconclusive", "faster", "same"].index(line["verdict"]))
+    order = ["slower", "inconclusive", "faster", "same"]
+    ranked = sorted(lines, key=lambda line: (not line.get("gates", True), order.index(line["verdict"])))
     rows = [
         (
             Cell(Code(line["method"])),
@@ -61,11 +63,16 @@ def _baseline(lines: list[Line]) -> Table:
             Cell(figure(line["after"]), line["after"]),
             _interval(line["change"], line["ci95"]),
             Cell(figure(line["allowed"]), line["allowed"]),
-            Cell(line["verdict"], tone=_TONES.get(line["verdict"], "")),
+            _verdict(line),
         )
         for line in ranked
     ]
     return table("against the baseline", columns, rows)
+
+
+def _verdict(line: Line) -> Cell:
+    verdict = str(line["verdict"])
+    return Cell(verdict, tone=_TONES.get(verdict, "")) if line.get("gates", True) else Cell(f"({verdict})")
 
 
 def claims(record: Record) -> dict[str, list[Line]]:
