@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel test lint cases check-cases paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel test lint cases check-cases prove paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -36,6 +36,9 @@ cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
 
 check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its certificate
 	$(BIN)/hypcheck cases check
+
+prove: $(VENV)/ready ## the machine-checked proofs, and the proved checker on the frozen vectors (needs coq; docs/proofs.md)
+	$(BIN)/python -m hypcheck.proofs
 
 paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md

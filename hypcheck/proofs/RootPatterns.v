@@ -90,7 +90,11 @@ Qed.
 
 Definition listed := exists r, In r table /\ has_pattern (snd r).
 
-Ltac listed n := exists (nth n table (EmptyString, Crosses, nil)); split; [simpl; tauto | simpl].
+Lemma listed_row n : Nat.ltb n (List.length table) = true ->
+  has_pattern (snd (nth n table (EmptyString, Crosses, nil))) -> listed.
+Proof. intros N H; eexists; split; [apply nth_In, PeanoNat.Nat.ltb_lt; exact N | exact H]. Qed.
+
+Ltac listed n := apply (listed_row n); [reflexivity | simpl].
 Ltac simple_roots n u v w F := listed n; exists u, v, w; repeat split; try lra; exact F.
 Ltac double_first n u w F := listed n; exists u, w; repeat split; try lra; intros l; rewrite F; subst; ring.
 Ltac double_last n u w F := listed n; exists u, w; repeat split; try lra; intros l; rewrite F; subst; ring.

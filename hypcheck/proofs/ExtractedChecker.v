@@ -1,0 +1,6 @@
+(** The proved checker as OCaml. Whole numbers become Zarith's (GMP); booleans, lists and pairs become OCaml's own. *)
+
+From Hypcheck Require Import Checker.
+Require Import Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
+
+Extraction "checker.ml" dyadic check check_vector.

@@ -1,0 +1,58 @@
+"""`python -m hypcheck.proofs`: prove everything, or with --soundness what the checker's soundness rests on."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from hypcheck.errors import HypcheckError
+from hypcheck.proofs import build
+from hypcheck.proofs.weakened import CONTROL, WEAKENED, Weakened, accepted
+
+
+@click.command(help=__doc__)
+@click.option("--soundness", is_flag=True, help="The checker's soundness alone.")
+@click.option("--weakened", "count", type=click.IntRange(0), help="Weakened statements to try; by default all.")
+def main(soundness: bool, count: int | None) -> None:
+    """Prove, and say each thing that was proved. Ends with 1 where a proof fails, 2 where programs are missing."""
+    try:
+        build.demand_tools()
+        names = (*build.SOUNDNESS, "ExtractedChecker") if soundness else build.FILES
+        _prove(names)
+        _refuse([change for change in WEAKENED if change.file in names][:count])
+        build.build_checker()
+        sys.exit(build.run_checker(sorted(map(str, build.FROZEN.glob("*.json")))))
+    except HypcheckError as error:
+        click.echo(f"proofs: error: {error}", err=True)
+        sys.exit(error.exit_code)
+
+
+def _prove(names: tuple[str, ...]) -> None:
+    done = []
+    for name in names:
+        file = build.compile_file(name)
+        done.append(file)
+        click.echo(f"{name + '.v':20} {file.statements:3} statements {file.lines:4} lines {file.seconds:6.1f} s")
+    found = build.assumptions(names)
+    if not found <= set(build.AXIOMS):
+        raise build.ProofError(f"the proofs assume {', '.join(sorted(found - set(build.AXIOMS)))}; that is not allowed")
+    statements, lines = sum(file.statements for file in done), sum(file.lines for file in done)
+    click.echo(f"{statements} statements in {lines} lines are proved. They assume, of the real numbers:")
+    for axiom in sorted(found):
+        click.echo(f"    {axiom}")
+
+
+def _refuse(changes: list[Weakened]) -> None:
+    if not accepted(CONTROL):
+        raise build.ProofError(
+            f"Coq refuses {CONTROL.file}.v in the folder in which it must refuse weakened statements"
+        )
+    for change in changes:
+        if accepted(change):
+            raise build.ProofError(f"Coq accepts {change.file}.v, weakened to allow {change.allows}")
+    click.echo(f"{len(changes)} weakened statements are refused")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,157 @@
+"""Compiling the proofs with Coq, asking what they assume, and building the proved checker. `make prove` runs it.
+
+Nothing is installed here: what is missing is named. Everything is built in build/proofs beside the package.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from hypcheck.errors import HypcheckError, InputError
+
+SOURCES = Path(__file__).parent
+BUILT = SOURCES.parents[1] / "build" / "proofs"
+CHECKER = BUILT / "check_cases"
+FROZEN = SOURCES.parents[1] / "cases"
+
+SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker")
+"""What the checker's soundness rests on, in the order in which Coq needs it."""
+
+FILES = (*SOUNDNESS, "ExtractedChecker", "Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
+"""Every file, in the order in which Coq needs them; the name says what it proves."""
+
+AXIOMS = (
+    "ClassicalDedekindReals.sig_not_dec",
+    "ClassicalDedekindReals.sig_forall_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+)
+"""What the real numbers of Coq's standard library rest on. The proofs may assume this and nothing else."""
+
+PACKAGES = {
+    "coqc": "coq",
+    "ocamlfind": "ocaml-findlib",
+    "ocamlopt": "ocaml-nox",
+}
+"""The programs that a build needs, with the Debian package of each."""
+
+ZARITH = "libzarith-ocaml-dev"
+"""The package of the OCaml library that it needs besides."""
+
+_THEOREM = re.compile(r"^\s*(Theorem|Lemma|Corollary)\s+(\w+)", re.MULTILINE)
+_UNPROVED = re.compile(r"\b(Admitted|admit|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort)\b")
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+
+
+class ProofError(HypcheckError):
+    """A file that Coq refuses, or an assumption that is not allowed."""
+
+    exit_code = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """One file that Coq accepted: its name, how many statements it proves, its lines, and the seconds it took."""
+
+    name: str
+    statements: int
+    lines: int
+    seconds: float
+
+
+def missing() -> list[str]:
+    """The Debian packages that a build needs and this machine has not."""
+    absent = [package for program, package in PACKAGES.items() if not shutil.which(program)]
+    if absent or _run(["ocamlfind", "query", "zarith"], Path()).returncode:
+        absent.append(ZARITH)
+    return absent
+
+
+def demand_tools() -> None:
+    """Raise InputError with what to install where a program is missing."""
+    absent = missing()
+    if absent:
+        raise InputError(f"the proofs need programs that are not here; on Debian: apt-get install {' '.join(absent)}")
+
+
+def source(name: str) -> str:
+    """The text of a Coq file."""
+    return (SOURCES / f"{name}.v").read_text(encoding="utf-8")
+
+
+def statements(name: str) -> tuple[str, ...]:
+    """The theorems, lemmas and corollaries that a file proves, by name."""
+    return tuple(found for _, found in _THEOREM.findall(_COMMENT.sub("", source(name))))
+
+
+def proves(name: str, statement: str) -> bool:
+    """Whether a file states this theorem and leaves nothing in it unproved; Coq itself is not asked."""
+    return statement in statements(name) and not _UNPROVED.search(_COMMENT.sub("", source(name)))
+
+
+def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 - fixed names
+
+
+def refusal(folder: Path, name: str) -> str:
+    """What Coq says against a file in a folder, or nothing where it accepts it."""
+    command = ["coqc", "-q", "-R", ".", "Hypcheck", f"{name}.v"]
+    found = _run(command, folder)
+    return (found.stderr.strip() or "coqc failed without a message") if found.returncode else ""
+
+
+def compile_file(name: str) -> Compiled:
+    """Compile one file in the build folder; those it needs have been compiled. Raises ProofError where Coq refuses."""
+    text = source(name)
+    unproved = _UNPROVED.search(_COMMENT.sub("", text))
+    if unproved:
+        raise ProofError(f"{name}.v has an unproved part: {unproved.group()}")
+    BUILT.mkdir(parents=True, exist_ok=True)
+    (BUILT / f"{name}.v").write_text(text, encoding="utf-8")
+    start = perf_counter()
+    message = refusal(BUILT, name)
+    if message:
+        raise ProofError(f"Coq refuses {name}.v:\n{message}")
+    return Compiled(name, len(statements(name)), text.count("\n"), perf_counter() - start)
+
+
+def assumptions(names: tuple[str, ...]) -> set[str]:
+    """The axioms on which the statements of these compiled files rest, as Coq prints them."""
+    needed = [f"From Hypcheck Require {name}." for name in names]
+    every = ", ".join(f"@{name}.{each}" for name in names for each in statements(name))
+    text = "\n".join((*needed, f"Definition everything := ({every}).", "Print Assumptions everything.", ""))
+    (BUILT / "Assumptions.v").write_text(text, encoding="utf-8")
+    command = ["coqc", "-q", "-R", ".", "Hypcheck", "Assumptions.v"]
+    found = _run(command, BUILT)
+    if found.returncode or not found.stdout.startswith(("Axioms:", "Closed under the global context")):
+        raise ProofError(f"Coq does not say what the proofs assume: {found.stderr.strip() or found.stdout[-200:]}")
+    return set(re.findall(r"^(\w[\w.']*)(?=\s*:|$)", found.stdout.partition("Axioms:")[2], re.MULTILINE))
+
+
+def build_checker() -> None:
+    """Compile the extracted checker and the program that reads cases for it."""
+    shutil.copy(SOURCES / "check_cases.ml", BUILT)
+    command = ["ocamlfind", "ocamlopt", "-w", "-a", "-package", "zarith", "-linkpkg"]
+    command += ["checker.mli", "checker.ml", "check_cases.ml", "-o", CHECKER.name]
+    found = _run(command, BUILT)
+    if found.returncode:
+        raise ProofError(f"OCaml refuses the checker:\n{found.stderr.strip()}")
+
+
+def run_checker(files: list[str]) -> int:
+    """Let the proved checker check vector files; it prints what it finds. Returns 0, or 1 where a label is wrong.
+
+    Raises InputError where it has not been built, or where a file cannot be read.
+    """
+    if not CHECKER.is_file():
+        raise InputError(f"the proved checker is not built: there is no {CHECKER}; `make prove` builds it")
+    found = subprocess.run([CHECKER, *files], stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603 - ours
+    if found.returncode not in (0, 1):
+        raise InputError(
+            found.stderr.strip().removeprefix("check_cases: ") or f"{CHECKER} ended with {found.returncode}"
+        )
+    return found.returncode
