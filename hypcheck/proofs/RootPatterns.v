@@ -46,7 +46,8 @@ Definition table : list row :=
     ("crossing-groove-isolated-point", Crosses, [(Above, 2); (Above, 1)]);
     ("crossing-groove-node", Crosses, [(AtB, 1); (Above, 2)]);
     ("crossing-groove-node", Crosses, [(Above, 1); (Above, 2)]);
-    ("crossing-groove-cusp", Crosses, [(Above, 3)])]%string%nat.
+    ("crossing-groove-cusp", Crosses, [(Above, 3)])
+  ]%string%nat.
 
 Section Table.
 

@@ -93,6 +93,15 @@ def proves(name: str, statement: str) -> bool:
     return statement in statements(name) and not _UNPROVED.search(_COMMENT.sub("", source(name)))
 
 
+def pattern_table() -> list[tuple[str, str, tuple[tuple[str, int], ...]]]:
+    """The rows of RootPatterns.v: kind, meaning, and the roots' places with their multiplicities, by Coq's names."""
+    rows = re.findall(r'^ *\("([\w-]+)", (\w+), \[(.*?)\]\);?$', source("RootPatterns"), re.MULTILINE)
+    return [
+        (kind, meaning, tuple((place, int(count)) for place, count in re.findall(r"\((\w+), (\d)\)", roots)))
+        for kind, meaning, roots in rows
+    ]
+
+
 def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 - fixed names
 

@@ -6,8 +6,9 @@ the roots' signs and multiplicities alone the table can be read too, literally, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
+from itertools import chain, combinations_with_replacement, groupby, product
 from types import MappingProxyType
 
 from hypcheck.truth.kinds import Kind
@@ -63,6 +64,40 @@ def pattern_of(places: Iterable[tuple[Place, int]]) -> str:
     if sum(multiplicity for _, multiplicity in roots) == 1:
         words.append(COMPLEX)
     return " ".join(words)
+
+
+def admissible() -> frozenset[str]:
+    """Every pattern that the signs of g allow: by exact reasoning, and without the table.
+
+    g(0) < 0, g(−A) and g(B) are < 0 or roots, g(+∞) > 0 and g(−∞) < 0. So the number of roots above 0 is odd; that of
+    roots above B too, if B is none; that of roots below −A is even, if −A is none. Nothing else is needed: −A is a root
+    only if P = 0 and B only if Q = 0, and what is left of g is then a quadratic with the same signs elsewhere.
+    """
+    found: set[str] = set()
+    for number in (1, 3):
+        for places in combinations_with_replacement(Place, number):
+            positive = sum(place in (Place.OUTER, Place.AT_B, Place.ABOVE) for place in places)
+            if (
+                positive % 2 == 1
+                and (Place.AT_B in places or places.count(Place.ABOVE) % 2 == 1)
+                and (Place.AT_MINUS_A in places or places.count(Place.BELOW) % 2 == 0)
+            ):
+                found.update(_multiplicities(places))
+    return frozenset(found)
+
+
+_COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (3,))}
+
+
+def _multiplicities(places: Iterable[Place]) -> Iterator[str]:
+    """All ways for roots in the same open interval to fall together; those at a point are one root."""
+    choices = []
+    for place, group in groupby(places):
+        count = len(list(group))
+        ways = ((count,),) if place in (Place.AT_MINUS_A, Place.AT_B) else _COMPOSITIONS[count]
+        choices.append([[(place, multiplicity) for multiplicity in way] for way in ways])
+    for choice in product(*choices):
+        yield pattern_of(chain.from_iterable(choice))
 
 
 def same_signs(pattern: str, possible: Iterable[Kind]) -> tuple[Kind, ...]:

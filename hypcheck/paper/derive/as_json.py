@@ -19,7 +19,7 @@ from hypcheck.paper.ledger.entry import Entry, Evidence
 from hypcheck.paper.ledger.search import Witness
 from hypcheck.version import VERSION
 
-SCHEMA = "1.0.0"
+SCHEMA = "1.1.0"
 
 
 def lines(chosen: Chosen) -> Iterator[str]:
@@ -87,6 +87,7 @@ def _entry(entry: Entry) -> dict[str, Any]:
         "verdict": entry.verdict,
         "confirmed": entry.confirmed,
         "why": entry.why,
+        "proved_by": list(entry.proved_by),
         "printed": entry.printed or None,
         "correction": entry.correction or None,
         "follows": entry.follows,

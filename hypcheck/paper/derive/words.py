@@ -33,6 +33,8 @@ def details(entry: Entry, *, in_full: bool = False) -> Iterator[tuple[str, str]]
     if in_full and entry.printed:
         yield "printed", entry.printed
     yield "why", entry.why
+    if entry.proved_by:
+        yield "by", ", ".join(entry.proved_by)
     for evidence in entry.evidence:
         if not evidence.holds:
             yield FAILS, evidence.text

@@ -11,14 +11,18 @@ from hypcheck.derivation.formulas import Formula
 from hypcheck.derivation.proofs import proofs_of
 from hypcheck.paper.ledger.facts import Facts
 from hypcheck.paper.ledger.search import Search, Statement, Witness, counterexample, witness
+from hypcheck.proofs.build import proves
 
 PROVED, MISPRINT, FALSE, NOT_CHECKABLE = VERDICTS = ("proved", "misprint", "false", "not checkable")
 
 HOLDS = "right − left = 0"
 """Why a displayed formula is proved."""
 
-KINDS = ("identity", "chain", "programs", "search", "count")
-"""What evidence can be: equal expressions, a chain of links, proved programs, a search of pairs, counted steps."""
+KINDS = ("identity", "chain", "programs", "search", "count", "exhaustive", "coq")
+"""What evidence can be: equal expressions, a chain of links, proved programs, a search of pairs, counted steps, all of
+finitely many cases, theorems of the Coq sources."""
+
+_PROVED_BY = {"identity": "sympy", "chain": "sympy", "programs": "sympy", "exhaustive": "exhaustive", "coq": "Coq"}
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,7 @@ class Entry:
     `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
     `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
     statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
-    verdict rests on.
+    verdict rests on. `coq` names the theorems that say the same, "File.theorem" of hypcheck/proofs.
     """
 
     number: str
@@ -51,11 +55,20 @@ class Entry:
     grounds: Callable[[], tuple[Evidence, ...]] = tuple
     correction: str = ""
     printed: str = ""
+    coq: tuple[str, ...] = ()
 
     @cached_property
     def evidence(self) -> tuple[Evidence, ...]:
         """What the verdict rests on, looked for when it is asked for."""
-        return self.grounds()
+        return (*self.grounds(), by_coq(*self.coq)) if self.coq else self.grounds()
+
+    @property
+    def proved_by(self) -> tuple[str, ...]:
+        """By what the verdict is proved: Coq, sympy, exhaustive, witness. A search that finds nothing is no proof."""
+        found = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
+        if any(evidence.witnesses for evidence in self.evidence):
+            found.add("witness")
+        return tuple(word for word in ("Coq", "sympy", "exhaustive", "witness") if word in found)
 
     @property
     def confirmed(self) -> bool:
@@ -69,6 +82,14 @@ def by_chain(name: str) -> Evidence:
     """That a chain of the derivation holds, with all it needs."""
     links = len(chains()[name].links)
     return Evidence("chain", f"{links} links of “{name}” hold", proved(name), chain=name)
+
+
+def by_coq(*theorems: str) -> Evidence:
+    """That the Coq sources state these theorems and leave nothing unproved; `make prove` has Coq check them."""
+    named = [tuple(theorem.split(".")) for theorem in theorems]
+    text = ", ".join(f"{theorem} (proofs/{file}.v)" for file, theorem in named)
+    holds = all(proves(file, theorem) for file, theorem in named)
+    return Evidence("coq", f"`make prove` has Coq check {text}", holds)
 
 
 def by_programs(*formulas: Formula) -> Evidence:

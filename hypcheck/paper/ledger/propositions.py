@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from hypcheck.derivation.links import known, printed
+from hypcheck.pairs import Position
 from hypcheck.paper.ledger import statements as say
 from hypcheck.paper.ledger.entry import (
     FALSE,
@@ -17,6 +20,9 @@ from hypcheck.paper.ledger.entry import (
 )
 from hypcheck.paper.ledger.facts import Facts
 from hypcheck.paper.ledger.search import Condition, first
+from hypcheck.proofs.build import pattern_table
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.roots_patterns import PATTERNS, Place, admissible, pattern_of
 
 
 def propositions() -> tuple[Entry, ...]:
@@ -88,7 +94,51 @@ def _of_reference_10() -> tuple[Entry, ...]:
             "the text of [10] was not consulted",
             "the patterns are re-derived instead (docs/mathematics.md) and serve as an oracle of `hypcheck verify`",
         ),
+        Entry(
+            "Tables 1–3 of [10], re-derived",
+            "2",
+            "the table of root patterns has every pattern that can occur, and no other",
+            PROVED,
+            "the signs of g at −A, 0, B and ±∞ allow these patterns alone",
+            "the places of the roots against −A, 0 and B decide every pair",
+            _table_of_patterns,
+        ),
     )
+
+
+def _table_of_patterns() -> tuple[Evidence, Evidence]:
+    """That the typed table has the patterns that signs allow, each once, and that Coq's table is the same."""
+    listed = sorted(chain.from_iterable(PATTERNS.values()))
+    allowed = sorted(admissible())
+    wrong = sorted(set(listed) ^ set(allowed)) or (["a pattern twice"] if listed != allowed else [])
+    text = f"{len(listed)} patterns are listed, the {len(allowed)} that can occur"
+    ours = {(kind.value, _meaning(kind), pattern) for kind, patterns in PATTERNS.items() for pattern in patterns}
+    coqs = [
+        (kind, meaning, pattern_of((_PLACES[place], count) for place, count in roots))
+        for kind, meaning, roots in pattern_table()
+    ]
+    return (
+        Evidence("exhaustive", f"the table is wrong in {', '.join(wrong)}" if wrong else text, not wrong),
+        Evidence("coq", "proofs/RootPatterns.v has the same rows", len(coqs) == len(ours) and set(coqs) == ours),
+    )
+
+
+_PLACES = {
+    "Below": Place.BELOW,
+    "AtMinusA": Place.AT_MINUS_A,
+    "Inner": Place.INNER,
+    "Outer": Place.OUTER,
+    "AtB": Place.AT_B,
+    "Above": Place.ABOVE,
+}
+
+
+def _meaning(kind: Kind) -> str:
+    """What Coq calls the position of a kind."""
+    side = {Position.EXTERIOR: "Outside", Position.INTERIOR: "Inside"}
+    if kind.limit_of is not None:
+        return f"Touches{side[kind.limit_of]}"
+    return f"Clear{side[kind.position]}" if kind.position in side else "Crosses"
 
 
 _RING_FOLLOWS = "the ring: clear positions in the plane of the waist are refused; a phantom contact in floats around it"
