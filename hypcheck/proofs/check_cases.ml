@@ -136,8 +136,10 @@ let number = function Number s -> s | _ -> unreadable "a number is expected"
 let truth = function Bool b -> b | _ -> unreadable "true or false is expected"
 
 let accepted case =
-  Checker.check_vector (row_of_case case) (position (number (field "position" case)))
-    (truth (field "tangent" case)) (proof_of (field "certificate" case))
+  let row = row_of_case case in
+  let claim = position (number (field "position" case)) in
+  let tangent = truth (field "tangent" case) in
+  Checker.check_vector row claim tangent (proof_of (field "certificate" case))
 
 (* A row that must be refused: a number that is not finite, or a semi-axis that is not positive. *)
 let refused case =

@@ -1,0 +1,154 @@
+"""The Coq sources, what the build says without Coq, and the proved checker where it has been built."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hypcheck.casebook import vectors
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.paper.ledger import propositions
+from hypcheck.paper.ledger.book import COQ
+from hypcheck.proofs import build
+from hypcheck.proofs.weakened import CONTROL, WEAKENED, accepted
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.roots_patterns import PATTERNS
+from tests.proofs.agreement import disagreements
+
+compiled = pytest.mark.skipif(
+    not (build.CHECKER.is_file() and shutil.which("coqc")),
+    reason="`make prove` has not been run here: Coq is not asked",
+)
+
+
+def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
+    assert {path.stem for path in build.SOURCES.glob("*.v")} == set(build.FILES)
+    for name in build.FILES:
+        assert all(build.proves(name, each) for each in build.statements(name)), name
+
+
+def test_a_file_with_an_admitted_proof_proves_nothing(monkeypatch):
+    monkeypatch.setattr(build, "source", lambda _: "Lemma easy : True.\nProof. Admitted.\n(* Qed *)")
+    assert build.statements("Any") == ("easy",)
+    assert not build.proves("Any", "easy")
+    with pytest.raises(build.ProofError, match=r"Any\.v has an unproved part: Admitted"):
+        build.compile_file("Any")
+
+
+def test_each_weakened_statement_changes_one_place_of_a_file_in_the_build():
+    assert len({(change.file, change.old, change.new) for change in WEAKENED}) == len(WEAKENED) >= 20
+    for change in (*WEAKENED, CONTROL):
+        assert change.file in build.FILES
+        assert build.source(change.file).count(change.old) == 1, change
+
+
+@compiled
+def test_coq_accepts_the_checker_and_refuses_it_without_the_ring():
+    (ring,) = (change for change in WEAKENED if change.allows == "the ring as a tangency" and change.file == "Checker")
+    assert accepted(CONTROL)
+    assert not accepted(ring)
+
+
+@pytest.mark.parametrize("claim", COQ)
+def test_theorems_that_the_ledger_names_are_in_the_coq_sources(claim):
+    for theorem in COQ[claim]:
+        assert build.proves(*theorem.split(".")), theorem
+
+
+def test_derive_fails_when_a_row_of_the_root_patterns_is_missing(monkeypatch):
+    for kind in Kind:
+        monkeypatch.setattr(propositions, "PATTERNS", {**PATTERNS, kind: PATTERNS[kind][1:]})
+        patterns, coq = propositions._table_of_patterns()
+        assert not patterns.holds
+        assert not coq.holds
+        assert PATTERNS[kind][0] in patterns.text
+
+
+def test_derive_fails_when_a_pattern_stands_at_another_kind(monkeypatch):
+    moved = {**PATTERNS, Kind.EXTERIOR_RING: PATTERNS[Kind.EXTERIOR_TANGENT_TWO_POINTS]}
+    moved[Kind.EXTERIOR_TANGENT_TWO_POINTS] = PATTERNS[Kind.EXTERIOR_RING]
+    monkeypatch.setattr(propositions, "PATTERNS", moved)
+    patterns, coq = propositions._table_of_patterns()
+    assert patterns.holds
+    assert not coq.holds
+
+
+def test_prove_without_coq_names_the_packages_and_ends_2():
+    command = [sys.executable, "-m", "hypcheck.proofs"]
+    done = subprocess.run(command, env={**os.environ, "PATH": ""}, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr == (
+        "proofs: error: the proofs need programs that are not here; on Debian: "
+        "apt-get install coq ocaml-findlib ocaml-nox libzarith-ocaml-dev\n"
+    )
+
+
+def test_check_by_coq_says_what_to_do_where_the_checker_is_not_built(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(build, "CHECKER", tmp_path / "check_cases")
+    assert main(["cases", "check", "--checker", "coq"]) == 2
+    said = f"the proved checker is not built: there is no {tmp_path}/check_cases; `make prove` builds it"
+    assert capsys.readouterr().err == f"hypcheck: error: {said}\n"
+
+
+@compiled
+def test_the_proved_checker_accepts_every_frozen_vector(capfd):
+    files = sorted(str(path) for path in vectors.folder().glob("*.json"))
+    cases = sum(len(json.loads(Path(file).read_text(encoding="utf-8"))["cases"]) for file in files)
+    assert build.run_checker(files) == 0
+    assert capfd.readouterr().out == f"{cases} cases checked by the proved checker, none with a wrong label\n"
+
+
+def _interior_called_exterior(case):
+    case["position"] = 1
+
+
+def _tangency_called_crossing(case):
+    case["tangent"] = False
+
+
+def _root_moved(case):
+    case["certificate"]["double_root"] += "0"
+
+
+@compiled
+@pytest.mark.parametrize("damage", [_interior_called_exterior, _tangency_called_crossing, _root_moved])
+def test_the_proved_checker_refuses_a_wrong_label(damage, capfd, tmp_path):
+    file = json.loads((vectors.folder() / "tangent.json").read_text(encoding="utf-8"))
+    damage(file["cases"][7])
+    (tmp_path / "wrong.json").write_text(json.dumps(file), encoding="utf-8")
+    assert build.run_checker([str(tmp_path / "wrong.json")]) == 1
+    said = capfd.readouterr().out
+    assert f"case {file['cases'][7]['id']}: the certificate does not prove the label" in said
+    assert said.endswith("checked by the proved checker, 1 with a wrong label\n")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{", "the file ends in the middle of a value"),
+        ('{"content": "positions", "cases": [{"id": "a"}]}', 'case a: there is no "hex"'),
+        ('{"content": "positions", "cases": 3}', "a list is expected"),
+    ],
+)
+def test_the_proved_checker_names_a_file_that_it_cannot_read(text, said, tmp_path):
+    (tmp_path / "bad.json").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as raised:
+        build.run_checker([str(tmp_path / "bad.json")])
+    assert str(raised.value) == f"{tmp_path}/bad.json: {said}"
+
+
+@compiled
+def test_the_proved_checker_and_python_agree_on_right_and_wrong_certificates():
+    number, proved, different = disagreements(2000, seed=2)
+    assert different == []
+    assert number >= 2000
+    assert 200 < proved < number - 200
