@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from hypcheck.errors import HypcheckError, InputError
+from hypcheck.errors import Exit, HypcheckError, InputError
 
 SOURCES = Path(__file__).parent
 BUILT = SOURCES.parents[1] / "build" / "proofs"
@@ -50,7 +50,7 @@ _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 class ProofError(HypcheckError):
     """A file that Coq refuses, or an assumption that is not allowed."""
 
-    exit_code = 1
+    exit_code = Exit.WRONG
 
 
 @dataclass(frozen=True, slots=True)
