@@ -39,7 +39,7 @@ def test_c_is_within_its_bound(name, precision, tmp_path):
     for question in ("position", "interior") if name != "tower" else ("position", "exterior", "interior", "contact"):
         chosen = replace(SCENES[name], question=question)
         plan = plan_of(chosen, precision)
-        worst, asked = worst_error(asking(built(tmp_path, chosen, "c", precision), "c"), plan, 512)
+        worst, asked = worst_error(asking(built(tmp_path, chosen, "c", precision), "c"), plan, 128)
         assert asked > 0
         assert worst <= min(8, plan.bound_u)
 

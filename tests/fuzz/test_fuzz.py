@@ -42,13 +42,13 @@ def test_real_input_is_a_value(name):
     assert "finding" not in kinds
 
 
-def test_some_thousand_inputs_for_all_readers():
-    tally = run(4000, seed=2, names=tuple(READERS), processes=2)
-    assert tally.count >= 3900
+def test_two_thousand_inputs_for_all_readers():
+    tally = run(2000, seed=2, names=tuple(READERS), processes=2)
+    assert tally.count >= 1900
     assert not tally.findings, tally.findings[0]
     assert not tally.failed
     assert all(kinds["refused"] for kinds in tally.kinds.values())
-    assert sum(kinds["value"] for kinds in tally.kinds.values()) > 400
+    assert sum(kinds["value"] for kinds in tally.kinds.values()) > 200
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from tests.kernel.compiling import (
     shared_library,
 )
 
-ROWS = 60_000
+ROWS = 24_000
 
 
 @pytest.fixture(scope="module")

@@ -67,7 +67,7 @@ def test_a_way_keeps_to_a_side_exactly_where_it_alone_does(side, sizes, reach, c
     seen = set()
     for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
         clear = always(side, sizes, start, end, center)
-        for lane in range(number, COUNT, 12):
+        for lane in range(2 * number, COUNT, 24):
             assert clear[lane] == alone(side, sizes, start, end, center, lane)
             seen.add(bool(clear[lane]))
     assert seen == {True, False}
