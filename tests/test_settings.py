@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from hypcheck import toml
 from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
 from hypcheck.cli.main import main
-from hypcheck.cli.settings import _KEYS, _UNSET, ABOUT_ONE, COMMANDS, FILE, read_settings
+from hypcheck.cli.settings import _KEYS, _UNSET, ABOUT_ONE, COMMANDS, FILE, in_effect, read_settings
+from hypcheck.cli.verify import verify
 from hypcheck.errors import InputError
 from hypcheck.record import read
 from tests.undrawn import COMMAND
@@ -192,6 +193,14 @@ def test_a_run_as_strict_as_the_defaults_tells_nothing_of_settings(project, caps
     assert capsys.readouterr().err.splitlines() == ["hypcheck: verifying builtin:fast"]
     assert "settings" not in read(Path("out/record.jsonl")).header
     assert json.loads(Path("out/summary.json").read_text())["settings"] is None
+
+
+@pytest.mark.parametrize(("families", "weaker"), [("*", False), ("*,ring", False), ("extreme", True), ("ring", True)])
+def test_a_choice_of_families_weakens_the_gate_only_where_it_leaves_out_one(project, families, weaker):
+    context = verify.make_context("verify", ["builtin:fast", "--families", families])
+    with context:
+        found = in_effect(context)
+    assert [each["option"] for each in (found or {"weakened": []})["weakened"]] == ["--families"] * weaker
 
 
 def test_replay_tells_the_settings_that_weaken_its_judgement(project, capsys):

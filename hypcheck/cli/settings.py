@@ -110,7 +110,19 @@ def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any
         return bool(value > default)
     if name in _SMALLER:
         return bool(value < default)
+    if name == "families":
+        return _leaves_out_families(str(value))
     return name in _UNSET or (name in _OTHER and value != default)
+
+
+def _leaves_out_families(value: str) -> bool:
+    """Whether this choice lacks a family that is asked by default; one that names nothing is refused later on."""
+    from hypcheck.casebook.families import select
+
+    try:
+        return not set(select()) <= set(select([name for name in map(str.strip, value.split(",")) if name]))
+    except InputError:
+        return True
 
 
 def _as_text(value: object) -> str:
