@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.options import Number, Place
+from hypcheck.cli.options import Number, Place, names_in
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
@@ -53,7 +53,6 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
-    from hypcheck.cli.verify import names_in
     from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.ourselves import Unchanged
     from hypcheck.processes import usable_processors

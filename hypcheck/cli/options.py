@@ -83,6 +83,11 @@ def limits_of(startup_timeout: float, timeout: float, restarts: int, memory: str
     return Limits(startup_timeout, timeout, restarts, bytes_of(memory))
 
 
+def names_in(text: str | None) -> tuple[str, ...]:
+    """The names in a list separated by commas; none of None."""
+    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
+
+
 def bytes_of(text: str) -> int:
     """A size such as 4G, 512M or 1000000 in bytes. Raises InputError."""
     known = text[-1:].upper() in _SUFFIXES

@@ -1,45 +1,24 @@
-"""`hypcheck verify`: options into a plan, the run under a progress bar, the reports, the exit code."""
+"""`hypcheck verify`: which of its two runs is meant, and the options that this run has: its parameters."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict
-from fractions import Fraction
+from collections.abc import Collection
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.options import Number, Place, limits_of, with_limits
-from hypcheck.cli.recording import Part, record_and_report
-from hypcheck.cli.resuming import folder_of, resumed
+from hypcheck.cli.conformance import conformance
+from hypcheck.cli.options import Number, Place, with_limits
+from hypcheck.cli.resuming import folder_of
+from hypcheck.cli.self_check import self_check
 from hypcheck.cli.settings import FILE, Settings, in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
-from hypcheck.visible import printable, visible
-
-OURS_ONLY = ("oracles", "judged", "roots", "meshes")
-"""Options of a run without SPEC."""
-
-GATE_ONLY = (
-    "max_abstained",
-    "fail_on",
-    "deterministic",
-    "known_failures",
-    "update",
-    "precision",
-    "question",
-    "domain",
-    "startup_timeout",
-    "timeout",
-    "restarts",
-    "memory",
-    "resume",
-    "cluster",
-)
-"""Options of a run with SPEC."""
+from hypcheck.visible import visible
 
 _COUNT = Whole(1)
 
@@ -99,16 +78,17 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     the SPECs. Each option that weakens the gate is told at the start and in every report.
     """
     chosen = _chosen(context, specs, of_ourselves=options.pop("of_ourselves"))
-    unused = OURS_ONLY if chosen else GATE_ONLY
+    run = conformance if chosen else self_check
+    unused = options.keys() - signature(run).parameters.keys()
     _refuse_others(context, unused, chosen=chosen, given=specs)
     if options["resume"] and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
         options["out"] = folder_of(options["resume"])
     settings = in_effect(context, unused)
-    options["title"] = "verifying hypcheck itself, no implementation"
+    used = {name: value for name, value in options.items() if name not in unused}
     if chosen:
-        options["title"] = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
-    code = _gate(chosen, options, settings) if chosen else _ourselves(options, settings)
-    context.exit(code)
+        title = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
+        context.exit(conformance(title, settings, specs=chosen, **used))
+    context.exit(self_check("verifying hypcheck itself, no implementation", settings, **used))
 
 
 def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: bool) -> tuple[str, ...]:
@@ -128,119 +108,10 @@ def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: boo
 
 
 def _refuse_others(
-    context: click.Context, names: Iterable[str], *, chosen: tuple[str, ...], given: tuple[str, ...]
+    context: click.Context, unused: Collection[str], *, chosen: tuple[str, ...], given: tuple[str, ...]
 ) -> None:
-    for name in names:
-        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
-            option = "--" + name.replace("_", "-")
+    """Raise InputError where an option was typed that the run does not have."""
+    for option in context.command.params:
+        if option.name in unused and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE:
             hint = f"; {FILE} names one, and --self leaves it aside" if chosen != given else ""
-            raise InputError(f"{option} is for a run {'without' if chosen else 'with'} SPEC{hint}")
-
-
-def _ourselves(options: dict[str, Any], settings: Mapping[str, Any] | None) -> int:
-    from hypcheck.processes import usable_processors
-    from hypcheck.verify import run
-    from hypcheck.verify.plan import Plan
-
-    plan = Plan(
-        families=names_in(options["families"]),
-        oracles=_oracles(options["oracles"]),
-        count=max(1, options["count"]),
-        judged=options["judged"],
-        roots=options["roots"],
-        meshes=options["meshes"],
-        seed=options["seed"],
-        workers=options["workers"] or usable_processors(),
-        tolerance=Fraction(options["tolerance"]),
-    )
-    outcome = run.Outcome()
-    record_and_report(
-        options["out"],
-        run.options(plan),
-        lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
-        lambda: outcome.exit_code,
-        options["title"],
-        {"settings": settings},
-    )
-    return outcome.exit_code
-
-
-def _gate(specs: tuple[str, ...], options: dict[str, Any], settings: Mapping[str, Any] | None) -> int:
-    from hypcheck.gate import run
-    from hypcheck.gate.fingerprint import fingerprints
-    from hypcheck.gate.known_failures import update
-    from hypcheck.gate.lines import GateOutcome
-    from hypcheck.gate.ourselves import Unchanged
-    from hypcheck.gate.plan import GatePlan
-    from hypcheck.gate.resuming import Resumed
-    from hypcheck.methods.description import parse_domain
-    from hypcheck.report.write import import_all
-
-    listed: Path | None = options["known_failures"]
-    plan = GatePlan(
-        specs=specs,
-        families=names_in(options["families"]),
-        count=options["count"],
-        seed=options["seed"],
-        tolerance=Fraction(options["tolerance"]),
-        max_abstained=options["max_abstained"],
-        fail_on=options["fail_on"],
-        deterministic=options["deterministic"],
-        known_failures=listed if listed is not None and not (options["update"] and not listed.exists()) else None,
-        precision=options["precision"],
-        question=options["question"],
-        domain=None if options["domain"] is None else parse_domain(options["domain"]),
-        limits=limits_of(options["startup_timeout"], options["timeout"], options["restarts"], options["memory"]),
-        workers=options["workers"],
-        cluster=options["cluster"],
-    )
-    if options["update"] and (listed is None or plan.filtered):
-        raise InputError(
-            "--update needs --known-failures and a run of all families, or it would forget what it skipped"
-        )
-    cases, files = run.size(plan), fingerprints(plan.specs, plan.known_failures)
-    shown = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
-    import_all()
-    unchanged, changed = Unchanged(files), list[str]()
-    begun: Resumed | int = Resumed()
-    if options["resume"] is not None:
-        begun = resumed(options["resume"], options["out"], plan, shown, files, cases)
-    if isinstance(begun, int):
-        return begun
-    outcome, state, done = GateOutcome(), begun.state, begun.done(cases)
-    record = record_and_report(
-        options["out"],
-        shown,
-        lambda recorder: [
-            Part(
-                "gate",
-                cases * len(specs),
-                lambda advance: run.run(plan, recorder, outcome, advance, state),
-                "cases",
-                done,
-            ),
-            Part("files", 0, lambda _: changed.extend(unchanged.record_changes(recorder))),
-        ],
-        lambda: outcome.exit_code or int(bool(changed)),
-        options["title"],
-        {"files": files, "program": unchanged.program, "settings": settings},
-        carried=begun.carried,
-    )
-    if options["update"] and listed is not None and not changed:
-        click.echo(printable(update(listed, record)))
-    return outcome.exit_code or int(bool(changed))
-
-
-def names_in(text: str | None) -> tuple[str, ...]:
-    """The names in a list separated by commas; none of None."""
-    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
-
-
-def _oracles(text: str) -> tuple[str, ...]:
-    from hypcheck.verify.opinions import ORACLES
-
-    names = names_in(text)
-    unknown = [name for name in names if name not in ORACLES]
-    if unknown or not names:
-        raise InputError(f"--oracles: {unknown[0] if unknown else text!r} is no oracle; there are {', '.join(ORACLES)}")
-    return names
+            raise InputError(f"{option.opts[0]} is for a run {'without' if chosen else 'with'} SPEC{hint}")
