@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterable
 from enum import IntEnum
 
@@ -92,6 +93,23 @@ class UnavailableError(HypcheckError):
     """An optional part (an oracle, a plot) cannot run here; the sentence says why and what would enable it."""
 
     exit_code = Exit.USAGE
+
+
+class SystemLimitError(HypcheckError):
+    """The system has no more files, processes, memory or semaphores for us; nothing is at fault that is tested."""
+
+    exit_code = Exit.USAGE
+
+
+SCARCE = (errno.EMFILE, errno.ENFILE, errno.EAGAIN, errno.ENOMEM)
+"""Files that may be open, processes and memory, of which this account or all together have as many as they may."""
+
+
+def limit_reached(error: BaseException) -> SystemLimitError | None:
+    """What to raise in place of an error that a limit of the system led to; None for any other."""
+    if isinstance(error, OSError) and error.errno in SCARCE:
+        return SystemLimitError(f"the system gives no more: {system_reason(error)}; see `ulimit -a`")
+    return None
 
 
 class Terminated(BaseException):

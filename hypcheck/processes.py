@@ -16,6 +16,8 @@ from itertools import chain, islice
 from multiprocessing import active_children, get_context, parent_process, resource_tracker, util
 from typing import Any, TypeVar
 
+from hypcheck.errors import SystemLimitError, limit_reached, system_reason
+
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
@@ -45,7 +47,7 @@ def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 @contextmanager
 def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
     """The same, with a process of its own for a single worker too."""
-    _prepare_children()
+    require_semaphores()
     executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
         yield executor
@@ -55,6 +57,21 @@ def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
             worker.terminate()
         raise
     executor.shutdown()
+
+
+def require_semaphores() -> None:
+    """Raise SystemLimitError where processes cannot be given work, since the system makes no semaphores.
+
+    They are in shared memory, which may be full, missing or read-only.
+    """
+    _prepare_children()  # the first semaphore starts the process that looks after them
+    try:
+        get_context("spawn").Lock()
+    except OSError as error:
+        raise limit_reached(error) or SystemLimitError(
+            "no process can be given work: the system makes no semaphore (on Linux in /dev/shm): "
+            f"{system_reason(error)}"
+        ) from None
 
 
 def perform(
@@ -131,6 +148,7 @@ def _finished(function: Callable[[Task], Result], task: Task | _Trouble, future:
 def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:
     """Each task with its result, in order, done by a process that has done nothing before; `workers` at a time."""
     todo = list(tasks)
+    require_semaphores()
     with interrupts_held():  # the thread that starts further processes holds them as long as it lives
         pool = get_context("spawn").Pool(max(1, workers), initializer=end_with_parent, maxtasksperchild=1)
     with pool:

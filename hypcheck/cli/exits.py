@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import click
 
-from hypcheck.errors import Exit, HypcheckError, Terminated, system_reason
+from hypcheck.errors import Exit, HypcheckError, Terminated, limit_reached, system_reason
 from hypcheck.suggesting import advice
 from hypcheck.visible import sentence
 
@@ -61,15 +61,11 @@ def _said(error: BaseException) -> str:
 def _system(error: BaseException) -> Ending:
     if isinstance(error, OSError) and error.errno in _FULL_OR_BROKEN:
         return Ending(Exit.USAGE, (f"hypcheck: error: cannot write: {sentence(system_reason(error))}",))
-    if isinstance(error, OSError) and error.errno in _SCARCE:
-        reason = sentence(system_reason(error))
-        return Ending(Exit.USAGE, (f"hypcheck: error: the system gives no more: {reason}; see `ulimit -a`",))
-    return _internal(error)
+    limit = limit_reached(error)
+    return _internal(error) if limit is None else _expected(limit)
 
 
 _FULL_OR_BROKEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
-_SCARCE = (errno.EMFILE, errno.ENFILE, errno.EAGAIN, errno.ENOMEM)
-"""Files that may be open, processes and memory, of which this account or all together have as many as they may."""
 
 
 def _internal(error: BaseException) -> Ending:

@@ -23,8 +23,7 @@ def process() -> NoReturn:
     An interrupt can come while a pool of workers holds a lock, which nobody will then let go, and Python waits for the
     pool's threads as it ends. Everything is written by now, and the workers are gone, so there is no waiting.
     """
-    _fill_closed_descriptors()
-    code = main()
+    code = _fill_closed_descriptors() or main()
     if code not in INTERRUPTED:
         sys.exit(code)
     with suppress(OSError, ValueError, AttributeError):
@@ -32,11 +31,28 @@ def process() -> NoReturn:
     os._exit(code)
 
 
-def _fill_closed_descriptors() -> None:
-    """Let no file of ours take the place of a closed standard stream, into which a library may write."""
-    while (number := os.open(os.devnull, os.O_RDWR)) < 3:
-        os.set_inheritable(number, True)
-    os.close(number)
+def _fill_closed_descriptors() -> int:
+    """Let no file of ours take the place of a closed standard stream, into which a library may write.
+
+    0, or the exit code where that cannot be done.
+    """
+    try:
+        while _is_closed(0) or _is_closed(1) or _is_closed(2):
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+    except OSError as error:
+        with suppress(OSError):
+            reason = (error.strerror or str(error)).lower()
+            os.write(2, f"hypcheck: error: cannot open {os.devnull} for a closed standard stream: {reason}\n".encode())
+        return 2
+    return 0
+
+
+def _is_closed(stream: int) -> bool:
+    try:
+        os.fstat(stream)
+    except OSError:
+        return True
+    return False
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

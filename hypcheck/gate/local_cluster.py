@@ -25,7 +25,7 @@ import distributed
 from distributed.security import Security
 
 from hypcheck.errors import UnavailableError
-from hypcheck.processes import interrupts_held
+from hypcheck.processes import interrupts_held, require_semaphores
 
 CLOSE = 1
 """Seconds that the workers have to close: they hold nothing that could be lost."""
@@ -61,6 +61,7 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
     All of them end with the block, willing or not. Raises UnavailableError where no certificate can be made.
     """
     security = _temporary_security()
+    require_semaphores()
     others = active_children()
     with _scratch_folder() as scratch:
         try:

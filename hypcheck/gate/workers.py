@@ -19,7 +19,7 @@ from multiprocessing.context import SpawnProcess
 
 import numpy as np
 
-from hypcheck.errors import Exit, HypcheckError
+from hypcheck.errors import Exit, HypcheckError, limit_reached
 from hypcheck.gate.frozen import read_here, take
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
@@ -248,7 +248,7 @@ def _serve(line: Connection, opening: Opening, rules: Rules, declared: Descripti
     except HypcheckError as error:
         line.send(error)
     except Exception as error:  # noqa: BLE001 - whatever it is, the parent tells it
-        line.send(RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
+        line.send(limit_reached(error) or RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
 
 
 def _require_same_program(program: str) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 GUARD = """
+exec >&- 2>&-
 (
     while sleep "$3"; do
         read -r line < /proc/$PPID/stat || exit

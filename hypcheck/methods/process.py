@@ -21,7 +21,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
-from hypcheck.errors import system_reason
+from hypcheck.errors import limit_reached, system_reason
 from hypcheck.methods.clock import Clock
 from hypcheck.methods.detached import GUARD, LOOK, end_marked, new_mark
 from hypcheck.methods.evidence import Tail
@@ -76,7 +76,7 @@ class Process:
                 env={**os.environ, **ONE_THREAD, self._mark: "1"},
             )
         except OSError as error:
-            raise StartError(_not_run(words[0], error)) from None
+            raise limit_reached(error) or StartError(_not_run(words[0], error)) from None
         self._guard = _guard(self._popen.pid, self._mark)
         self._memory = MemoryWatch(self._popen.pid, self._mark, limits.memory)
         self._tail = Tail()
@@ -261,9 +261,7 @@ def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
     try:
         return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
             ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark, str(LOOK), str(int(signal.SIGSTOP))),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,  # it closes the others itself: the null device may be missing
             start_new_session=True,
         )
     except OSError:

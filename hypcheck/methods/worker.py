@@ -32,7 +32,8 @@ class Line:
 
     def __init__(self) -> None:
         self._requests, self._replies = os.dup(0), os.dup(1)
-        nothing = os.open(os.devnull, os.O_RDONLY)
+        nothing, end = os.pipe()  # as the null device, which may be missing, it has nothing to read
+        os.close(end)
         os.dup2(nothing, 0)
         os.dup2(2, 1)
         os.close(nothing)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 import os
 import platform
+import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from datetime import datetime, timezone
@@ -50,6 +51,7 @@ class Recorder:
     ) -> None:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
+        self._began = time.monotonic()  # the clock may be set meanwhile
         self._lines = [line for line in carried if line["type"] != PROGRESS]
         self._progress: Line | None = next((line for line in carried if line["type"] == PROGRESS), None)
         self._place = len(self._lines)
@@ -85,7 +87,7 @@ class Recorder:
 
     def close(self, exit_code: int) -> Record:
         """Write the footer; the record as it would be read back."""
-        seconds = (datetime.now(timezone.utc) - self._started).total_seconds()
+        seconds = time.monotonic() - self._began
         footer: Line = {"type": "footer", "lines": len(self._lines) + 2, "exit_code": exit_code, "seconds": seconds}
         self._ending = (footer,)
         if self._progress is None:

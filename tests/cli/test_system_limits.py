@@ -1,0 +1,101 @@
+"""What the system has not is told of the system, in one sentence with exit code 2, and of nothing that is tested."""
+
+from __future__ import annotations
+
+import errno
+import os
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck import processes
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError, SystemLimitError, limit_reached
+from hypcheck.methods.opening import open_implementation
+from hypcheck.record.writing import Recorder
+from tests.miniatures import LIMITS, command, function, rows, truth
+
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_NOFILE, (8, 8))
+from hypcheck.cli.main import process
+process()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such limits")
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_path):
+    words = ["verify", function("right"), "--families=ring", "--count=10", f"--workers={workers}", f"--out={tmp_path}"]
+    done = subprocess.run([sys.executable, "-c", LIMITED, *words], capture_output=True, text=True, check=False)
+    assert done.stderr.splitlines()[-1] == (
+        "hypcheck: error: the system gives no more: too many open files; see `ulimit -a`"
+    )
+    assert done.returncode == 2
+
+
+@pytest.mark.parametrize("reason", [errno.EROFS, errno.ENOENT, errno.EACCES])
+def test_shared_memory_that_takes_no_semaphore_is_named(reason, monkeypatch, capsys):
+    class Context:
+        def Lock(self):
+            raise OSError(reason, os.strerror(reason))
+
+    monkeypatch.setattr(processes, "get_context", lambda _: Context())
+    assert main(["simulate", "tower", "--table", "5", "--runs", "1", "--workers", "2"]) == 2
+    assert capsys.readouterr().err == (
+        "hypcheck: error: no process can be given work: the system makes no semaphore (on Linux in /dev/shm): "
+        f"{os.strerror(reason).lower()}\n"
+    )
+
+
+def test_an_implementation_is_asked_without_a_null_device(monkeypatch):
+    monkeypatch.setattr(os, "devnull", "/missing/null")
+    some = rows(lucky=True)
+    with open_implementation(command("right"), LIMITS) as it:
+        assert it.classify(some).answers.tolist() == truth(some).tolist()
+        assert it._runs.session()._process._guard is not None
+
+
+WITHOUT_NULL = """
+import os, sys
+os.devnull = "/missing/null"
+from hypcheck.cli.main import process
+process()
+"""
+
+
+def test_a_missing_null_device_is_named_where_a_closed_stream_needs_it_and_else_not_needed():
+    words = [sys.executable, "-c", WITHOUT_NULL, "--version"]
+    assert subprocess.run(words, capture_output=True, check=False).returncode == 0
+    done = subprocess.run(["sh", "-c", 'exec "$@" <&-', "sh", *words], capture_output=True, text=True, check=False)  # noqa: S607
+    assert done.stderr == (
+        "hypcheck: error: cannot open /missing/null for a closed standard stream: no such file or directory\n"
+    )
+    assert done.returncode == 2
+
+
+def test_only_limits_of_the_system_are_taken_for_such():
+    assert isinstance(limit_reached(OSError(errno.EMFILE, "Too many open files")), SystemLimitError)
+    assert limit_reached(PermissionError(errno.EACCES, "Permission denied")) is None
+    assert limit_reached(InputError("")) is None
+
+
+def test_seconds_of_a_record_do_not_follow_a_clock_that_is_set(monkeypatch, tmp_path):
+    class Set:
+        """A clock that somebody sets back by a day whenever it is looked at."""
+
+        day = 28
+
+        @classmethod
+        def now(cls, zone):
+            cls.day -= 1
+            return real(2026, 1, cls.day, tzinfo=zone)
+
+    from hypcheck.record import writing
+
+    real = writing.datetime
+    monkeypatch.setattr(writing, "datetime", Set)
+    with (tmp_path / "record.jsonl").open("w") as stream:
+        record = Recorder(stream, {}).close(0)
+    assert 0 <= record.footer["seconds"] < 60
