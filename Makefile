@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel test lint cases check-cases prove paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test lint quick cases check-cases prove paper mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -27,6 +27,12 @@ reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minut
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,peers]'
 	$(BIN)/hypcheck bench --out reports/reference/bench
 	$(BIN)/hypcheck report reports/reference/bench --format overview --out reports/reference/bench/README.md
+
+check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): between two edits
+	$(MAKE) --no-print-directory --jobs 2 lint quick
+
+quick: $(VENV)/ready-dev
+	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow'
 
 test: lint check-cases ## lint, format, strict types, import layers and every test
 	$(BIN)/python -m pytest -n auto --dist worksteal

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import signal
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -24,6 +25,43 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 # A worker holds all test modules, sympy and matplotlib. To look through them again and again for garbage would take a
 # fifth of its time: they are kept out of it, and the collector runs rarely.
 gc.disable()
+
+SLOW = {
+    "": "settings wheel",
+    "bench": "foreign kernel_targets plan_measure run scenes",
+    "cases": "labels reading",
+    "classify": "blocks processes tables",
+    "cli": "exits leaving startup",
+    "emission": "extremes foreign_text gated kernels limits scenes text",
+    "fuzz": "fuzz",
+    "gate": "again cluster cluster_interrupted cluster_refused cluster_versions extremes gate interrupted "
+    "local_cluster reports resume resume_refused schedule workers",
+    "hunt": "cli minimise search",
+    "kernel": "attack header parallel_lines printing_languages sanitizers",
+    "methods": "commands functions libraries processes",
+    "mutants": "mutants",
+    "paper": "ledger_formats motion simulate_cli tower",
+    "replay": "replay",
+    "report": "browser cli_report page scene_map simulation_pictures svg write",
+    "scaffold": "adapters requirement shared",
+    "soak": "soak",
+    "truth": "mesh motion nearest nearest_bounds roots_table",
+    "verify": "interrupted run",
+}
+"""Modules, by folder, that take more than three seconds or wait for much: `make check` leaves them out."""
+
+
+def pytest_collection_modifyitems(items):
+    """Mark the tests of slow modules."""
+    slow = {module_of(folder, name) for folder, names in SLOW.items() for name in names.split()}
+    for item in items:
+        if item.path in slow:
+            item.add_marker(pytest.mark.slow)
+
+
+def module_of(folder, name):
+    """The file of a module that SLOW names."""
+    return Path(__file__).parent / folder / f"test_{name}.py"
 
 
 def pytest_collection_finish():
