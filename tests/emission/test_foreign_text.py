@@ -46,16 +46,15 @@ def test_what_cannot_be_seen_is_escaped_and_nothing_ends_a_comment_or_a_line():
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-@pytest.mark.parametrize("word", [NASTY, "a tower\\", '""'], ids=["everything", "backslash", "marks"])
-def test_a_kernel_with_a_nasty_name_is_built_without_a_warning_and_answers(language, word, tmp_path):
+def test_a_kernel_with_a_nasty_name_is_built_without_a_warning_and_answers(language, tmp_path):
     """As the same kernel with a plain name does; warnings are errors, and C's trigraphs count."""
     skip_without(language)
-    for name in ("named", "plain"):
-        (tmp_path / name).mkdir()
-    named = built(tmp_path / "named", scene_named(word), language)
-    plain = built(tmp_path / "plain", scene_named("tree"), language)
     sizes = plan_of(scene_named("tree")).settings[0].setting.sizes
     rows = np.array([[*sizes, x, 0.1, 0.0] for x in (0.1, 0.8, 1.5, 4.0, 9.0)])
-    found = asking(named, language)(rows)
-    assert found.tolist() == asking(plain, language)(rows).tolist()
-    assert len(set(found.tolist())) > 1
+    found = []
+    for place, name in enumerate(("tree", NASTY, "a tower\\", '""')):
+        folder = tmp_path / str(place)
+        folder.mkdir()
+        found.append(asking(built(folder, scene_named(name), language), language)(rows).tolist())
+    assert found == [found[0]] * 4
+    assert len(set(found[0])) > 1
