@@ -32,9 +32,10 @@ class Cluster:
         self.address = json.loads(self._file.read_text())["address"]
 
     def start_workers(self, count: int, environment: dict[str, str] | None = None, home: Path = HOME) -> None:
-        """Workers, each of which is started again when it ends, with the hypcheck in the folder `home`."""
+        """Workers, with the hypcheck in the folder `home`; where there are several, one that ends is started again."""
         place = ["--local-directory", str(self._folder)]
         each = ["--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0"]
+        each += ["--no-nanny"] if count == 1 else []
         self._start(home, environment or {}, "dask_worker", *each, *place)
 
     def _start(self, home: Path, environment: dict[str, str], program: str, *options: str) -> None:
