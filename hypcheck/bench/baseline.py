@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from statistics import median
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.contenders import Contender
+from hypcheck.bench.contenders.foreign import Foreign
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.statistics import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
@@ -86,6 +87,15 @@ def speeds_of(lines: Iterable[Line]) -> Baseline:
     }
     floors = {(line["workload"], line["mode"]): float(line["floor"]) for line in found if line["type"] == "noise"}
     return Baseline(speeds, floors)
+
+
+def alike(before: Baseline, found: Iterable[Foreign]) -> tuple[Foreign, ...]:
+    """The SPECs' implementations, each to be timed on as many rows as it was: a call about few costs more for each."""
+    rows: dict[str, int] = {}
+    for (method, _, mode), line in before.speeds.items():
+        if mode == "batch":
+            rows[method] = max(rows.get(method, 0), line["rows"])
+    return tuple(replace(each, timed=rows.get(each.name, each.timed)) for each in found)
 
 
 def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from hypcheck.bench import (
@@ -21,7 +21,7 @@ from hypcheck.bench import (
     stability,
 )
 from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
-from hypcheck.bench.baseline import Baseline, comparisons, gated, read_baseline, require_common, speeds_of
+from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
 from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.needs import met, prepared
@@ -105,6 +105,8 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
     plan = met(prepared(plan, recorder), recorder, outcome.not_started)
+    if before is not None:
+        plan = replace(plan, foreign=alike(before, plan.foreign))
     run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
     if before is not None:
         require_common(before, gated(plan, run.found))

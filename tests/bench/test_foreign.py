@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+from dataclasses import replace
+
 import pytest
 
+from hypcheck.bench.baseline import Baseline, alike
 from hypcheck.bench.contenders import contenders, foreign
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.rounds import Entry, RefusedError, measure
@@ -121,6 +125,33 @@ def test_a_slow_one_is_asked_about_fewer_rows(tmp_path):
     slow = foreign.met(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed
     assert slow.judged < quick.judged
+
+
+def test_an_interruption_while_it_is_met_does_not_make_it_seem_slow(tmp_path, monkeypatch):
+    """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
+    times = itertools.cycle([0.05, 0.0])
+    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
+    assert foreign.met(subject(tmp_path), Limits(), []).timed == 10_000
+
+
+def test_one_that_takes_long_is_tried_once_a_batch(tmp_path, monkeypatch):
+    tried = []
+    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
+    assert foreign.met(subject(tmp_path), Limits(), []).timed == 1
+    assert len(tried) == 1
+
+
+def test_held_to_a_baseline_it_is_timed_on_as_many_rows_as_there(tmp_path):
+    other = foreign.met(subject(tmp_path), Limits(), [])
+    before = Baseline(
+        {
+            ("one", "uniform", "batch"): {"rows": 53},
+            ("one", "flight", "batch"): {"rows": 50},
+            ("one", "uniform", "single"): {"rows": 256},
+        },
+        {},
+    )
+    assert [each.timed for each in alike(before, [replace(other, name="one"), other])] == [53, other.timed]
 
 
 def test_one_that_never_answers_is_waited_for_once(tmp_path):

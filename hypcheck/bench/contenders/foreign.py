@@ -29,6 +29,9 @@ SINGLES = {"library": 256, "python": 64, "command": 16}
 not learn them; a command is asked a question for each."""
 
 _TRIED = 64
+_TRIES, _TRYING_S = 5, 0.2
+"""So often a batch is tried, unless that takes longer, and the fastest counts: after one interruption it would be asked
+about few rows."""
 _JUDGED_S, _TIMED_S = 4.0, 0.01
 """What judging one workload may take, and a timed batch."""
 
@@ -63,10 +66,17 @@ def _seconds_a_row(implementation: Implementation) -> float:
         raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")
     implementation.classify(some)  # warms it up
     while True:
-        took = min(_seconds(implementation, some) for _ in range(2))  # one may be interrupted
+        took = _fastest(implementation, some)
         if took > _TIMED_S or len(some) * 8 > LARGEST:
             return max(took / len(some), 1e-9)
         some = np.repeat(some, 8, axis=0)
+
+
+def _fastest(implementation: Implementation, rows: Rows) -> float:
+    tries = [_seconds(implementation, rows)]
+    while len(tries) < _TRIES and sum(tries) < _TRYING_S:
+        tries.append(_seconds(implementation, rows))
+    return min(tries)
 
 
 def _seconds(implementation: Implementation, rows: Rows) -> float:
