@@ -49,6 +49,9 @@ prove: $(VENV)/ready ## the machine-checked proofs, and the proved checker on th
 paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md
 
+schemas: $(VENV)/ready ## the published schema of records anew, from the values of their lines
+	$(BIN)/python -m hypcheck.record.schema hypcheck/report/schemas
+
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
 	$(BIN)/python -m tests.mutants --out docs/mutants.md
 

@@ -16,9 +16,6 @@ Mask = NDArray[np.bool_]
 FAR = 63
 """The last bin of a place, which holds everything beyond it too."""
 
-FARTHEST = 9999
-"""No octave of a float64, of a ratio of two, or of a product of a few, lies farther from 0."""
-
 _LEAST, _GREATEST = 2.0**-1000, 2.0**1000
 _DENSE = 1 << 16
 

@@ -10,14 +10,17 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
+from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
 from hypcheck import bins, judge
 from hypcheck.bins import Bins
 from hypcheck.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.record import lines
+from hypcheck.record.fields import Unsigned
+from hypcheck.record.lines import Group
 from hypcheck.rows import Rows
 
 WORST_KEPT = 3
@@ -140,29 +143,45 @@ def merged(tallies: Iterable[Tally]) -> Tally:
     )
 
 
-def line(tallied: Tally, family: str, criterion: Criterion) -> dict[str, Any]:
-    """The fields of the record's line."""
-    return {
-        "question": criterion.question,
-        "precision": criterion.precision,
-        "family": family,
-        "asked": tallied.asked,
-        "counts": dict(sorted(tallied.counts.items())),
-        "mistakes": dict(sorted(tallied.mistakes.items())),
-        "octaves": {key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
-        "size_bins": tallied.size_bins.as_lists(),
-        "place_bins": tallied.place_bins.as_lists(),
-        "worst": [_worst_line(case, criterion) for case in tallied.worst],
-    }
+def line(
+    tallied: Tally,
+    family: str,
+    criterion: Criterion,
+    *,
+    method: str,
+    title: str,
+    exact: bool = False,
+    spec: str | UnsetType = UNSET,
+    failing: list[str] | UnsetType = UNSET,
+) -> Group:
+    """The record's line; of an implementation under test, whose SPEC it is and which statuses fail the run."""
+    return Group(
+        method=method,
+        spec=spec,
+        title=title,
+        exact=exact,
+        question=criterion.question,
+        precision=criterion.precision,
+        family=family,
+        asked=tallied.asked,
+        counts=dict(sorted(tallied.counts.items())),
+        mistakes=dict(sorted(tallied.mistakes.items())),
+        octaves={key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
+        size_bins=tallied.size_bins.as_lists(),
+        place_bins=tallied.place_bins.as_lists(),
+        worst=[_worst_line(case, criterion) for case in tallied.worst],
+        faults=UNSET if failing is UNSET else _fault_lines(tallied),
+        failing=failing,
+    )
 
 
-def fault_lines(tallied: Tally) -> list[dict[str, Any]]:
+def _fault_lines(tallied: Tally) -> list[lines.Fault]:
     """The faults of the record's line: the first of each status, and the first of all up to FAULTS_KEPT."""
     first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, FAULTS_KEPT - len(first))]]
     return [
-        {"case": fault.case, "row": _hex(fault.row), "status": fault.status, "reason": fault.reason}
+        lines.Fault(case=fault.case, row=_hex(fault.row), status=fault.status, reason=fault.reason)
         for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
 
@@ -226,18 +245,18 @@ def _worst(ended: Ended, criterion: Criterion) -> tuple[Worst, ...]:
     return tuple(sorted(measured, key=lambda case: case.rank)[:WORST_KEPT])
 
 
-def _worst_line(case: Worst, criterion: Criterion) -> dict[str, Any]:
-    return {
-        "case": case.case,
-        "row": _hex(case.row),
-        "truth": case.truth,
-        "answer": case.answer,
-        "mistake": case.mistake,
-        "status": case.status,
-        "backward_error": case.error,
-        "backward_error_u": judge.in_units(case.error, criterion.unit),
-    }
+def _worst_line(case: Worst, criterion: Criterion) -> lines.WrongAnswer:
+    return lines.WrongAnswer(
+        case=case.case,
+        row=_hex(case.row),
+        truth=case.truth,
+        answer=case.answer,
+        mistake=case.mistake,
+        status=case.status,
+        backward_error=Unsigned(case.error),
+        backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
+    )
 
 
-def _hex(row: tuple[float, ...]) -> list[str]:
-    return [value.hex() for value in row]
+def _hex(row: tuple[float, ...]) -> tuple[str, ...]:
+    return tuple(value.hex() for value in row)

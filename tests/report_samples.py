@@ -7,7 +7,8 @@ import json
 
 from hypothesis import strategies as st
 
-from hypcheck.record import Record, Recorder
+from hypcheck.record import Line, Record, Recorder, plain
+from hypcheck.record.reader import line_of
 
 FOREIGN = st.lists(
     st.one_of(
@@ -204,7 +205,7 @@ def text_and_record(body=None, exit_code=0, options=None):
     stream = io.StringIO()
     recorder = Recorder(stream, {"seed": 1, "tolerance": 8.0} if options is None else options)
     for line in lines() if body is None else body:
-        recorder.add(line["type"], **{name: value for name, value in line.items() if name != "type"})
+        recorder.add(line if isinstance(line, Line) else line_of(plain(line)))
     made = recorder.close(0 if exit_code is None else exit_code)
     text = stream.getvalue()
     if exit_code is None:

@@ -87,20 +87,25 @@ def test_many_bins_are_counted_as_few_are():
     assert bins.added([]) == bins.Bins()
 
 
+def line_of(tallied):
+    """The line about an implementation under test."""
+    return groups.line(tallied, "family", CRITERION, method="mine", title="mine", spec="python:mine:f", failing=[])
+
+
 def test_parts_add_up_to_the_whole_in_any_order():
     rows = rows_near_contact(300)
     whole = groups.tally(ended(rows), CRITERION)
     cuts = [0, 1, 90, 91, 200, 300]
     parts = [groups.tally(ended(rows, *cut), CRITERION) for cut in pairwise(cuts)]
     rng = np.random.default_rng(6)
-    expected = groups.line(whole, "family", CRITERION) | {"faults": groups.fault_lines(whole)}
-    expected["counts"]["skipped"] *= len(parts)
-    assert expected["counts"]["wrong"] > 50
+    expected = line_of(whole)
+    expected.counts["skipped"] *= len(parts)
+    assert expected.counts["wrong"] > 50
     for _ in range(5):
         order = rng.permutation(len(parts))
         first = groups.merged(parts[i] for i in order[:2])
         total = groups.merged([groups.merged(parts[i] for i in order[2:]), first])
-        assert groups.line(total, "family", CRITERION) | {"faults": groups.fault_lines(total)} == expected
+        assert line_of(total) == expected
     assert groups.merged([]) == groups.Tally()
 
 
@@ -115,5 +120,5 @@ def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
     faults = [Fault((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
     faults += [Fault((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why") for n, name in enumerate(("crash", "timeout"))]
     tallied = groups.merged([groups.Tally(faults=(fault,)) for fault in reversed(faults)])
-    shown = [(fault["case"], fault["status"]) for fault in groups.fault_lines(tallied)]
+    shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]

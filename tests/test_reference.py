@@ -9,6 +9,7 @@ import pytest
 
 from hypcheck.casebook.families import select
 from hypcheck.record import SCHEMA, read
+from hypcheck.record.lines import Oracle
 from hypcheck.report import junit, markdown, summary
 from hypcheck.report.write import Around
 from hypcheck.version import VERSION
@@ -22,16 +23,16 @@ def record():
 
 
 def test_it_is_a_whole_run_of_this_version_that_held(record):
-    assert record.header["hypcheck"] == VERSION
-    assert record.header["schema"].partition(".")[0] == SCHEMA.partition(".")[0]
-    assert record.footer["exit_code"] == 0
+    assert record.header.hypcheck == VERSION
+    assert record.header.schema.partition(".")[0] == SCHEMA.partition(".")[0]
+    assert record.footer.exit_code == 0
 
 
 def test_every_family_went_through_the_oracles_in_large_numbers(record):
     asked = {}
-    for line in record.of("oracle"):
-        asked.setdefault(line["oracle"], {})[line["family"]] = line["asked"]
-        assert line["disagreeing"] == 0
+    for line in record.of(Oracle):
+        asked.setdefault(line.oracle, {})[line.family] = line.asked
+        assert line.disagreeing == 0
     families = {family.name for family in select()}
     for oracle, least in {"exact": 1_000_000, "nearest": 1_000_000, "roots": 20_000, "mesh": 20_000}.items():
         assert set(asked[oracle]) == families

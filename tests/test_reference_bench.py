@@ -10,6 +10,7 @@ import pytest
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.record import SCHEMA, read
+from hypcheck.record.measurements import Absent, Accuracy, Method
 from hypcheck.report import markdown, overview
 from hypcheck.report.write import REPORTS, Around
 from hypcheck.version import VERSION
@@ -26,18 +27,18 @@ def record():
 
 
 def test_it_is_a_whole_run_of_this_version_that_held_within_five_minutes(record):
-    assert record.header["hypcheck"] == VERSION
-    assert record.header["schema"].partition(".")[0] == SCHEMA.partition(".")[0]
-    assert (record.header["options"]["command"], record.header["options"]["quick"]) == ("bench", False)
-    assert record.footer["exit_code"] == 0
-    assert record.footer["seconds"] < 300
+    assert record.header.hypcheck == VERSION
+    assert record.header.schema.partition(".")[0] == SCHEMA.partition(".")[0]
+    assert (record.header.options["command"], record.header.options["quick"]) == ("bench", False)
+    assert record.footer.exit_code == 0
+    assert record.footer.seconds < 300
 
 
 def test_every_method_was_there_and_judged(record):
-    named = {line["method"] for line in record.of("method")}
+    named = {line.method for line in record.of(Method)}
     assert named == set(contenders(BenchPlan()))
-    assert {line["method"] for line in record.of("accuracy")} == named
-    assert not record.of("absent")
+    assert {line.method for line in record.of(Accuracy)} == named
+    assert not record.of(Absent)
 
 
 def test_the_pages_are_those_of_the_record(record):
@@ -50,7 +51,7 @@ def test_the_pictures_say_what_the_record_does(record, name):
     """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
     fresh, committed = REPORTS[name].render(record), (FOLDER / REPORTS[name].file).read_bytes()
     assert said(fresh) == said(committed)
-    methods = {line["method"] for line in record.of("method")}
+    methods = {line.method for line in record.of(Method)}
     assert lettered(fresh) - methods == lettered(committed) - methods  # a point is named where there is room for it
     assert len(said(committed)) > 50
     assert len(lettered(committed)) > 20

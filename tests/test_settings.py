@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec import UNSET
 
 from hypcheck import toml
 from hypcheck.cli.commands import COMMANDS as ALL_COMMANDS
@@ -21,6 +22,7 @@ from hypcheck.cli.settings import _KEYS, _UNSET, ABOUT_ONE, COMMANDS, FILE, in_e
 from hypcheck.cli.verify import verify
 from hypcheck.errors import InputError
 from hypcheck.record import read
+from hypcheck.record.fields import as_json
 from tests.undrawn import COMMAND
 
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -59,7 +61,7 @@ def project(tmp_path, monkeypatch):
 
 
 def options(folder="reports/latest"):
-    return read(Path(folder) / "record.jsonl").header["options"]
+    return read(Path(folder) / "record.jsonl").header.options
 
 
 def test_every_setting_reaches_the_run(project):
@@ -178,7 +180,7 @@ def test_settings_that_weaken_the_gate_are_told_at_the_start_and_in_every_report
     assert said.out.splitlines()[1].startswith(told[:100])
     folder = Path("reports/latest")
     settings = json.loads((folder / "summary.json").read_text())["settings"]
-    assert settings == read(folder / "record.jsonl").header["settings"]
+    assert settings == as_json(read(folder / "record.jsonl").header.settings)
     assert settings["file"] == FILE
     assert {"option": "--tolerance", "value": "1e+18", "default": "8", "source": FILE} in settings["weakened"]
     suites = ElementTree.parse(folder / "junit.xml").getroot()  # noqa: S314 - it was written a moment ago
@@ -191,7 +193,7 @@ def test_a_run_as_strict_as_the_defaults_tells_nothing_of_settings(project, caps
     Path(FILE).unlink()
     assert main(["verify", "builtin:fast", "--seed", "3", "--count", "400", "--tolerance", "8", "--out", "out"]) == 0
     assert capsys.readouterr().err.splitlines() == ["hypcheck: verifying builtin:fast"]
-    assert "settings" not in read(Path("out/record.jsonl")).header
+    assert read(Path("out/record.jsonl")).header.settings is UNSET
     assert json.loads(Path("out/summary.json").read_text())["settings"] is None
 
 

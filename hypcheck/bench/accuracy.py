@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +22,8 @@ from hypcheck.judge import Mistake
 from hypcheck.methods.method import Answers
 from hypcheck.pairs import Position
 from hypcheck.processes import perform
+from hypcheck.record.fields import Unsigned
+from hypcheck.record.measurements import Accuracy, Mistaken, Octave
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.truth import batch
 
@@ -142,26 +143,26 @@ def print_of(answers: Answers) -> str:
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
-def line(contender: Contender, answered: Answered, truth: Known) -> dict[str, Any]:
+def line(contender: Contender, answered: Answered, truth: Known) -> Accuracy:
     """The record's line about one method and one workload; `answered` holds at least one answer."""
     places, answers = answered.places, answered.answers
     positions, octaves = truth.positions[places], truth.octaves[places]
     said = answers != CANNOT_SAY
     wrong = said & (answers != judge.expected(positions, contender.question))
     mistakes = mistakes_of(positions[wrong], answers[wrong], contender.question)
-    return {
-        "method": contender.name,
-        "workload": answered.workload,
-        "asked": len(places),
-        "wrong": int(wrong.sum()),
-        "false_clear": mistakes[Mistake.FALSE_CLEAR],
-        "false_contact": mistakes[Mistake.FALSE_CONTACT],
-        "wrong_side": mistakes[Mistake.WRONG_SIDE],
-        "abstained": int((~said).sum()),
-        "octaves": by_octave(octaves, wrong),
-        "reliable_above": reliable_above(octaves, wrong | ~said),
-        "worst": _worst(contender, answered, truth, np.flatnonzero(wrong)),
-    }
+    return Accuracy(
+        method=contender.name,
+        workload=answered.workload,
+        asked=len(places),
+        wrong=int(wrong.sum()),
+        false_clear=mistakes[Mistake.FALSE_CLEAR],
+        false_contact=mistakes[Mistake.FALSE_CONTACT],
+        wrong_side=mistakes[Mistake.WRONG_SIDE],
+        abstained=int((~said).sum()),
+        octaves=by_octave(octaves, wrong),
+        reliable_above=Unsigned(reliable_above(octaves, wrong | ~said)),
+        worst=_worst(contender, answered, truth, np.flatnonzero(wrong)),
+    )
 
 
 def mistakes_of(positions: Positions, answers: Answers, question: str) -> Counter[Mistake]:
@@ -172,13 +173,13 @@ def mistakes_of(positions: Positions, answers: Answers, question: str) -> Counte
     return found
 
 
-def by_octave(octaves: Floats, wrong: NDArray[np.bool_]) -> list[list[int | str]]:
+def by_octave(octaves: Floats, wrong: NDArray[np.bool_]) -> list[Octave]:
     """[exponent, asked, wrong] for each octave that occurs, from the lowest up; an exact tangency is "-inf"."""
     found, octave_of = np.unique(octaves, return_inverse=True)
     numbers = np.bincount(octave_of, minlength=len(found)).tolist()
     errors = np.bincount(octave_of[wrong], minlength=len(found)).tolist()
     return [
-        [int(octave) if math.isfinite(octave) else str(octave), number, error]
+        (int(octave) if math.isfinite(octave) else str(octave), number, error)
         for octave, number, error in zip(found.tolist(), numbers, errors, strict=True)
     ]
 
@@ -204,7 +205,7 @@ def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
     return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
-def _worst(contender: Contender, answered: Answered, truth: Known, wrong: NDArray[np.intp]) -> list[dict[str, Any]]:
+def _worst(contender: Contender, answered: Answered, truth: Known, wrong: NDArray[np.intp]) -> list[Mistaken]:
     """The wrong answers that are farthest from being right, of those whose rows flip farthest away."""
     octaves = truth.octaves[answered.places[wrong]]
     tried = wrong[np.argsort(-octaves, kind="stable")][:_WORST_TRIED].tolist()
@@ -213,13 +214,13 @@ def _worst(contender: Contender, answered: Answered, truth: Known, wrong: NDArra
         place, answer = int(answered.places[index]), int(answered.answers[index])
         row = truth.rows[place].tolist()
         error = judge.error_of(row, answer, contender.question)
-        case = {
-            "case": f"{truth.workload.name}/{place}",
-            "row": [value.hex() for value in row],
-            "truth": int(truth.positions[place]),
-            "answer": answer,
-            "flip_distance": error,
-        }
+        case = Mistaken(
+            case=f"{truth.workload.name}/{place}",
+            row=tuple(value.hex() for value in row),
+            truth=int(truth.positions[place]),
+            answer=answer,
+            flip_distance=Unsigned(error),
+        )
         cases.append((error, case))
     cases.sort(key=lambda each: -each[0])
     return [case for _, case in cases[:WORST_KEPT]]

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 from statistics import median
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,8 @@ from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.statistics import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
 from hypcheck.record import Line, read
-from hypcheck.record.reading import file_of
+from hypcheck.record.measurements import Comparison, Noise, Speed
+from hypcheck.record.reader import file_of
 
 Key = tuple[str, str, str]
 """A method, a workload and a mode."""
@@ -28,9 +28,10 @@ _SEEDS = (1, 2)
 
 @dataclass(frozen=True)
 class Baseline:
-    """A run's speeds and noise."""
+    """A run's speeds that have a ratio to the reference, these ratios, and the noise."""
 
-    speeds: dict[Key, Line]
+    speeds: dict[Key, Speed]
+    ratios: dict[Key, float]
     floors: dict[tuple[str, str], float]
 
 
@@ -59,7 +60,7 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
         return None
     path = file_of(plan.baseline)
     record = read(path)
-    options = record.header["options"]
+    options = record.header.options
     if options.get("command") != "bench":
         raise InputError(f"--baseline {path}: is a record of another command; it must be one of hypcheck bench")
     if options.get("reference") != REFERENCE:
@@ -79,14 +80,14 @@ def speeds_of(lines: Iterable[Line]) -> Baseline:
 
     Earlier versions wrote LEAST_NS where an empty call was no shorter; what has no other time is held to nothing.
     """
-    found = list(lines)
-    speeds = {
-        (line["method"], line["workload"], line["mode"]): line
-        for line in found
-        if line["type"] == "speed" and line["ratio"] is not None and median(chain(*line["samples_ns"])) > LEAST_NS
-    }
-    floors = {(line["workload"], line["mode"]): float(line["floor"]) for line in found if line["type"] == "noise"}
-    return Baseline(speeds, floors)
+    baseline = Baseline({}, {}, {})
+    for line in lines:
+        if isinstance(line, Speed) and line.ratio is not None and median(chain(*line.samples_ns)) > LEAST_NS:
+            key = line.method, line.workload, line.mode
+            baseline.speeds[key], baseline.ratios[key] = line, line.ratio
+        elif isinstance(line, Noise):
+            baseline.floors[line.workload, line.mode] = line.floor
+    return baseline
 
 
 def alike(before: Baseline, found: Iterable[Foreign]) -> tuple[Foreign, ...]:
@@ -94,7 +95,7 @@ def alike(before: Baseline, found: Iterable[Foreign]) -> tuple[Foreign, ...]:
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
         if mode == "batch":
-            rows[method] = max(rows.get(method, 0), line["rows"])
+            rows[method] = max(rows.get(method, 0), line.rows)
     return tuple(replace(each, timed=rows.get(each.name, each.timed)) for each in found)
 
 
@@ -116,24 +117,24 @@ def require_common(before: Baseline, names: set[str]) -> None:
         raise InputError(f"--baseline: holds no speed of what is to be held to it: {told}")
 
 
-def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[dict[str, Any]]:
+def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[Comparison]:
     """A line for each method, workload and mode that both runs timed."""
-    for key, line in after.speeds.items():
+    for key in after.speeds:
         method, workload, mode = key
         if key in before.speeds and method != REFERENCE:
             change = change_of(before, after, key)
-            yield {
-                "method": method,
-                "workload": workload,
-                "mode": mode,
-                "before": before.speeds[key]["ratio"],
-                "after": line["ratio"],
-                "change": change.change,
-                "ci95": [change.low, change.high],
-                "verdict": change.verdict(plan.max_slowdown),
-                "allowed": plan.max_slowdown,
-                "gates": method in gates,
-            }
+            yield Comparison(
+                method=method,
+                workload=workload,
+                mode=mode,
+                before=before.ratios[key],
+                after=after.ratios[key],
+                change=change.change,
+                ci95=(change.low, change.high),
+                verdict=change.verdict(plan.max_slowdown),
+                allowed=plan.max_slowdown,
+                gates=method in gates,
+            )
 
 
 def change_of(before: Baseline, after: Baseline, key: Key) -> Change:
@@ -141,11 +142,11 @@ def change_of(before: Baseline, after: Baseline, key: Key) -> Change:
     draws = [_medians(run, key, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()
-    change = after.speeds[key]["ratio"] / before.speeds[key]["ratio"]
+    change = after.ratios[key] / before.ratios[key]
     noise = (1 + before.floors.get(key[1:], 0.0)) * (1 + after.floors.get(key[1:], 0.0))
     return Change(change, min(low, change), max(high, change), noise)
 
 
 def _medians(run: Baseline, key: Key, seed: int) -> NDArray[np.float64]:
-    reference = run.speeds[(REFERENCE, *key[1:])]["samples_ns"]
-    return resampled_medians(ratios(run.speeds[key]["samples_ns"], reference), seed)
+    reference = run.speeds[REFERENCE, key[1], key[2]].samples_ns
+    return resampled_medians(ratios(run.speeds[key].samples_ns, reference), seed)

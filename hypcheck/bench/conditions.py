@@ -14,8 +14,9 @@ def governor() -> str | None:
     return None
 
 
-def load() -> list[float] | None:
+def load() -> tuple[float, float, float] | None:
     """How many processes wanted a processor, on average of 1, 5 and 15 minutes, where the system tells."""
     with suppress(OSError, AttributeError):
-        return [round(average, 2) for average in os.getloadavg()]
+        short, middle, long = (round(average, 2) for average in os.getloadavg())
+        return short, middle, long
     return None

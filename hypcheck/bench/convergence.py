@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from hypcheck.casebook.placing import Sizes
 from hypcheck.methods.engines import FCL, PAIRINGS
 from hypcheck.methods.method import Answers
 from hypcheck.methods.scene_mesh import built, height_of
+from hypcheck.record.measurements import Convergence
 from hypcheck.rows import Rows
 from hypcheck.truth import batch
 
@@ -36,7 +36,7 @@ def _sizes(plan: BenchPlan) -> list[int]:
     return [triangles for triangles in TRIANGLES if triangles <= plan.amounts.most_triangles]
 
 
-def lines(plan: BenchPlan) -> Iterator[dict[str, Any]]:
+def lines(plan: BenchPlan) -> Iterator[Convergence]:
     """A line for each pairing and size."""
     rows = near_the_tower(plan.seed)
     truth = batch.positions(rows)
@@ -51,7 +51,7 @@ def near_the_tower(seed: int) -> Rows:
     return near(draw, Sizes(*np.repeat(np.array([NEAR_SCENES[0]]), ROWS, axis=0).T), GAPS)
 
 
-def _line(pairing: str, triangles: int, rows: Rows, truth: Answers) -> dict[str, Any]:
+def _line(pairing: str, triangles: int, rows: Rows, truth: Answers) -> Convergence:
     alpha, gamma, b, d = NEAR_SCENES[0]
     sizes = alpha, gamma, b, d
     height = height_of(sizes, rows)
@@ -65,12 +65,12 @@ def _line(pairing: str, triangles: int, rows: Rows, truth: Answers) -> dict[str,
         started = time.perf_counter_ns()
         answers = mesh.positions(rows)
         queries.append((time.perf_counter_ns() - started) / len(rows))
-    return {
-        "method": f"{FCL.name}-{pairing}",
-        "triangles": mesh.triangles,
-        "build_ns": float(np.median(builds)),
-        "query_ns": float(np.median(queries)),
-        "deviation": mesh.deviation,
-        "asked": len(rows),
-        "wrong": int(np.count_nonzero(answers != truth)),
-    }
+    return Convergence(
+        method=f"{FCL.name}-{pairing}",
+        triangles=mesh.triangles,
+        build_ns=float(np.median(builds)),
+        query_ns=float(np.median(queries)),
+        deviation=mesh.deviation,
+        asked=len(rows),
+        wrong=int(np.count_nonzero(answers != truth)),
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from hypcheck.bench import claims
 from hypcheck.bench.claims import OURS, PRINTED, PRINTED_A, PRINTED_B, RECIPROCALS, TRIGONOMETRIC, Claim
@@ -11,13 +10,14 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.session import COST, FIRST_AGAIN
 from hypcheck.bench.speed import Found, samples_of
 from hypcheck.bench.statistics import Estimate, estimate, ratios
+from hypcheck.record.measurements import Compared, Cost
 
 HOLDS, DOES_NOT_HOLD, INCONCLUSIVE = "holds", "does not hold", "inconclusive"
 
 Ratios = Mapping[str, Estimate]
 
 
-def lines(plan: BenchPlan, found: Found) -> Iterator[dict[str, Any]]:
+def lines(plan: BenchPlan, found: Found) -> Iterator[Cost]:
     """A line for each claim."""
     for claim in claims.claims(plan):
         where = f"{COST}{claim.name}-{claim.tier}"
@@ -28,22 +28,22 @@ def lines(plan: BenchPlan, found: Found) -> Iterator[dict[str, Any]]:
         to_first = {name: estimate(ratios(each, samples[first])) for name, each in samples.items()}
         noise = 1 + to_first.pop(FIRST_AGAIN).half_width
         verdict, says = _SAYS[claim.name](plan, claim, to_first, noise)
-        yield {
-            "claim": claim.text,
-            "scene": claim.scene,
-            "compared": [
-                {
-                    "name": name,
-                    "operations": claims.shown(claim.operations[name]) if name in claim.operations else None,
-                    "median_ns": estimate(samples[name]).median,
-                    "ratio": ratio.median,
-                    "ratio_ci95": [ratio.low, ratio.high],
-                }
+        yield Cost(
+            claim=claim.text,
+            scene=claim.scene,
+            compared=[
+                Compared(
+                    name=name,
+                    operations=claims.shown(claim.operations[name]) if name in claim.operations else None,
+                    median_ns=estimate(samples[name]).median,
+                    ratio=ratio.median,
+                    ratio_ci95=(ratio.low, ratio.high),
+                )
                 for name, ratio in to_first.items()
             ],
-            "verdict": verdict,
-            "says": says,
-        }
+            verdict=verdict,
+            says=says,
+        )
 
 
 def _procedures(plan: BenchPlan, claim: Claim, found: Ratios, noise: float) -> tuple[str, str]:

@@ -8,24 +8,24 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from hypcheck.bench.accuracy import timed_rows
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.processes import one_each
+from hypcheck.record.measurements import Memory
 
 ON = "uniform"
 
 
-def lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[dict[str, Any]]:
+def lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[Memory]:
     """A line for each of the methods, as they come."""
     for _, line in one_each(_line, [(plan, name) for name in names], plan.workers):
         yield line
 
 
-def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
+def _line(task: tuple[BenchPlan, str]) -> Memory:
     plan, name = task
     contender = contenders(plan)[name]
     rows = timed_rows(plan, contender, WORKLOADS[ON])
@@ -39,7 +39,7 @@ def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
         ready.answers()
     grown = peak() - before
     way.close()
-    return {"method": name, "rows": len(rows), "peak_bytes": max(0, grown)}
+    return Memory(method=name, rows=len(rows), peak_bytes=max(0, grown))
 
 
 def forget_peak() -> int:

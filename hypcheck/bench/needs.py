@@ -14,6 +14,10 @@ from hypcheck.errors import UnavailableError
 from hypcheck.methods.engines import COAL, FCL, Engine
 from hypcheck.methods.faults import StartError
 from hypcheck.record import Recorder
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import NotStarted
+from hypcheck.record.measurements import Absent
+from hypcheck.record.measurements import Compiler as CompilerLine
 
 
 def prepared(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
@@ -36,15 +40,15 @@ def met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPla
         try:
             found.append(foreign.met(spec, plan.limits, [*contenders(plan), *(each.name for each in found)]))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
-            recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
+            recorder.add(NotStarted(spec=spec, name=spec, trouble=str(error)))
             not_started.append(str(error))
     return replace(plan, foreign=tuple(found))
 
 
 def note_absent(recorder: Recorder, what: str, reason: str) -> None:
     """Record that something is not here, and why; once."""
-    if not any(line["type"] == "absent" and line["what"] == what for line in recorder.lines):
-        recorder.add("absent", what=what, reason=reason)
+    if not any(isinstance(line, Absent) and line.what == what for line in recorder.lines):
+        recorder.add(Absent(what=what, reason=reason))
 
 
 def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:
@@ -57,7 +61,7 @@ def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
 def _compiler(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     library, compiler = compiled(plan.folder)
-    recorder.add("compiler", **asdict(compiler))
+    recorder.add(decoded(asdict(compiler), CompilerLine))
     return replace(plan, compiled=library)
 
 

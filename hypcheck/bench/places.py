@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from typing import Any
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from hypcheck.judge import Mistake
 from hypcheck.methods.method import Answers
 from hypcheck.pairs import SIZES, Position
 from hypcheck.processes import perform
+from hypcheck.record.measurements import Places, Scenery
 from hypcheck.rows import CANNOT_SAY, Rows
 from hypcheck.truth import batch
 
@@ -45,26 +45,26 @@ def regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
     return {"whole": whole, "ring": ((ring - near, ring + near, count), (-near, near, count))}
 
 
-def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[dict[str, Any]]]:
+def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[Places]]:
     """The lines of each of the methods, one for each region."""
     for _, found in perform(_lines, [(plan, name) for name in names], executor):
         yield found
 
 
-def _lines(task: tuple[BenchPlan, str]) -> list[dict[str, Any]]:
+def _lines(task: tuple[BenchPlan, str]) -> list[Places]:
     plan, name = task
     contender = contenders(plan)[name]
     way = contender.load()
     try:
         return [
-            {
-                "method": name,
-                "scene": dict(zip(SIZES, SCENE, strict=True)),
-                "r": list(r),
-                "z": list(z),
-                "wrong": drawn(way.answer(rows), rows, contender.question, r[2]),
-                "region": region,
-            }
+            Places(
+                method=name,
+                scene=Scenery(**dict(zip(SIZES, SCENE, strict=True))),
+                r=r,
+                z=z,
+                wrong=drawn(way.answer(rows), rows, contender.question, r[2]),
+                region=region,
+            )
             for region, (r, z) in regions(plan).items()
             for rows in [grid(r, z)]
         ]

@@ -31,6 +31,7 @@ from hypcheck.errors import Exit, first_that_applies
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Line, Recorder
+from hypcheck.record.measurements import Conditions, Forest, Kernel, Method, Refused, Workload
 from hypcheck.scene.reading import shipped_scenes
 
 Advance = Callable[[int], object]
@@ -128,8 +129,8 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Stage
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
         for line in recorder.lines:
-            if line["type"] == "forest" and line["exact"] and line["wrong"]:
-                outcome.wrong.append(f"{line['method']} promises to be exact and is not, among {line['trees']:,} trees")
+            if isinstance(line, Forest) and line.exact and line.wrong:
+                outcome.wrong.append(f"{line.method} promises to be exact and is not, among {line.trees:,} trees")
 
     sizes = forest.sizes(plan)
     return Stage("forest", len(sizes), measure)
@@ -146,34 +147,35 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
     kernel.run(recorder, advance, plan.quick)
     for line in recorder.lines:
-        if line["type"] == "kernel" and not line["met"]:
-            low, high = line["ci95"]
-            reasons = outcome.inconclusive if low <= line["wanted"] <= high else outcome.slower
-            reasons.append(f"{line['name']}: {line['says']}")
+        if isinstance(line, Kernel) and not line.met:
+            low, high = line.ci95 or (line.measured, line.measured)
+            reasons = outcome.inconclusive if low <= line.wanted <= high else outcome.slower
+            reasons.append(f"{line.name}: {line.says}")
 
 
 def _introduce(run: _Run, advance: Advance) -> None:
     for each in run.found.values():
-        run.recorder.add("method", **introduction(each))
+        run.recorder.add(introduction(each))
     for workload in chosen_workloads(run.plan):
         count = run.plan.amounts.timed if workload.timed else run.plan.amounts.judged
         run.recorder.add(
-            "workload",
-            workload=workload.name,
-            title=workload.title,
-            text=workload.text,
-            rows=count,
-            seed=run.plan.seed,
-            timed=workload.timed,
-            scene=scene_of(workload.rows(run.plan.seed, count)),
+            Workload(
+                workload=workload.name,
+                title=workload.title,
+                text=workload.text,
+                rows=count,
+                seed=run.plan.seed,
+                timed=workload.timed,
+                scene=scene_of(workload.rows(run.plan.seed, count)),
+            )
         )
     advance(1)
 
 
-def introduction(contender: Contender) -> dict[str, Any]:
+def introduction(contender: Contender) -> Method:
     """The record's line about what a method is."""
     names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
-    return {"method": contender.name, **{name: getattr(contender, name) for name in names}}
+    return Method(method=contender.name, **{name: getattr(contender, name) for name in names})
 
 
 def _judge(run: _Run, advance: Advance) -> None:
@@ -190,13 +192,13 @@ def _judge(run: _Run, advance: Advance) -> None:
     run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
     for each in run.answers:
         if each.trouble:
-            run.recorder.add("refused", method=each.method, workload=each.workload, mode="batch", reason=each.trouble)
+            run.recorder.add(Refused(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
             run.outcome.wrong.append(f"{each.method}: {each.trouble}")
         if not len(each.places):
             continue
         line = accuracy.line(run.found[each.method], each, truths[each.workload])
-        run.recorder.add("accuracy", **line)
-        if run.found[each.method].exact and (line["wrong"] or line["abstained"]):
+        run.recorder.add(line)
+        if run.found[each.method].exact and (line.wrong or line.abstained):
             run.outcome.wrong.append(f"{each.method} promises to be exact and is not, on {each.workload}")
 
 
@@ -205,17 +207,17 @@ def _map(run: _Run, advance: Advance) -> None:
         bins = list(_counted(stability.lines(run.plan, stability.mapped(run.found), executor), advance))
         maps = list(_counted(places.lines(run.plan, places.mapped(run.found), executor), advance))
     order = list(run.found).index
-    for line in sorted(bins, key=lambda each: order(each["method"])):
-        run.recorder.add("stability", **line)
-    for found in sorted(maps, key=lambda each: order(each[0]["method"])):
+    for line in sorted(bins, key=lambda each: order(each.method)):
+        run.recorder.add(line)
+    for found in sorted(maps, key=lambda each: order(each[0].method)):
         for line in found:
-            run.recorder.add("places", **line)
+            run.recorder.add(line)
 
 
 def _bound(run: _Run, advance: Advance) -> None:
     if run.shapes:
         for line in shapes.lines(run.plan):
-            run.recorder.add("bounding", **line)
+            run.recorder.add(line)
     advance(1)
 
 
@@ -223,28 +225,28 @@ def _measure(run: _Run, advance: Advance) -> None:
     before = load()
     found = speed.measured(run.plan, speed.expected(run.answers), advance)
     run.recorder.add(
-        "conditions", governor=governor(), processors=usable_processors(), load_before=before, load_after=load()
+        Conditions(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
     )
-    for kind, line in speed.lines(found):
-        run.recorder.add(kind, **line)
-        run.speeds.append({"type": kind, **line})
-        if kind == "refused":
-            run.outcome.wrong.append(f"{line['method']}: {line['reason']}")
-    for line in costs.lines(run.plan, found):
-        run.recorder.add("cost", **line)
+    for line in speed.lines(found):
+        run.recorder.add(line)
+        run.speeds.append(line)
+        if isinstance(line, Refused):
+            run.outcome.wrong.append(f"{line.method}: {line.reason}")
+    for claim in costs.lines(run.plan, found):
+        run.recorder.add(claim)
 
 
 def _compare(run: _Run, advance: Advance) -> None:
     if run.baseline is not None:
         names, compared = gated(run.plan, run.found), False
         for line in comparisons(run.plan, run.baseline, speeds_of(run.speeds), names):
-            run.recorder.add("comparison", **line)
-            compared |= line["gates"]
-            where = f"{line['method']} on {line['workload']}, {line['mode']}"
-            if line["gates"] and line["verdict"] == "slower":
-                run.outcome.slower.append(f"{where}: {line['change']:.2f} times as slow as the baseline")
-            if line["gates"] and line["verdict"] == "inconclusive":
-                run.outcome.inconclusive.append(f"{where}: {line['change']:.2f} times as slow, give or take the noise")
+            run.recorder.add(line)
+            compared |= line.gates
+            where = f"{line.method} on {line.workload}, {line.mode}"
+            if line.gates and line.verdict == "slower":
+                run.outcome.slower.append(f"{where}: {line.change:.2f} times as slow as the baseline")
+            if line.gates and line.verdict == "inconclusive":
+                run.outcome.inconclusive.append(f"{where}: {line.change:.2f} times as slow, give or take the noise")
         if not compared:
             run.outcome.inconclusive.append("nothing that both runs timed is held to the baseline")
         advance(1)
@@ -253,13 +255,13 @@ def _compare(run: _Run, advance: Advance) -> None:
 def _refine(run: _Run, advance: Advance) -> None:
     if run.meshes:
         for line in _counted(convergence.lines(run.plan), advance):
-            run.recorder.add("convergence", **line)
+            run.recorder.add(line)
 
 
 def _weigh(run: _Run, advance: Advance) -> None:
     if run.plan.amounts.memory:
         for line in _counted(memory.lines(run.plan, run.timed), advance):
-            run.recorder.add("memory", **line)
+            run.recorder.add(line)
 
 
 def _counted(found: Iterable[Any], advance: Advance) -> Iterable[Any]:

@@ -28,6 +28,8 @@ from hypcheck.kernel.question import Question
 from hypcheck.kernel.specialise.plan import Plan, Stages, plan_of
 from hypcheck.kernel.specialise.sampling import COUNT
 from hypcheck.record import Recorder
+from hypcheck.record.measurements import Scene as SceneLine
+from hypcheck.record.measurements import SceneTimes, Shares
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.scene.reading import read_scene
 
@@ -54,15 +56,15 @@ def run(plans: Sequence[Plan], recorder: Recorder, advance: Advance, folder: Pat
         methods, _ = compiled(folder)
         for number, plan in enumerate(plans):
             line = _line(plan, methods, folder / f"scene-{number}", QUICK_ROUNDS if quick else ROUNDS)
-            recorder.add("scene", **line)
-            if line["wrong"]:
-                yield f"the kernel of the scene {plan.scene.name!r} answers {line['wrong']:,} rows wrongly"
+            recorder.add(line)
+            if line.wrong:
+                yield f"the kernel of the scene {plan.scene.name!r} answers {line.wrong:,} rows wrongly"
             advance(1)
     except UnavailableError as error:
         note_absent(recorder, COMPILER, str(error))
 
 
-def _line(plan: Plan, methods: Path, folder: Path, rounds: int) -> dict[str, Any]:
+def _line(plan: Plan, methods: Path, folder: Path, rounds: int) -> SceneLine:
     tables, kernel = _tables(plan), built(plan, folder)
     rows = np.concatenate(tables)
     batch, single, certified = kernel.batch(tables), kernel.single(rows), _certified(plan, tables)
@@ -79,28 +81,28 @@ def _line(plan: Plan, methods: Path, folder: Path, rounds: int) -> dict[str, Any
         "printed": printed.single(rows).run,
         "certified": InC(methods, place_of(CERTIFIED)).single(rows).run,
     }
-    return {
-        "scene": plan.scene.name,
-        "question": plan.question,
-        "precision": plan.format.name,
-        "settings": len(plan.settings),
-        "rows": len(rows),
-        "wrong": wrong,
-        "shares": shares(plan.settings),
-        "batch": _times(batches, len(rows), rounds),
-        "single": _times(singles, len(rows), rounds),
-    }
+    return SceneLine(
+        scene=plan.scene.name,
+        question=plan.question,
+        precision=plan.format.name,
+        settings=len(plan.settings),
+        rows=len(rows),
+        wrong=wrong,
+        shares=Shares(**shares(plan.settings)),
+        batch=_times(batches, len(rows), rounds),
+        single=_times(singles, len(rows), rounds),
+    )
 
 
-def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> dict[str, Any]:
+def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> SceneTimes:
     """Nanoseconds a row of each, and how long the kernel takes for each of the others'."""
     *_, (_, samples) = measure([Entry(name, count, run) for name, run in asked.items()], rounds)
     own, *others = samples
     found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
     for other in others:
         ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
-        found |= {f"by_{other.name}": ratio.median, f"by_{other.name}_ci95": [ratio.low, ratio.high]}
-    return found
+        found |= {f"by_{other.name}": ratio.median, f"by_{other.name}_ci95": (ratio.low, ratio.high)}
+    return SceneTimes(**found)
 
 
 def shares(settings: Sequence[Stages]) -> dict[str, float]:

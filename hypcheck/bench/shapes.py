@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.methods import bounding
 from hypcheck.methods.method import Answers
+from hypcheck.record.measurements import Bounding
 from hypcheck.rows import Rows
 from hypcheck.truth import batch
 
@@ -26,19 +26,19 @@ _SHARE = 4
 """One in so many of the judged rows is asked for each ratio: there are many."""
 
 
-def lines(plan: BenchPlan) -> Iterator[dict[str, Any]]:
+def lines(plan: BenchPlan) -> Iterator[Bounding]:
     """A line for each shape and workload."""
     for workload in ON:
         rows = WORKLOADS[workload].rows(plan.seed, plan.amounts.judged // _SHARE)
         for shape, answer in SHAPES.items():
-            yield {"shape": shape, "workload": workload, **compared(rows, answer)}
+            yield compared(rows, answer, shape, workload)
 
 
-def compared(rows: Rows, answer: Callable[[Rows], Answers]) -> dict[str, Any]:
+def compared(rows: Rows, answer: Callable[[Rows], Answers], shape: str, workload: str) -> Bounding:
     """What a shape in the spheroid's place says of these centres, for every ratio d/b in turn."""
     from hypcheck.truth.nearest import clearances  # noqa: PLC0415 - loads mpmath
 
-    overlap: list[list[float | None]] = []
+    overlap: list[tuple[float, int, int, float | None]] = []
     false_contact = false_clear = 0
     for ratio in RATIOS:
         some = rows.copy()
@@ -48,6 +48,13 @@ def compared(rows: Rows, answer: Callable[[Rows], Answers]) -> dict[str, Any]:
         false_contact += int(refused.sum())
         false_clear += int(((answers != 0) & (answers != positions)).sum())
         excess = float(np.median(clearances(some[refused]).clearance)) if refused.any() else None
-        overlap.append([ratio, len(some), int(refused.sum()), excess])
+        overlap.append((ratio, len(some), int(refused.sum()), excess))
     asked = len(rows) * len(RATIOS)
-    return {"asked": asked, "false_contact": false_contact, "false_clear": false_clear, "overlap": overlap}
+    return Bounding(
+        shape=shape,
+        workload=workload,
+        asked=asked,
+        false_contact=false_contact,
+        false_clear=false_clear,
+        overlap=overlap,
+    )

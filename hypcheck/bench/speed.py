@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from statistics import median
-from typing import Any
+
+from msgspec import UNSET
 
 from hypcheck.bench import session
 from hypcheck.bench.accuracy import Answered
@@ -12,6 +13,7 @@ from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.session import AGAIN, COST, EMPTY_CALL, NOT_ANSWERED, Key, Measured, Session
 from hypcheck.bench.statistics import LEAST_NS, Estimate, estimate, ratios
 from hypcheck.processes import fresh, perform
+from hypcheck.record.measurements import Noise, Refused, Speed, Unmeasured
 
 Advance = Callable[[int], object]
 Found = dict[Key, list[Measured]]
@@ -41,22 +43,23 @@ def measured(plan: BenchPlan, prints: Mapping[Key, str], advance: Advance) -> Fo
     return found
 
 
-def lines(found: Found) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The record's lines, each with its type: noise before the speeds it belongs to; those without a time last."""
+def lines(found: Found) -> Iterator[Noise | Speed | Unmeasured | Refused]:
+    """The record's lines: noise before the speeds it belongs to; those without a time last."""
     found = {key: parts for key, parts in found.items() if not key[1].startswith(COST)}
     refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
     timed = {key: parts for key, parts in found.items() if key not in refused and key not in hidden}
     for name, workload, mode in timed:
         if name == AGAIN and (REFERENCE, workload, mode) in timed:
-            yield "noise", {"workload": workload, "mode": mode, **_noise(timed, workload, mode)}
+            yield _noise(timed, workload, mode)
     for key in timed:
         if key[0] != AGAIN and not key[0].startswith(EMPTY_CALL):
-            yield "speed", _line(timed, key)
-    for kind, reasons in (("unmeasured", hidden), ("refused", refused)):
-        for (name, workload, mode), reason in reasons.items():
-            if kind == "refused" or name != AGAIN:
-                yield kind, {"method": name, "workload": workload, "mode": mode, "reason": reason}
+            yield _line(timed, key)
+    for (name, workload, mode), reason in hidden.items():
+        if name != AGAIN:
+            yield Unmeasured(method=name, workload=workload, mode=mode, reason=reason)
+    for (name, workload, mode), reason in refused.items():
+        yield Refused(method=name, workload=workload, mode=mode, reason=reason)
 
 
 def _hidden(parts: list[Measured]) -> str | None:
@@ -89,29 +92,29 @@ def _refusal(parts: list[Measured]) -> str | None:
     return next((each.samples.refused for each in parts if each.samples.refused), None)
 
 
-def _line(found: Found, key: Key) -> dict[str, Any]:
+def _line(found: Found, key: Key) -> Speed:
     name, workload, mode = key
     parts = found[key]
     first = parts[0].samples
     samples = [possible for part in parts if (possible := _possible(part))]
     dropped = sum(len(part.samples.samples_ns) for part in parts) - sum(map(len, samples))
     time, ratio = estimate(samples), _ratio(found, key)
-    return {
-        "method": name,
-        "workload": workload,
-        "mode": mode,
-        "rows": first.rows,
-        "loops": first.loops,
-        "samples_ns": samples,
-        **({"dropped": dropped} if dropped else {}),
-        "median_ns": time.median,
-        "ci95_ns": [time.low, time.high],
-        "ratio": None if ratio is None else ratio.median,
-        "ratio_ci95": None if ratio is None else [ratio.low, ratio.high],
-        "checksum": first.checksum,
-        "empty_ns": median(each.empty_ns for each in parts),
-        "timed_by": parts[0].timed_by,
-    }
+    return Speed(
+        method=name,
+        workload=workload,
+        mode=mode,
+        rows=first.rows,
+        loops=first.loops,
+        samples_ns=samples,
+        dropped=dropped or UNSET,
+        median_ns=time.median,
+        ci95_ns=(time.low, time.high),
+        ratio=None if ratio is None else ratio.median,
+        ratio_ci95=None if ratio is None else (ratio.low, ratio.high),
+        checksum=first.checksum,
+        empty_ns=median(each.empty_ns for each in parts),
+        timed_by=parts[0].timed_by,
+    )
 
 
 def _ratio(found: Found, key: Key) -> Estimate | None:
@@ -123,11 +126,17 @@ def _ratio(found: Found, key: Key) -> Estimate | None:
     return estimate(pairs) if any(pairs) else None
 
 
-def _noise(found: Found, workload: str, mode: str) -> dict[str, Any]:
+def _noise(found: Found, workload: str, mode: str) -> Noise:
     ratio = _ratio(found, (AGAIN, workload, mode))
     if ratio is None:
         raise ValueError(f"{AGAIN} was measured in {workload}, {mode} without {REFERENCE}")
-    return {"ratio": ratio.median, "ratio_ci95": [ratio.low, ratio.high], "floor": ratio.half_width}
+    return Noise(
+        workload=workload,
+        mode=mode,
+        ratio=ratio.median,
+        ratio_ci95=(ratio.low, ratio.high),
+        floor=ratio.half_width,
+    )
 
 
 def samples_of(parts: list[Measured]) -> list[list[float]]:

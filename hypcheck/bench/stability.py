@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from hypcheck.bench.workloads import near
 from hypcheck.casebook.draw import Draw
 from hypcheck.casebook.placing import sizes
 from hypcheck.processes import perform
+from hypcheck.record.measurements import Stability
 from hypcheck.rows import CANNOT_SAY, Rows
 from hypcheck.truth import batch
 
@@ -42,13 +42,13 @@ def _wanted(contender: Contender) -> bool:
     return ours and (contender.judged or ENOUGH) >= ENOUGH
 
 
-def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[dict[str, Any]]:
+def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[Stability]:
     """A line for each of the methods."""
     for _, line in perform(_line, [(plan, name) for name in names], executor):
         yield line
 
 
-def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
+def _line(task: tuple[BenchPlan, str]) -> Stability:
     plan, name = task
     contender = contenders(plan)[name]
     rows, cells = _rows(plan)
@@ -68,7 +68,7 @@ def _line(task: tuple[BenchPlan, str]) -> dict[str, Any]:
         for cell, (number, error) in enumerate(zip(asked, errors, strict=True))
         if number
     ]
-    return {"method": name, "precision": contender.precision, "bins": bins}
+    return Stability(method=name, precision=contender.precision, bins=bins)
 
 
 def _rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:

@@ -106,7 +106,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
 def _refuse_replacing(baseline: Path | None, out: Path) -> None:
     """A run found slower would be the baseline of the next, which would find nothing."""
-    from hypcheck.record.reading import file_of
+    from hypcheck.record.reader import file_of
     from hypcheck.tables.streams import same_file
 
     if baseline is not None and same_file(str(file_of(baseline)), str(file_of(out))):

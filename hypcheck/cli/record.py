@@ -33,7 +33,7 @@ def check(context: click.Context, /, record: Path) -> None:
     Ends with 0 when it is whole, 1 when it is cut off (its run was interrupted: what was finished is good) or when a
     newer run in its folder has not finished, 2 when it is damaged.
     """
-    from hypcheck.record.reading import file_and_newer
+    from hypcheck.record.reader import file_and_newer
     from hypcheck.record.repairing import check as condition_of
 
     file, newer = file_and_newer(record)
@@ -58,7 +58,7 @@ def repair(record: Path, out: Path) -> None:
 
     Without its footer the result is read as truncated: reports can be made of it, and it counts as no pass.
     """
-    from hypcheck.record.reading import file_of
+    from hypcheck.record.reader import file_of
     from hypcheck.record.repairing import repair as repaired
 
     found = repaired(file_of(record), out)

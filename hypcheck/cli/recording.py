@@ -53,7 +53,7 @@ def record_and_report(
     from hypcheck.record import Recorder
     from hypcheck.record.growing import Growing
     from hypcheck.record.owning import owning
-    from hypcheck.record.reading import FILE, GROWING
+    from hypcheck.record.reader import FILE, GROWING
     from hypcheck.report.write import remove_reports
 
     growing = out / GROWING
@@ -116,7 +116,7 @@ def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
 def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> None:
     """Keep what was finished, make reports of it, and tell where it is; of a run that proves nothing, leave nothing."""
     from hypcheck.record import read
-    from hypcheck.record.reading import FILE
+    from hypcheck.record.reader import FILE
     from hypcheck.report.write import write_reports
 
     if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):

@@ -78,11 +78,10 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
 
 
 def _read(path: Path, subject: Path) -> Record:
-    from hypcheck.record.reading import file_and_newer
-    from hypcheck.report.reading import notes, read_checked
+    from hypcheck.record.reader import file_and_newer, notes, read
 
     _, newer = file_and_newer(path)
-    record = read_checked(path)
+    record = read(path)
     if path is subject:
         older = [f"this is an older run: {visible(newer)}"] if newer else []
         for note in [*older, *notes(record)]:

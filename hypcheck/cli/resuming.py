@@ -35,21 +35,20 @@ def resumed(
     """
     from hypcheck.gate.resuming import require_same_run, resume
     from hypcheck.record.owning import owning
-    from hypcheck.record.reading import GROWING, interrupted_in
-    from hypcheck.report.reading import read_checked
+    from hypcheck.record.reader import GROWING, interrupted_in, read
 
     if str(path) == STREAM:
         raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
     file = interrupted_in(path)
     if file.name == GROWING:
         with owning(file.parent):
-            record = read_checked(file)
+            record = read(file)
     else:
-        record = read_checked(file)
+        record = read(file)
     require_same_run(record, file, plan, options, files)
     if record.footer is None:
         return resume(record, file, plan, cases)
-    code = int(record.footer["exit_code"])
+    code = record.footer.exit_code
     click.echo(f"{visible(file)} is the record of a finished run, which ended with {code}")
     _make_reports(record, file, out)
     return code
@@ -57,7 +56,7 @@ def resumed(
 
 def _make_reports(record: Record, file: Path, out: Path) -> None:
     """Make the reports of a finished record in `out` that its run had no time, or no room, for."""
-    from hypcheck.record.reading import FILE, GROWING, read
+    from hypcheck.record.reader import FILE, GROWING, read
     from hypcheck.report.write import files_of
 
     path = out / FILE

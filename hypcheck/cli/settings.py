@@ -89,9 +89,11 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str,
 
 def announce(settings: Mapping[str, Any] | None) -> None:
     """Tell on standard error what in_effect says."""
+    from hypcheck.record.fields import decoded
+    from hypcheck.record.lines import Settings
     from hypcheck.report.claims import settings_facts
 
-    for fact in settings_facts({"settings": settings}):
+    for fact in settings_facts(None if settings is None else decoded(settings, Settings)):
         click.echo(f"hypcheck: {visible(fact)}", err=True)
 
 

@@ -31,7 +31,8 @@ from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import FAULTS
 from hypcheck.methods.questions import allowed
 from hypcheck.methods.runs import HANGS
-from hypcheck.record import Line
+from hypcheck.record.fields import Line
+from hypcheck.record.lines import Group, Implementation
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth import batch
 
@@ -71,36 +72,40 @@ def require_all_tallied(tallies: Mapping[str, Tally], cases: Mapping[str, int]) 
         raise MissingCasesError(f"{trouble}; this run proves nothing")
 
 
-def require_lines(lines: Sequence[Line], plan: GatePlan) -> None:
-    """Raise ValueError where the lines about an implementation that was asked to its end cannot be true."""
-    groups = [line for line in lines if line["type"] == "group"]
-    told = {line["family"]: sum(line["counts"].values()) for line in groups}
+def require_lines(lines: Sequence[Line], whole: Implementation, plan: GatePlan) -> None:
+    """Raise ValueError where the lines about an implementation that was asked to its end cannot be true.
+
+    `whole` is the one about the implementation as a whole.
+    """
+    groups = [line for line in lines if isinstance(line, Group)]
+    told = {line.family: sum(line.counts.values()) for line in groups}
     if len(told) < len(groups):
         raise ValueError("a family has two lines")
     of_its_own = {family: plan.count for family in told if fixed_sizes.MARK in family and not plan.filtered}
     refuses = refusals.NAME in told
     trouble = _difference(told, planned(plan, refuses=refuses) | of_its_own)
     for line in groups:
-        trouble = trouble or _of_sums(line["family"], _Sums.of_line(line)) or _of_failing(line, plan)
-    if trouble or _lacks_trouble(lines, groups, plan):
+        trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)
+    if trouble or _lacks_trouble(whole, groups, plan):
         raise ValueError(trouble or "it abstained, or changed answers, more than it may, and nothing says so")
 
 
-def _lacks_trouble(lines: Sequence[Line], groups: Sequence[Line], plan: GatePlan) -> bool:
-    """Whether what fails the implementation as a whole is missing from its line, the last one."""
-    abstained = sum(line["counts"].get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
-    changed = plan.deterministic and lines[-1]["again"]["within"] > 0
-    return bool(abstained or changed) and not lines[-1]["troubles"]
+def _lacks_trouble(whole: Implementation, groups: Sequence[Group], plan: GatePlan) -> bool:
+    """Whether what fails the implementation as a whole is missing from its line."""
+    abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
+    changed = plan.deterministic and whole.again.within > 0
+    return bool(abstained or changed) and not whole.troubles
 
 
-def _of_failing(line: Line, plan: GatePlan) -> str:
+def _of_failing(line: Group, plan: GatePlan) -> str:
     """What a group says that fails the run must be what its counts say, as far as they tell."""
-    must = {name for name in _UNANSWERED if line["counts"].get(name)}
-    may = must | ({str(Status.WRONG.value)} if line["counts"].get(Status.WRONG.value) else set())
-    if plan.fail_on == "wrong" or line["family"] == refusals.NAME:
+    must = {name for name in _UNANSWERED if line.counts.get(name)}
+    may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
+    if plan.fail_on == "wrong" or line.family == refusals.NAME:
         must = may
-    if not must <= set(line["failing"]) <= may:
-        return f"{line['family']} fails for {sorted(line['failing'])}, and its counts say {sorted(must)}"
+    failing = line.failing or []
+    if not must <= set(failing) <= may:
+        return f"{line.family} fails for {sorted(failing)}, and its counts say {sorted(must)}"
     return ""
 
 
@@ -192,10 +197,10 @@ class _Sums:
     """The statuses of the worst cases."""
 
     @classmethod
-    def of_line(cls, line: Line) -> _Sums:
-        statuses = tuple(case["status"] for case in line["worst"])
-        bins = (line["size_bins"], line["place_bins"])
-        return cls(line["asked"], line["counts"], line["mistakes"], line["octaves"], bins, statuses)
+    def of_line(cls, line: Group) -> _Sums:
+        statuses = tuple(case.status for case in line.worst)
+        bins = (line.size_bins, line.place_bins)
+        return cls(line.asked, line.counts, line.mistakes, line.octaves, bins, statuses)
 
     @classmethod
     def of_tally(cls, tally: Tally) -> _Sums:

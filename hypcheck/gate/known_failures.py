@@ -20,6 +20,7 @@ from typing import Any
 from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.record import Record
+from hypcheck.record.lines import Group
 from hypcheck.tables.streams import writing
 
 _KEYS = ("case", "family", "max_u", "reason")
@@ -119,10 +120,10 @@ def update(path: Path, record: Record) -> str:
     """
     kept = {entry.subject: entry for entry in (read_known_failures(path) if path.exists() else ())}
     failing: dict[str, float] = {}
-    for line in record.of("group"):
-        errors = [float(case["backward_error_u"]) for case in line["worst"] if case["status"] in ("wrong", "excused")]
+    for line in record.of(Group):
+        errors = [float(case.backward_error_u) for case in line.worst if case.status in ("wrong", "excused")]
         if errors:
-            failing[line["family"]] = max(errors)
+            failing[line.family] = max(errors)
     entries = [entry for entry in kept.values() if entry.case is not None or entry.family in failing]
     known = {entry.family for entry in entries}
     entries += [

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+
+from msgspec import UNSET
 
 from hypcheck import groups
 from hypcheck.casebook.frozen import refusals
@@ -18,9 +19,16 @@ from hypcheck.gate.schedule import State
 from hypcheck.groups import Tally
 from hypcheck.judge import Status
 from hypcheck.methods.description import Description
-from hypcheck.record import Line, Recorder
+from hypcheck.record import Line, Recorder, lines
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import Drift, Group, Implementation, NotStarted, Retest
 
 FATAL = (Status.ERROR, Status.CRASH, Status.TIMEOUT, Status.PROTOCOL, Status.NONDETERMINISTIC, Status.NOT_RUN)
+
+
+def as_recorded(description: Description) -> lines.Description:
+    """What an implementation says of itself, as the record has it."""
+    return decoded(asdict(description), lines.Description)
 
 
 @dataclass
@@ -31,20 +39,20 @@ class GateOutcome:
     failed: list[str] = field(default_factory=list)
     judged: int = 0
 
-    def take(self, lines: Iterable[Line]) -> None:
+    def take(self, recorded: Iterable[Line]) -> None:
         """Learn it from the lines of the run, which say all of it."""
-        for line in lines:
-            if line["type"] == "group":
-                self.judged += line["asked"]
-                self.failed += [f"{line['method']} on {line['family']}: {status}" for status in line["failing"]]
-            elif line["type"] == "drift":
-                self.failed.append(line["sentence"])
-            elif not line["started"]:
-                self.not_started.append(line["trouble"])
-            else:
-                if line["broke_protocol_throughout"]:
-                    self.not_started.append(f"{line['spec']} broke the protocol throughout")
-                self.failed += line["troubles"]
+        for line in recorded:
+            if isinstance(line, Group):
+                self.judged += line.asked
+                self.failed += [f"{line.method} on {line.family}: {status}" for status in line.failing or ()]
+            elif isinstance(line, Drift):
+                self.failed.append(line.sentence)
+            elif isinstance(line, NotStarted):
+                self.not_started.append(line.trouble)
+            elif isinstance(line, Implementation):
+                if line.broke_protocol_throughout:
+                    self.not_started.append(f"{line.spec} broke the protocol throughout")
+                self.failed += line.troubles
 
     @property
     def exit_code(self) -> Exit:
@@ -69,41 +77,42 @@ class Lines:
         total = merged([replace(state.total, open=()), as_they_are(state.total.open, self.rules)])
         found = [self._group(family, tally) for family, tally in total.tallies.items()]
         for line in found:
-            told = {"method": self.used.name, "spec": self.spec, "title": self.used.name, "exact": False}
-            recorder.add("group", **told, **line)
+            recorder.add(line)
         if finished:
             for sentence in no_longer_failing(self.rules.known, total.excusing, {*total.tallies, *total.named}):
-                recorder.add("drift", sentence=f"{self.used.name}: {sentence}")
+                recorder.add(Drift(sentence=f"{self.used.name}: {sentence}"))
         self._conclude(state, total, found, recorder, finished=finished)
 
-    def _group(self, family: str, tally: Tally) -> dict[str, Any]:
+    def _group(self, family: str, tally: Tally) -> Group:
         wrong_fails = self.plan.fail_on == "wrong" or tally.dangerous > 0 or family == refusals.NAME
         grave = (Status.WRONG, *FATAL) if wrong_fails else FATAL
         failing = [status.value for status in grave if tally.counts.get(status.value)]
-        fields = groups.line(tally, family, self.rules.criterion)
-        return {**fields, "faults": groups.fault_lines(tally), "failing": failing}
+        name = self.used.name
+        return groups.line(
+            tally, family, self.rules.criterion, method=name, title=name, spec=self.spec, failing=failing
+        )
 
     def _conclude(
-        self, state: State, total: Result, found: Sequence[dict[str, Any]], recorder: Recorder, *, finished: bool
+        self, state: State, total: Result, found: Sequence[Group], recorder: Recorder, *, finished: bool
     ) -> None:
         """The line about the implementation as a whole."""
         recorder.add(
-            "implementation",
-            spec=self.spec,
-            name=self.used.name,
-            started=True,
-            declared=asdict(self.declared),
-            used=asdict(self.used),
-            restarts=self.plan.limits.restarts - state.left.restarts,
-            again=asdict(total.again),
-            broke_protocol_throughout=total.broke_protocol_throughout,
-            troubles=list(self._troubles(total, found)),
-            **({} if finished else {"finished": False}),
+            Implementation(
+                spec=self.spec,
+                name=self.used.name,
+                declared=as_recorded(self.declared),
+                used=as_recorded(self.used),
+                restarts=self.plan.limits.restarts - state.left.restarts,
+                again=Retest(**asdict(total.again)),
+                broke_protocol_throughout=total.broke_protocol_throughout,
+                troubles=list(self._troubles(total, found)),
+                finished=UNSET if finished else False,
+            )
         )
 
-    def _troubles(self, total: Result, found: Sequence[dict[str, Any]]) -> Iterator[str]:
+    def _troubles(self, total: Result, found: Sequence[Group]) -> Iterator[str]:
         """What fails an implementation as a whole and no family of its own."""
-        abstained = sum(line["counts"].get(Status.ABSTAINED.value, 0) for line in found)
+        abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in found)
         if abstained > self.plan.max_abstained:
             allowed = f"at most {self.plan.max_abstained} are allowed"
             yield f"{self.used.name} abstained from {abstained} cases; {allowed}"

@@ -19,6 +19,7 @@ import hypcheck
 from hypcheck.casebook.vectors import folder
 from hypcheck.gate.fingerprint import sha256
 from hypcheck.record import Recorder
+from hypcheck.record.lines import Drift
 
 _PACKAGE = Path(hypcheck.__file__).parent
 MOST_NAMED = 5
@@ -55,7 +56,7 @@ class Unchanged:
         if len(found) > MOST_NAMED:
             found[MOST_NAMED:] = [f"{len(found) - MOST_NAMED} more files were changed"]
         for sentence in found:
-            recorder.add("drift", sentence=sentence)
+            recorder.add(Drift(sentence=sentence))
         return found
 
     def _changes(self) -> Iterator[str]:

@@ -11,7 +11,8 @@ from hypcheck.errors import InputError
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State
-from hypcheck.record import Line, Recorder
+from hypcheck.record import Recorder, lines, plain
+from hypcheck.record.fields import as_json
 
 EVERY = 10.0
 """Seconds between two lines of progress, at least: what a killed run may lose."""
@@ -36,10 +37,10 @@ class Progress:
     program: str | None
 
     @classmethod
-    def of_line(cls, line: Line, name: str) -> Progress:
+    def of_line(cls, line: lines.Progress, name: str) -> Progress:
         """What the line of a record says. Raises InputError naming the record where it cannot be read."""
         try:
-            return cls(line["number"], line["declared"], line["cases"], restored(line["state"]), line.get("program"))
+            return cls(line.number, as_json(line.declared), line.cases, restored(line.state), line.program)
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise InputError(f"{name}: its line of progress says nothing to go on from: {error!r}") from None
 
@@ -62,4 +63,4 @@ class Keeper:
 
     def keep(self, state: State) -> None:
         """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
-        self.recorder.keep(**self._about, state=saved(state), program=own_sha256())
+        self.recorder.keep(lines.Progress(**self._about, state=plain(saved(state)), program=own_sha256()))

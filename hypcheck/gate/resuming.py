@@ -18,7 +18,10 @@ from hypcheck.gate.progress import Progress
 from hypcheck.gate.run import known_failures_of, rules_of, steps_of
 from hypcheck.gate.schedule import State
 from hypcheck.record import Line, Record, plain
-from hypcheck.record.writing import PROGRESS, header
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import Implementation, NotStarted
+from hypcheck.record.lines import Progress as ProgressLine
+from hypcheck.record.writer import header
 
 FREE = ("workers", "cluster")
 """Options that may differ: the result is the same with any."""
@@ -40,7 +43,7 @@ class Resumed:
 
     def done(self, cases: int) -> int:
         """How many cases were asked, where each implementation is asked so many."""
-        finished = [line for line in self.carried if line["type"] == "implementation"]
+        finished = [line for line in self.carried if isinstance(line, (Implementation, NotStarted))]
         return len(finished) * cases + (self.state.total.cases if self.state else 0)
 
 
@@ -51,7 +54,7 @@ def require_same_run(
 
     `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
     """
-    before, now = record.header, header(options, datetime.now(timezone.utc), {"files": files})
+    before, now = as_json(record.header), as_json(header(options, datetime.now(timezone.utc), {"files": files}))
     if not {"specs", "max_abstained"} <= before["options"].keys():
         command = "bench" if before["options"].get("command") == "bench" else "verify without SPEC"
         raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")
@@ -62,7 +65,7 @@ def require_same_run(
         for key in {**there, **here}:
             if key not in free and (part != "versions" or key in LIBRARIES):
                 _require_same(there.get(key), here.get(key), _title(part, key), file)
-    spoken = [line["spec"] for line in finished_part(record)[0] if line["type"] == "implementation"]
+    spoken = [line.spec for line in finished_part(record)[0] if isinstance(line, (Implementation, NotStarted))]
     _require_same(spoken, list(plan.specs[: len(spoken)]), "those that were asked to their end", file)
 
 
@@ -107,13 +110,13 @@ def _require_carried(carried: Sequence[Line], plan: GatePlan) -> None:
     lines: list[Line] = []
     for line in carried:
         lines.append(line)
-        if line["type"] == "implementation":
-            if line["started"]:
-                require_lines(lines, plan)
+        if isinstance(line, Implementation):
+            require_lines(lines, line, plan)
+        if isinstance(line, (Implementation, NotStarted)):
             lines = []
 
 
-def finished_part(record: Record) -> tuple[tuple[Line, ...], Line | None]:
+def finished_part(record: Record) -> tuple[tuple[Line, ...], ProgressLine | None]:
     """The lines of implementations that were asked to their end, and the progress of the next one if it is kept.
 
     A record is written in order, so what stands before the last such implementation belongs to it and those before it.
@@ -122,11 +125,11 @@ def finished_part(record: Record) -> tuple[tuple[Line, ...], Line | None]:
     ends = [
         place
         for place, line in enumerate(record.lines)
-        if line["type"] == "implementation" and line.get("finished", True)
+        if isinstance(line, NotStarted) or (isinstance(line, Implementation) and line.finished is not False)
     ]
     before = record.lines[: ends[-1] + 1] if ends else ()
-    kept = [line for line in record.of(PROGRESS) if line["number"] == len(ends)]
-    return tuple(line for line in before if line["type"] != PROGRESS), kept[-1] if kept else None
+    kept = [line for line in record.of(ProgressLine) if line.number == len(ends)]
+    return tuple(line for line in before if not isinstance(line, ProgressLine)), kept[-1] if kept else None
 
 
 def _title(part: str, key: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, nullcontext, suppress
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from hypcheck.casebook.families import select
@@ -15,7 +14,7 @@ from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.cluster import connected
 from hypcheck.gate.consistency import planned, require_all_tallied
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
-from hypcheck.gate.lines import GateOutcome, Lines
+from hypcheck.gate.lines import GateOutcome, Lines, as_recorded
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Keeper
 from hypcheck.gate.rules import Rules
@@ -29,6 +28,7 @@ from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
 from hypcheck.processes import interrupts_deferred
 from hypcheck.record import Recorder
+from hypcheck.record.lines import NotStarted
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -55,16 +55,15 @@ def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advan
     """
     listed, cases = known_failures_of(plan), size(plan)
     keep_memory()
-    finished = sum(line["type"] == "implementation" for line in recorder.lines)
     with connected(plan.cluster) if plan.cluster else nullcontext() as client:
-        for number in range(finished, len(plan.specs)):
+        for number in range(recorder.concluded, len(plan.specs)):
             try:
                 with plan.opening(number).open() as implementation:
-                    keeper = Keeper(recorder, number=number, declared=asdict(implementation.declared), cases=cases)
+                    keeper = Keeper(recorder, number=number, declared=as_recorded(implementation.declared), cases=cases)
                     _gate(implementation, plan.opening(number), plan, listed, keeper, advance, state, client)
             except StartError as error:
                 spec = plan.specs[number]
-                recorder.add("implementation", spec=spec, name=spec, started=False, trouble=str(error))
+                recorder.add(NotStarted(spec=spec, name=spec, trouble=str(error)))
                 advance(cases)
             state = None
     outcome.take(recorder.lines)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bins import FARTHEST, Bins
+from hypcheck.bins import Bins
 from hypcheck.gate.chunks import Chunk
 from hypcheck.gate.results import Again, Open, Result
 from hypcheck.gate.schedule import State
@@ -22,6 +22,7 @@ from hypcheck.methods.faults import Outcome
 from hypcheck.methods.runs import Allowance
 from hypcheck.pairs import COLUMNS
 from hypcheck.record import plain
+from hypcheck.record.fields import FARTHEST
 from hypcheck.visible import shortened
 
 Json = dict[str, Any]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from hypcheck.record.model import Line, Record
-from hypcheck.record.reading import read
-from hypcheck.record.writing import SCHEMA, Recorder, plain
+from hypcheck.record.fields import Line, plain
+from hypcheck.record.lines import SCHEMA
+from hypcheck.record.reader import Record, read
+from hypcheck.record.writer import Recorder
 
 __all__ = ["SCHEMA", "Line", "Record", "Recorder", "plain", "read"]

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from typing import NoReturn
 
 from hypcheck.errors import InputError
-from hypcheck.record.model import Line
-from hypcheck.record.sealing import body_of, checksum, seal_of
+from hypcheck.record.sealing import Raw, body_of, checksum, seal_of
 from hypcheck.tables.numbers import shown, shown_json
 from hypcheck.tables.streams import Reader
 
@@ -49,7 +48,7 @@ _CAREFUL = json.JSONDecoder(parse_constant=_no_constant, parse_float=_finite, pa
 """As the quick one, but for numbers beyond float64, which nothing that reads a record expects."""
 
 
-def _version_of(header: Line) -> tuple[str | None, int]:
+def _version_of(header: Raw) -> tuple[str | None, int]:
     """The major and the minor version that a header tells; None and 0 where it tells none."""
     version = header.get("schema")
     found = _VERSION.fullmatch(version) if isinstance(version, str) else None
@@ -76,8 +75,8 @@ class Scan:
         self._check = 0
         self.sealed = False
         """Whether the record has checksums, known from its first line on."""
-        self.header: Line = {}
-        self.footer: Line | None = None
+        self.header: Raw = {}
+        self.footer: Raw | None = None
         self.lines = 0
         """Whole lines so far."""
         self.end = 0
@@ -85,7 +84,7 @@ class Scan:
         self.written = b""
         """What was read last: the bytes of a whole line, or those at which reading came to its end."""
 
-    def __iter__(self) -> Iterator[Line]:
+    def __iter__(self) -> Iterator[Raw]:
         while written := self._next():
             if not written.endswith(b"\n"):
                 self._check_cut(written)
@@ -113,7 +112,7 @@ class Scan:
                 raise InputError(f"{self._reader.name} is cut off within its first line; nothing of it can be used")
             self._no_record("it has no whole line")
 
-    def _first(self, text: bytes) -> Line:
+    def _first(self, text: bytes) -> Raw:
         """The header. It alone decides whether there are checksums, so one that it has counts whatever it says."""
         self.sealed = seal_of(text) is not None
         line = self._parsed(body_of(text) if self.sealed else text)
@@ -130,13 +129,13 @@ class Scan:
         self.header = line
         return line
 
-    def _line(self, text: bytes) -> Line:
+    def _line(self, text: bytes) -> Raw:
         if self.sealed:
             self._check_seal(text)
             text = body_of(text)
         return self._parsed(text)
 
-    def _parsed(self, text: bytes) -> Line:
+    def _parsed(self, text: bytes) -> Raw:
         try:
             line = (_CAREFUL if _MAY_BE_HUGE.search(text) else _QUICK).decode(text.decode())
         except UnicodeDecodeError as error:
@@ -163,7 +162,7 @@ class Scan:
             )
         self._check = seal
 
-    def _check_place(self, line: Line) -> None:
+    def _check_place(self, line: Raw) -> None:
         if self.footer is not None:
             self._refuse("it stands behind the footer, which ends a record")
         if line["type"] == "header" and self.lines:

@@ -12,8 +12,10 @@ from __future__ import annotations
 import json
 import re
 import zlib
+from typing import Any
 
-from hypcheck.record.model import Line
+Raw = dict[str, Any]
+"""A line as JSON has it."""
 
 FIELD = "crc32"
 
@@ -21,7 +23,7 @@ _SEAL = re.compile(rb', "%s": "([0-9a-f]{8})"\}\Z' % FIELD.encode())
 _LENGTH = len(f', "{FIELD}": "01234567"}}')
 
 
-def sealed(line: Line, before: int) -> tuple[bytes, int]:
+def sealed(line: Raw, before: int) -> tuple[bytes, int]:
     """The bytes of a line, its end included, and their checksum; `before` is that of the line before, 0 for the first.
 
     The checksum, eight hexadecimal digits, is the last field: it covers what stands before its comma.

@@ -15,7 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.methods.spec import begins_as_spec
 from hypcheck.pairs import COLUMNS, Pair, trouble_with
 from hypcheck.record import read
-from hypcheck.record.reading import file_of
+from hypcheck.record.reader import file_of
 from hypcheck.replay.recorded import recorded_cases
 from hypcheck.tables.numbers import number_of_text
 
@@ -67,13 +67,10 @@ def _from_record(path: Path, number: int) -> Case:
         raise InputError(f"{path} has no case {number}; {there}")
     case = kept[number - 1].case
     try:
-        row = tuple(float.fromhex(value) for value in case["row"])
-        name = str(case["case"])
-    except (KeyError, TypeError, ValueError, OverflowError):
-        raise InputError(f"{path}: case {number} has no row of hexadecimal floats") from None
-    if len(row) != len(COLUMNS):
-        raise InputError(f"{path}: case {number} has {len(row)} numbers; a row has 7: {', '.join(COLUMNS)}")
-    return Case(name, row)
+        row = tuple(float.fromhex(value) for value in case.row)
+    except OverflowError:
+        raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
+    return Case(case.case, row)
 
 
 def _given(text: str) -> Row:

@@ -2,35 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hypcheck.errors import InputError
-from hypcheck.record import Line, Record
-from hypcheck.tables.numbers import shown_json
+from hypcheck.record import Record
+from hypcheck.record.lines import Fault, Group, WrongAnswer
 
 
 @dataclass(frozen=True, slots=True)
 class RecordedCase:
-    """The `number`-th case of a record, from 1 on: the line of the group it belongs to, and its own fields."""
+    """The `number`-th case of a record, from 1 on, and the line of the group it belongs to."""
 
     number: int
-    group: Line
-    case: Line
+    group: Group
+    case: WrongAnswer | Fault
 
 
 def recorded_cases(record: Record) -> list[RecordedCase]:
-    """Every worst case and every fault, in the order of the record; of a group first the worst, then the faults.
-
-    Raises InputError where a group has something else in their place.
-    """
-    kept = [(group, case) for group in record.of("group") for case in _cases(group)]
+    """Every worst case and every fault, in the order of the record; of a group first the worst, then the faults."""
+    kept = [(group, case) for group in record.of(Group) for case in (*group.worst, *(group.faults or ()))]
     return [RecordedCase(number, group, case) for number, (group, case) in enumerate(kept, start=1)]
-
-
-def _cases(group: Line) -> Iterator[Line]:
-    for name in ("worst", "faults"):
-        cases = group.get(name, [])
-        if not isinstance(cases, list) or not all(isinstance(case, dict) for case in cases):
-            raise InputError(f"the record has a group whose {name} is no list of cases: {shown_json(cases)}")
-        yield from cases

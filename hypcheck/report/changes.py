@@ -10,7 +10,9 @@ from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Group
+from hypcheck.record.measurements import Accuracy, Speed
 from hypcheck.report.digest import implementations, timing_totals, worst_case, worst_error_u
 from hypcheck.report.text import listed
 
@@ -82,28 +84,28 @@ def status_changes(before: Record, after: Record) -> list[StatusChange]:
     """Families of both records whose counts by status or worst errors are not the same; first what got worse."""
     found = []
     for (name, family), (old, new) in _shared(_groups(before), _groups(after)):
-        errors = [worst_error_u(worst_case(group["worst"])) for group in (old, new)]
-        change = StatusChange(name, family, old["counts"], new["counts"], *errors)
+        errors = [worst_error_u(worst_case(group.worst)) for group in (old, new)]
+        change = StatusChange(name, family, old.counts, new.counts, *errors)
         all_right = set(change.before) == set(change.after) == {"right"}
         if not all_right and (change.before, errors[0]) != (change.after, errors[1]):
             found.append(change)
     return sorted(found, key=lambda change: not change.worse)
 
 
-def _groups(record: Record) -> dict[tuple[str, str], Line]:
-    return {(each.name, group["family"]): group for each in implementations(record) for group in each.groups}
+def _groups(record: Record) -> dict[tuple[str, str], Group]:
+    return {(each.name, group.family): group for each in implementations(record) for group in each.groups}
 
 
 def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
     """Methods of both records that err otherwise on a workload."""
     found = []
-    for key, (old, new) in _shared(_by_key(before, "accuracy"), _by_key(after, "accuracy")):
+    for key, (old, new) in _shared(_accuracies(before), _accuracies(after)):
         change = AccuracyChange(
-            *key[:2],
-            (old["wrong"], old["asked"]),
-            (new["wrong"], new["asked"]),
-            float(old["reliable_above"]),
-            float(new["reliable_above"]),
+            *key,
+            (old.wrong, old.asked),
+            (new.wrong, new.asked),
+            float(old.reliable_above),
+            float(new.reliable_above),
         )
         if change.before != change.after or change.reliable_before != change.reliable_after:
             found.append(change)
@@ -119,22 +121,22 @@ def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
 
 def _ratios(record: Record) -> dict[tuple[str, str, str], tuple[float, Interval | None]]:
     measured = {
-        key: (float(line["ratio"]), line["ratio_ci95"] and (line["ratio_ci95"][0], line["ratio_ci95"][1]))
-        for key, line in _by_key(record, "speed").items()
-        if line["ratio"] is not None
+        (line.method, line.workload, line.mode): (line.ratio, line.ratio_ci95)
+        for line in record.of(Speed)
+        if line.ratio is not None
     }
     timed = {(each.name, each.workload, "batch"): (each.ratio, each.ratio_range) for each in timing_totals(record)}
     return {**measured, **{key: (ratio, spread) for key, (ratio, spread) in timed.items() if ratio is not None}}
 
 
-def _by_key(record: Record, kind: str) -> dict[tuple[str, str, str], Line]:
-    return {(line["method"], line["workload"], line.get("mode", "")): line for line in record.of(kind)}
+def _accuracies(record: Record) -> dict[tuple[str, str], Accuracy]:
+    return {(line.method, line.workload): line for line in record.of(Accuracy)}
 
 
 def in_one_alone(before: Record, after: Record) -> Iterator[str]:
     """Sentences about the implementations and methods, and the families of shared ones, that one record lacks."""
     old, new = _groups(before), _groups(after)
-    measured = [{key[0] for key in _by_key(record, "accuracy")} for record in (before, after)]
+    measured = [{line.method for line in record.of(Accuracy)} for record in (before, after)]
     for mine, others, which in ((old, new, "the other record"), (new, old, "this record")):
         names, other_names = {name for name, _ in mine}, {name for name, _ in others}
         alone = [*(name for name, _ in mine if name not in other_names)]
@@ -148,15 +150,15 @@ def in_one_alone(before: Record, after: Record) -> Iterator[str]:
 def conditions(before: Record, after: Record) -> Iterator[str]:
     """Sentences about what else is not the same, so that nobody takes it for a change of the methods."""
     for name in ("processor", "architecture", "system", "cores"):
-        old, new = (record.header["machine"][name] for record in (before, after))
+        old, new = (getattr(record.header.machine, name) for record in (before, after))
         if old != new:
             yield f"another machine: {name} {old}, now {new}"
-    for name, old, new in _differing(before.header["versions"], after.header["versions"]):
+    for name, old, new in _differing(before.header.versions, after.header.versions):
         yield f"{name} {old}, now {new}"
-    for name, old, new in _differing(before.header["options"], after.header["options"]):
+    for name, old, new in _differing(before.header.options, after.header.options):
         yield f"option {name} {old}, now {new}"
-    if before.header["hypcheck"] != after.header["hypcheck"]:
-        yield f"hypcheck {before.header['hypcheck']}, now {after.header['hypcheck']}"
+    if before.header.hypcheck != after.header.hypcheck:
+        yield f"hypcheck {before.header.hypcheck}, now {after.header.hypcheck}"
     for record, which in ((before, "the other record"), (after, "this record")):
         if record.footer is None:
             yield f"{which} is truncated: what it lacks was not asked"

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from hypcheck.record import Record
+from hypcheck.record.measurements import Speed
 from hypcheck.report.measured import BATCH, SINGLE, Measured, measured, noise_floor, workloads
 from hypcheck.report.text import figure
 
@@ -69,7 +70,7 @@ class Choice:
 
 def choice(record: Record) -> Choice:
     """What the record advises; nothing where it has no times. Of needs that lead to the same the strictest is told."""
-    timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
+    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(Speed))]
     advice: list[Advice] = []
     unmet: list[Need] = []
     if not timed:
@@ -79,7 +80,7 @@ def choice(record: Record) -> Choice:
         if not found:
             unmet.append(need)
             continue
-        errs = [name for name, line in found[0].accuracy.items() if float(line["reliable_above"]) > need.distance]
+        errs = [name for name, line in found[0].accuracy.items() if float(line.reliable_above) > need.distance]
         new = Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs))
         if not any(_covers(old, new) for old in advice):
             advice.append(new)
@@ -103,17 +104,17 @@ _COVERED = (
 
 
 def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Need, list[Measured]]]:
-    position = [each for each in found if each.line["question"] == "position"]
-    clear = [each for each in found if each.line["question"] in ("position", "exterior")]
+    position = [each for each in found if each.line.question == "position"]
+    clear = [each for each in found if each.line.question in ("position", "exterior")]
     exact = [each for each in position if each.never_wrong]
     yield Need("never a wrong answer"), exact
     yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
     row_by_row = [each for each in exact if each.tier == "python"]
     if row_by_row:  # by their batches: a single call may take no longer than the empty one that is taken off
         yield Need("never a wrong answer, a call a row from Python"), row_by_row
-    floats = [each for each in position if not each.exact and each.line["kind"] in IN_FLOATS]
+    floats = [each for each in position if not each.exact and each.line.kind in IN_FLOATS]
     for precision in ("float64", "float32"):
-        yield from _nearest(f"plain {precision}", [each for each in floats if each.line["precision"] == precision])
+        yield from _nearest(f"plain {precision}", [each for each in floats if each.line.precision == precision])
     for words, distance in DISTANCES.items():
         what = f"{BEYOND} {words}"
         yield Need(what, distance=distance), _reliable(position, distance)
@@ -128,7 +129,7 @@ def _needs(found: Sequence[Measured], timed: Sequence[str]) -> Iterator[tuple[Ne
     ):
         if any(each.tier == "numpy" for each in fitting):
             yield need, [each for each in fitting if each.tier == "numpy"]
-    yield from _nearest("a mesh, because an engine has one", [each for each in found if each.line["kind"] == "mesh"])
+    yield from _nearest("a mesh, because an engine has one", [each for each in found if each.line.kind == "mesh"])
 
 
 def _nearest(what: str, found: Sequence[Measured]) -> Iterator[tuple[Need, list[Measured]]]:
@@ -145,9 +146,9 @@ def _reliable(found: Iterable[Measured], distance: float, names: Sequence[str] |
 
     def holds(each: Measured) -> bool:
         lines = [line for name, line in each.accuracy.items() if names is None or name in names]
-        return bool(lines) and all(float(line["reliable_above"]) <= distance for line in lines)
+        return bool(lines) and all(float(line.reliable_above) <= distance for line in lines)
 
-    return [each for each in found if each.line["kind"] != "bounding" and holds(each)]
+    return [each for each in found if each.line.kind != "bounding" and holds(each)]
 
 
 def _fastest(record: Record, found: Iterable[Measured], workload: str, mode: str) -> list[Measured]:
@@ -170,8 +171,8 @@ def _fastest(record: Record, found: Iterable[Measured], workload: str, mode: str
 
 def _interval(each: Measured, workload: str, mode: str) -> tuple[float, float]:
     line = each.speed[workload, mode]
-    low, high = line["ratio_ci95"] or (line["ratio"], line["ratio"])
-    return float(low), float(high)
+    ratio = line.ratio or 0.0
+    return line.ratio_ci95 or (ratio, ratio)
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,13 +189,13 @@ def price(record: Record) -> Price | None:
 
     None where not both were timed there.
     """
-    timed = [name for name in workloads(record) if any(line["workload"] == name for line in record.of("speed"))]
+    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(Speed))]
     ranked = sorted(
         ((ratio, each) for each in measured(record) for name in timed[:1] if (ratio := each.ratio(name)) is not None),
         key=lambda pair: pair[0],
     )
     never = next((pair for pair in ranked if pair[1].never_wrong), None)
-    fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line["kind"] != "bounding"), None)
+    fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line.kind != "bounding"), None)
     if never is None or fastest is None:
         return None
     pairs = [(name, never[1].ratio(name), fastest[1].ratio(name)) for name in timed]
@@ -203,7 +204,7 @@ def price(record: Record) -> Price | None:
 
 def beaten(record: Record) -> list[tuple[Measured, Measured]]:
     """Methods with one of the same tier and question that is faster beyond doubt and reliable at least as near."""
-    found = [each for each in measured(record) if each.line["kind"] != "bounding"]
+    found = [each for each in measured(record) if each.line.kind != "bounding"]
     timed = [name for name in workloads(record) if any((name, BATCH) in each.speed for each in found)]
     if not timed:
         return []
@@ -216,7 +217,7 @@ def beaten(record: Record) -> list[tuple[Measured, Measured]]:
 
 
 def _reach(each: Measured, workload: str) -> float:
-    return float(each.accuracy[workload]["reliable_above"])
+    return float(each.accuracy[workload].reliable_above)
 
 
 def _by_ratio(workload: str) -> Callable[[Measured], float]:
@@ -224,7 +225,7 @@ def _by_ratio(workload: str) -> Callable[[Measured], float]:
 
 
 def _beats(other: Measured, each: Measured, timed: Sequence[str]) -> bool:
-    if (other.tier, other.line["question"]) != (each.tier, each.line["question"]):
+    if (other.tier, other.line.question) != (each.tier, each.line.question):
         return False
     if (each.exact and not other.exact) or each.accuracy.keys() != other.accuracy.keys():
         return False

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.judge import Status
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Finding, Group, NotStarted, Oracle, Timing, Unavailable, WrongAnswer
+from hypcheck.record.lines import Implementation as Tested
 
 EXACT_ORACLE = "exact"
 """The oracle the others are compared with; what can go wrong with it is a certificate that its check refuses."""
@@ -51,33 +53,33 @@ class Implementation:
     question: str
     precision: str
     exact: bool
-    groups: tuple[Line, ...]
+    groups: tuple[Group, ...]
 
     @property
     def gated(self) -> bool:
         """Whether it is under test in its own right, so that its wrong answers fail the run."""
-        return "failing" in self.groups[0]
+        return self.groups[0].tested
 
     @property
     def asked(self) -> int:
         """The cases it was asked; skipped ones are not among them."""
-        return sum(group["asked"] for group in self.groups)
+        return sum(group.asked for group in self.groups)
 
     @property
     def statuses(self) -> dict[str, int]:
         """How its cases ended, skipped ones included, in the order of judge.Status."""
-        return in_order(sum((Counter(group["counts"]) for group in self.groups), Counter()))
+        return in_order(sum((Counter(group.counts) for group in self.groups), Counter()))
 
     @property
     def mistakes(self) -> dict[str, int]:
         """What its wrong and tolerated answers mean to whoever relies on them."""
-        total: Counter[str] = sum((Counter(group["mistakes"]) for group in self.groups), Counter())
+        total: Counter[str] = sum((Counter(group.mistakes) for group in self.groups), Counter())
         return dict(sorted(total.items()))
 
     @property
-    def worst(self) -> Line | None:
+    def worst(self) -> WrongAnswer | None:
         """The recorded case with the greatest backward error; the first of equals."""
-        return worst_case([case for group in self.groups for case in group["worst"]])
+        return worst_case([case for group in self.groups for case in group.worst])
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +90,8 @@ class UnderTest:
     """
 
     name: str
-    line: Line
-    groups: tuple[Line, ...]
+    line: Tested | NotStarted
+    groups: tuple[Group, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,44 +122,42 @@ def in_order(counts: Counter[str]) -> dict[str, int]:
 
 def oracle_totals(record: Record) -> list[OracleTotal]:
     """A total for each oracle: those that were asked, then those that could not be."""
-    by_name: dict[str, list[Line]] = {}
-    for line in record.of("oracle"):
-        by_name.setdefault(line["oracle"], []).append(line)
-    names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line["asked"] for line in by_name[name])))
+    by_name: dict[str, list[Oracle]] = {}
+    for line in record.of(Oracle):
+        by_name.setdefault(line.oracle, []).append(line)
+    names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line.asked for line in by_name[name])))
     asked = [_oracle_total(name, by_name[name]) for name in names]
-    missing = [
-        OracleTotal(line["oracle"], 0, 0, 0, 0, {}, 0.0, str(line["reason"])) for line in record.of("unavailable")
-    ]
+    missing = [OracleTotal(line.oracle, 0, 0, 0, 0, {}, 0.0, str(line.reason)) for line in record.of(Unavailable)]
     return asked + missing
 
 
-def _oracle_total(name: str, lines: list[Line]) -> OracleTotal:
-    stages: Counter[str] = sum((Counter(line["stages"]) for line in lines), Counter())
-    asked, disagreements = (sum(line[field] for line in lines) for field in ("asked", "disagreeing"))
-    undecided = sum(line["undecided"] for line in lines) - stages[REFUSED]
+def _oracle_total(name: str, lines: list[Oracle]) -> OracleTotal:
+    stages: Counter[str] = sum((Counter(line.stages) for line in lines), Counter())
+    asked, disagreements = sum(line.asked for line in lines), sum(line.disagreeing for line in lines)
+    undecided = sum(line.undecided for line in lines) - stages[REFUSED]
     agreed = asked - undecided - disagreements
-    seconds = sum(line["seconds"] for line in lines)
+    seconds = sum(line.seconds for line in lines)
     return OracleTotal(name, asked, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
 
 
-def unlisted(finding: Line) -> bool:
+def unlisted(finding: Finding) -> bool:
     """Whether a formula errs where it claims to be right and the known findings do not say why."""
-    return bool(finding["inside"]) and finding["reason"] is None
+    return bool(finding.inside) and finding.reason is None
 
 
-def explanation(finding: Line) -> str:
+def explanation(finding: Finding) -> str:
     """Why a formula errs, as far as it is known."""
-    if finding["reason"] is not None:
-        return str(finding["reason"])
-    cause = f"cause: {finding['cause']}"
+    if finding.reason is not None:
+        return str(finding.reason)
+    cause = f"cause: {finding.cause}"
     return f"not a known finding; {cause}" if unlisted(finding) else f"it claims nothing here; {cause}"
 
 
 def implementations(record: Record) -> list[Implementation]:
     """Every implementation in the order of the record, exact ones first."""
     names = names_in(record)
-    by_subject: dict[Subject, list[Line]] = {}
-    for line in record.of("group"):
+    by_subject: dict[Subject, list[Group]] = {}
+    for line in record.of(Group):
         by_subject.setdefault(subject_of(line), []).append(line)
     found = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
     return sorted(found, key=lambda each: not each.exact)
@@ -165,67 +165,72 @@ def implementations(record: Record) -> list[Implementation]:
 
 def under_test(record: Record) -> list[UnderTest]:
     """Every gated implementation in the order of the record, those that could not be started included."""
-    names, groups = names_in(record), record.of("group")
+    names, groups = names_in(record), record.of(Group)
     return [
         UnderTest(
             names[subject_of(line)], line, tuple(group for group in groups if subject_of(group) == subject_of(line))
         )
-        for line in record.of("implementation")
+        for line in _tested(record)
     ]
 
 
-def subject_of(line: Line) -> Subject:
+def _tested(record: Record) -> list[Tested | NotStarted]:
+    return [line for line in record.lines if isinstance(line, (Tested, NotStarted))]
+
+
+def subject_of(line: Group | Tested | NotStarted) -> Subject:
     """Whom a line of a group or of an implementation is about: the name it gives itself, and its spec if it has one."""
-    return str(line["method"] if line["type"] == "group" else line["name"]), line.get("spec")
+    name = line.method if isinstance(line, Group) else line.name
+    return name, line.spec or None
 
 
 def names_in(record: Record) -> dict[Subject, str]:
     """The name of everyone that lines are about: its own, with the spec behind it where others have the same."""
-    subjects = dict.fromkeys(map(subject_of, [*record.of("group"), *record.of("implementation")]))
+    subjects = dict.fromkeys(map(subject_of, [*record.of(Group), *_tested(record)]))
     alike = Counter(name for name, _ in subjects)
     return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
 
 
-def _implementation(name: str, lines: list[Line]) -> Implementation:
+def _implementation(name: str, lines: list[Group]) -> Implementation:
     first = lines[0]
     return Implementation(
         name=name,
-        spec=first.get("spec", f"builtin:{name}"),  # a line without a spec is about what the project brings along
-        title=first["title"],
-        question=first["question"],
-        precision=first["precision"],
-        exact=first["exact"],
+        spec=first.spec or f"builtin:{name}",  # a line without a spec is about what the project brings along
+        title=first.title,
+        question=first.question,
+        precision=first.precision,
+        exact=first.exact,
         groups=tuple(lines),
     )
 
 
-def worst_case(cases: list[Line]) -> Line | None:
+def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
     """The case with the greatest backward error; the first of equals, None of none."""
-    return max(cases, key=lambda case: float(case["backward_error_u"]), default=None)
+    return max(cases, key=lambda case: float(case.backward_error_u), default=None)
 
 
-def worst_error_u(case: Line | None) -> float:
+def worst_error_u(case: WrongAnswer | None) -> float:
     """The backward error of worst_case in units u; 0 where no answer was wrong."""
-    return 0.0 if case is None else float(case["backward_error_u"])
+    return 0.0 if case is None else float(case.backward_error_u)
 
 
 def timing_totals(record: Record) -> list[TimingTotal]:
     """Every contender in the order of the record."""
-    lines = record.of("timing")
-    references = {line["workload"]: line["samples_ns"] for line in lines if line["name"] == REFERENCE}
-    return [_timing_total(line, references.get(line["workload"])) for line in lines]
+    lines = record.of(Timing)
+    references = {line.workload: line.samples_ns for line in lines if line.name == REFERENCE}
+    return [_timing_total(line, references.get(line.workload)) for line in lines]
 
 
-def _timing_total(line: Line, reference: list[float] | None) -> TimingTotal:
-    samples: list[float] = line["samples_ns"]
+def _timing_total(line: Timing, reference: list[float] | None) -> TimingTotal:
+    samples: list[float] = line.samples_ns
     pairs: Any = zip(samples, reference or (), strict=False)
     ratios = [sample / other for sample, other in pairs if other > 0]
     return TimingTotal(
-        name=line["name"],
-        title=line["title"],
-        workload=line["workload"],
-        rows=line["rows"],
-        median_ns=line["median_ns"],
+        name=line.name,
+        title=line.title,
+        workload=line.workload,
+        rows=line.rows,
+        median_ns=line.median_ns,
         least_ns=min(samples),
         greatest_ns=max(samples),
         ratio=statistics.median(ratios) if ratios else None,

@@ -6,9 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 
 from hypcheck.record import Record
+from hypcheck.record.lines import Equation, Finding, Proof
+from hypcheck.record.measurements import Bounding, Cost, Kernel
 from hypcheck.report.choice import IN_FLOATS
 from hypcheck.report.digest import Implementation, implementations, oracle_totals, worst_error_u
 from hypcheck.report.measured import NEAREST, Measured, measured, workloads
+from hypcheck.report.replays import tolerance_of
 from hypcheck.report.text import counted, figure, listed
 
 
@@ -25,20 +28,20 @@ def oracle_facts(record: Record) -> Iterator[str]:
 
 def paper_facts(record: Record) -> Iterator[str]:
     """The paper's equations, the proofs and the mathematical findings."""
-    equations = record.of("equation")
+    equations = record.of(Equation)
     if equations:
         numbers: dict[str, list[str]] = {}
         for line in equations:
-            numbers.setdefault(line["verdict"], []).append(f"({line['number']})")
+            numbers.setdefault(line.verdict, []).append(f"({line.number})")
         holding = len(numbers.pop("holds", []))
         wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
         yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
-    proofs = record.of("proof")
+    proofs = record.of(Proof)
     if proofs:
-        yield f"proofs: {sum(line['holds'] for line in proofs)} of {len(proofs)} hold"
-    findings = record.of("finding")
+        yield f"proofs: {sum(line.holds for line in proofs)} of {len(proofs)} hold"
+    findings = record.of(Finding)
     if findings:
-        inside = [line["family"] for line in findings if line["inside"]]
+        inside = [line.family for line in findings if line.inside]
         named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
         outside = len(findings) - len(inside)
         yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
@@ -46,9 +49,8 @@ def paper_facts(record: Record) -> Iterator[str]:
 
 def method_facts(record: Record) -> Iterator[str]:
     """For each precision how many methods err beyond the tolerance, and the answer that is farthest from right."""
-    tolerance = record.header["options"].get("tolerance")
-    told = isinstance(tolerance, (int, float))
-    beyond = f"the tolerance of {figure(float(tolerance))} u" if told else "the tolerance"
+    tolerance = tolerance_of(record.header.options)
+    beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
     found = [each for each in implementations(record) if each.asked]
     for precision in dict.fromkeys(each.precision for each in found if not each.exact):
         methods = [each for each in found if each.precision == precision and not each.exact]
@@ -65,42 +67,42 @@ def _farthest(methods: Sequence[Implementation]) -> str:
     method = max(methods, key=lambda each: worst_error_u(each.worst))
     worst = method.worst
     if worst is not None:
-        also = _ALSO.get(worst["status"], f" ({worst['status']})")
-        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst['case']}{also}"
+        also = _ALSO.get(worst.status, f" ({worst.status})")
+        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
     judged = any(each.statuses.get(status) for each in methods for status in ("right", *_ALSO))
     return "no answer is wrong" if judged else "no answer was judged"
 
 
 def claim_facts(record: Record) -> Iterator[str]:
     """What the paper's claims of cost came to."""
-    for line in record.of("cost"):
-        yield f"claim {line['verdict']}, {line['scene']}: {line['claim']}"
+    for line in record.of(Cost):
+        yield f"claim {line.verdict}, {line.scene}: {line.claim}"
 
 
 def benchmark_facts(record: Record) -> Iterator[str]:
     """What targets came to, what other shapes cost, where errors end and where they do not."""
-    kernels = record.of("kernel")
+    kernels = record.of(Kernel)
     if kernels:
-        missed = [str(line["name"]) for line in kernels if not line["met"]]
+        missed = [str(line.name) for line in kernels if not line.met]
         named = f"; not met: {listed(missed)}" if missed else ""
         yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
-    for line in record.of("bounding"):
-        if line["asked"]:
-            share = figure(100 * line["false_contact"] / line["asked"])
-            yield f"a bounding {line['shape']} in the spheroid's place, {line['workload']}: {share} % false contacts"
-    found = [each for each in measured(record) if each.line["kind"] in IN_FLOATS]
-    for name, line in workloads(record).items():
-        yield from _endings(str(line["title"]), name, [each for each in found if name in each.accuracy])
+    for line in record.of(Bounding):
+        if line.asked:
+            share = figure(100 * line.false_contact / line.asked)
+            yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
+    found = [each for each in measured(record) if each.line.kind in IN_FLOATS]
+    for name, workload in workloads(record).items():
+        yield from _endings(workload.title, name, [each for each in found if name in each.accuracy])
 
 
 def _endings(title: str, workload: str, found: Sequence[Measured]) -> Iterator[str]:
     """Where the errors of methods in floats end on a workload; who errs at any distance, or who does not, by name."""
-    ends = {each: float(each.accuracy[workload]["reliable_above"]) for each in found}
-    most = max((each.accuracy[workload]["asked"] for each in found), default=0)
+    ends = {each: float(each.accuracy[workload].reliable_above) for each in found}
+    most = max((each.accuracy[workload].asked for each in found), default=0)
     for precision in ("float64", "float32"):
-        mine = {each: end for each, end in ends.items() if each.line["precision"] == precision and end < math.inf}
+        mine = {each: end for each, end in ends.items() if each.line.precision == precision and end < math.inf}
         # Who was asked a few rows alone would seem to err less.
-        mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload]["asked"] >= most}
+        mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload].asked >= most}
         if mine and max(mine.values()):
             best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
             if mine[best] == mine[worst]:

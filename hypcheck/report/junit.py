@@ -24,7 +24,7 @@ def render(record: Record, _around: Around | None = None) -> bytes:
     found = [suite for suite in suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})
     # Without its offset: the schema that most parsers go by allows none.
-    started = visible(record.header["started"])[:19]
+    started = visible(record.header.started)[:19]
     for suite in found:
         element = Xml.SubElement(root, "testsuite", {"name": visible(suite.name), **_attributes([suite])})
         element.set("timestamp", started)
@@ -37,7 +37,7 @@ def render(record: Record, _around: Around | None = None) -> bytes:
 
 def _set_properties(element: Xml.Element, record: Record) -> None:
     """The settings of the run, in each suite: the schema that most parsers go by has properties nowhere else."""
-    found = list(settings_facts(record.header))
+    found = list(settings_facts(record.header.settings))
     if found:
         properties = Xml.SubElement(element, "properties")
         for fact in found:

@@ -9,7 +9,8 @@ from typing import Any
 
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.methods.limits import Limits
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Fault, Group, WrongAnswer
 from hypcheck.replay.recorded import recorded_cases
 from hypcheck.report.text import classify_command, from_hex
 
@@ -27,17 +28,17 @@ class Replays:
     def of(cls, record: Record) -> Replays:
         """Those of a record."""
         numbers = {id(each.case): each.number for each in recorded_cases(record)}
-        return cls(numbers, tuple(_options(record.header["options"])))
+        return cls(numbers, tuple(_options(record.header.options)))
 
-    def place(self, case: Line) -> str:
+    def place(self, case: WrongAnswer | Fault) -> str:
         """Where the case stands, as `hypcheck replay` reads it beside the record: record.jsonl:7."""
         return f"record.jsonl:{self.numbers[id(case)]}"
 
-    def command(self, group: Line, case: Line) -> str:
+    def command(self, group: Group, case: WrongAnswer | Fault) -> str:
         """The command that replays a case of a gated implementation, or decides and proves one of our own methods'."""
-        if "failing" not in group:
-            return classify_command(from_hex(case["row"]))
-        return shlex.join(["hypcheck", "replay", str(case["case"]), str(group["spec"]), *self.options])
+        if not group.tested:
+            return classify_command(from_hex(case.row))
+        return shlex.join(["hypcheck", "replay", str(case.case), str(group.spec), *self.options])
 
 
 def tolerance_of(options: Mapping[str, Any]) -> float | None:

@@ -7,6 +7,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from hypcheck.record import Line, Record, plain
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import Description, Drift, Equation, Finding, Group, Proof, WrongAnswer
+from hypcheck.record.lines import Implementation as Tested
 from hypcheck.report.digest import (
     Implementation,
     OracleTotal,
@@ -40,21 +43,21 @@ def render(record: Record, _around: Around | None = None) -> bytes:
 def summary(record: Record) -> Fields:
     """The summary; its keys and their order are the same for every run."""
     ended = verdict(record)
-    wholes = {each.name: each.line for each in under_test(record)}
-    footer = record.footer or {}
+    wholes = {each.name: each.line for each in under_test(record) if isinstance(each.line, Tested)}
+    footer = record.footer
     return {
-        "hypcheck": record.header["hypcheck"],
+        "hypcheck": record.header.hypcheck,
         "schema": SCHEMA,
-        "exit_code": footer.get("exit_code"),
+        "exit_code": footer and footer.exit_code,
         "passed": ended.passed,
         "truncated": record.footer is None,
         "verdict": ended.sentence,
-        "started": record.header["started"],
-        "seconds": footer.get("seconds"),
-        "settings": record.header.get("settings"),
+        "started": record.header.started,
+        "seconds": footer and footer.seconds,
+        "settings": as_json(record.header.settings) if record.header.settings else None,
         "oracles": {total.name: _oracle(total) for total in oracle_totals(record)},
-        "equations": _equations(record.of("equation")),
-        "proofs": _proofs(record.of("proof")),
+        "equations": _equations(record.of(Equation)),
+        "proofs": _proofs(record.of(Proof)),
         "findings": _findings(record),
         "implementations": [_implementation(each, wholes.get(each.name)) for each in implementations(record)],
         "timings": [_timing(total) for total in timing_totals(record)],
@@ -75,30 +78,30 @@ def _oracle(total: OracleTotal) -> Fields:
     return fields if total.unavailable is None else {**fields, "unavailable": total.unavailable}
 
 
-def _equations(lines: Iterable[Line]) -> Fields:
+def _equations(lines: Iterable[Equation]) -> Fields:
     verdicts: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
     for line in lines:
-        verdicts.setdefault(line["verdict"], []).append(line["number"])
+        verdicts.setdefault(line.verdict, []).append(line.number)
     return verdicts
 
 
-def _proofs(lines: list[Line]) -> Fields:
-    holding = sum(line["holds"] for line in lines)
+def _proofs(lines: list[Proof]) -> Fields:
+    holding = sum(line.holds for line in lines)
     return {"asked": len(lines), "hold": holding, "fail": len(lines) - holding}
 
 
 def _findings(record: Record) -> Fields:
     """Errors of formulas in exact arithmetic, counted by formula, family, side of the regimes and cause; and drift."""
-    lines = record.of("finding")
+    lines = record.of(Finding)
     return {
-        "inside_stated_regimes": sum(line["inside"] for line in lines),
-        "outside_stated_regimes": sum(not line["inside"] for line in lines),
+        "inside_stated_regimes": sum(line.inside for line in lines),
+        "outside_stated_regimes": sum(not line.inside for line in lines),
         "unlisted": sum(map(unlisted, lines)),
-        "drift": [line["sentence"] for line in record.of("drift")],
+        "drift": [line.sentence for line in record.of(Drift)],
     }
 
 
-def _implementation(each: Implementation, whole: Line | None) -> Fields:
+def _implementation(each: Implementation, whole: Tested | None) -> Fields:
     return {
         "name": each.name,
         "spec": each.spec,
@@ -106,37 +109,37 @@ def _implementation(each: Implementation, whole: Line | None) -> Fields:
         "question": each.question,
         "exact": each.exact,
         **_counts(each.asked, each.statuses, each.mistakes, each.worst),
-        "families": {group["family"]: _family(group) for group in each.groups},
+        "families": {group.family: _family(group) for group in each.groups},
         "statuses": each.statuses,
         **({} if whole is None else _whole(whole)),
     }
 
 
-def _whole(line: Line) -> Fields:
+def _whole(line: Tested) -> Fields:
     """What is known of an implementation under test beside its families."""
     return {
-        "declared": _claims(line["declared"]),
-        "judged_as": _claims(line["used"]),
-        "restarts": line["restarts"],
-        "asked_again": line["again"],
+        "declared": _claims(line.declared),
+        "judged_as": _claims(line.used),
+        "restarts": line.restarts,
+        "asked_again": as_json(line.again),
     }
 
 
-def _claims(description: Fields) -> Fields:
-    return {name: description[name] for name in ("question", "precision", "domain")}
+def _claims(description: Description) -> Fields:
+    return {name: as_json(description)[name] for name in ("question", "precision", "domain")}
 
 
-def _family(group: Line) -> Fields:
-    return _counts(group["asked"], group["counts"], group["mistakes"], worst_case(group["worst"]))
+def _family(group: Group) -> Fields:
+    return _counts(group.asked, group.counts, group.mistakes, worst_case(group.worst))
 
 
-def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: Line | None) -> Fields:
+def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:
     return {
         "asked": asked,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
         "mistakes": {name: mistakes.get(name, 0) for name in ("false-clear", "false-contact", "wrong-side")},
         "worst_backward_error_u": worst_error_u(worst),
-        "worst_case": None if worst is None else worst["case"],
+        "worst_case": None if worst is None else worst.case,
     }
 
 
@@ -156,13 +159,19 @@ def _method(each: Measured) -> Fields:
     times = ("workload", "mode", "rows", "median_ns", "ratio", "ratio_ci95")
     return {
         "name": each.name,
-        **{name: line[name] for name in ("tier", "kind", "precision", "question", "exact")},
+        **_fields(line, ("tier", "kind", "precision", "question", "exact")),
         "asked": each.asked,
         "wrong": each.wrong,
         "reliable_above": each.reliable_above,
-        "workloads": {name: {field: found[field] for field in counts} for name, found in each.accuracy.items()},
-        "times": [{field: found[field] for field in times} for found in each.speed.values()],
+        "workloads": {
+            name: {field: getattr(found, field) for field in counts} for name, found in each.accuracy.items()
+        },
+        "times": [_fields(found, times) for found in each.speed.values()],
     }
+
+
+def _fields(line: Line, names: Iterable[str]) -> Fields:
+    return {name: getattr(line, name) for name in names}
 
 
 def _failure(failure: Failure) -> Fields:

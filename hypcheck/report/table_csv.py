@@ -12,7 +12,25 @@ import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import asdict
+
 from hypcheck.record import Line, Record
+from hypcheck.record.lines import Finding, Group, Map, Oracle, Timing
+from hypcheck.record.measurements import (
+    Accuracy,
+    Bounding,
+    Comparison,
+    Convergence,
+    Cost,
+    Forest,
+    Kernel,
+    Memory,
+    Noise,
+    Places,
+    Scene,
+    Speed,
+    Stability,
+)
 from hypcheck.visible import visible
 
 if TYPE_CHECKING:
@@ -30,9 +48,9 @@ def render(record: Record, _around: Around | None = None) -> bytes:
     writer = csv.writer(stream)
     writer.writerow(HEAD)
     for line in record.lines:
-        for measurement in MEASUREMENTS.get(line["type"], _none)(line):
+        for measurement in MEASUREMENTS.get(type(line), _none)(line):
             *names, value, low, high = measurement
-            writer.writerow([line["type"], *map(_harmless, names), *map(_number, (value, low, high))])
+            writer.writerow([line.type, *map(_harmless, names), *map(_number, (value, low, high))])
     return stream.getvalue().encode("utf-8", "replace")
 
 
@@ -59,136 +77,135 @@ def _named(*fields: str, method: str = "method", workload: str = "workload", det
 
     def measurements(line: Line) -> Iterator[Measurement]:
         for name in fields:
-            names = (str(line.get(method, "")), str(line.get(workload, "")), str(line.get(detail, "")))
-            yield _plain(*names, name, line[name])
+            names = (str(getattr(line, key, "")) for key in (method, workload, detail))
+            yield (*names, name, getattr(line, name), None, None)
 
     return measurements
 
 
-def _group(line: Line) -> Iterator[Measurement]:
-    for status, number in line["counts"].items():
-        yield _plain(line["method"], line["family"], line.get("spec", ""), status, number)
-    for mistake, number in line["mistakes"].items():
-        yield _plain(line["method"], line["family"], line.get("spec", ""), mistake, number)
-    for exponent, counts in line["octaves"].items():
+def _group(line: Group) -> Iterator[Measurement]:
+    for status, number in line.counts.items():
+        yield _plain(line.method, line.family, line.spec or "", status, number)
+    for mistake, number in line.mistakes.items():
+        yield _plain(line.method, line.family, line.spec or "", mistake, number)
+    for exponent, counts in line.octaves.items():
         for status, number in counts.items():
-            yield _plain(line["method"], line["family"], f"octave {exponent}", status, number)
+            yield _plain(line.method, line.family, f"octave {exponent}", status, number)
 
 
-def _timing(line: Line) -> Iterator[Measurement]:
-    yield _plain(line["name"], line["workload"], "batch", "median_ns", line["median_ns"])
-    for number, sample in enumerate(line["samples_ns"]):
-        yield _plain(line["name"], line["workload"], f"round {number}", "ns", sample)
+def _timing(line: Timing) -> Iterator[Measurement]:
+    yield _plain(line.name, line.workload, "batch", "median_ns", line.median_ns)
+    for number, sample in enumerate(line.samples_ns):
+        yield _plain(line.name, line.workload, f"round {number}", "ns", sample)
 
 
-def _accuracy(line: Line) -> Iterator[Measurement]:
+def _accuracy(line: Accuracy) -> Iterator[Measurement]:
     names = ("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained", "reliable_above")
     yield from _named(*names)(line)
-    for exponent, asked, wrong in line["octaves"]:
+    for exponent, asked, wrong in line.octaves:
         for quantity, number in (("asked", asked), ("wrong", wrong)):
-            yield _plain(line["method"], line["workload"], f"octave {exponent}", quantity, number)
+            yield _plain(line.method, line.workload, f"octave {exponent}", quantity, number)
 
 
-def _speed(line: Line) -> Iterator[Measurement]:
-    names = (line["method"], line["workload"])
-    yield (*names, line["mode"], "ns", line["median_ns"], *line["ci95_ns"])
-    yield (*names, line["mode"], "ratio", line["ratio"], *_ends(line["ratio_ci95"]))
-    for process, rounds in enumerate(line["samples_ns"]):
+def _speed(line: Speed) -> Iterator[Measurement]:
+    names = (line.method, line.workload)
+    yield (*names, line.mode, "ns", line.median_ns, *line.ci95_ns)
+    yield (*names, line.mode, "ratio", line.ratio, *_ends(line.ratio_ci95))
+    for process, rounds in enumerate(line.samples_ns):
         for number, sample in enumerate(rounds):
-            yield _plain(*names, f"{line['mode']}, process {process}, round {number}", "ns", sample)
+            yield _plain(*names, f"{line.mode}, process {process}, round {number}", "ns", sample)
 
 
-def _noise(line: Line) -> Iterator[Measurement]:
-    yield ("", line["workload"], line["mode"], "ratio", line["ratio"], *_ends(line["ratio_ci95"]))
-    yield _plain("", line["workload"], line["mode"], "floor", line["floor"])
+def _noise(line: Noise) -> Iterator[Measurement]:
+    yield ("", line.workload, line.mode, "ratio", line.ratio, *_ends(line.ratio_ci95))
+    yield _plain("", line.workload, line.mode, "floor", line.floor)
 
 
-def _stability(line: Line) -> Iterator[Measurement]:
-    for across, up, asked, wrong in line["bins"]:
+def _stability(line: Stability) -> Iterator[Measurement]:
+    for across, up, asked, wrong in line.bins:
         for quantity, number in (("asked", asked), ("wrong", wrong)):
-            yield _plain(line["method"], line["precision"], f"bin {across} {up}", quantity, number)
+            yield _plain(line.method, line.precision, f"bin {across} {up}", quantity, number)
 
 
-def _places(line: Line) -> Iterator[Measurement]:
-    letters = "".join(line["wrong"])
+def _places(line: Places) -> Iterator[Measurement]:
+    letters = "".join(line.wrong)
     for letter, name in ((".", "right"), ("c", "false_clear"), ("w", "false_contact"), ("s", "wrong_side")):
-        yield _plain(line["method"], "", line["region"], name, letters.count(letter))
+        yield _plain(line.method, "", line.region, name, letters.count(letter))
 
 
-def _convergence(line: Line) -> Iterator[Measurement]:
+def _convergence(line: Convergence) -> Iterator[Measurement]:
     for name in ("build_ns", "query_ns", "deviation", "asked", "wrong"):
-        yield _plain(line["method"], "", f"{line['triangles']} triangles", name, line[name])
+        yield _plain(line.method, "", f"{line.triangles} triangles", name, getattr(line, name))
 
 
-def _bounding(line: Line) -> Iterator[Measurement]:
+def _bounding(line: Bounding) -> Iterator[Measurement]:
     yield from _named("asked", "false_contact", "false_clear", method="shape")(line)
-    for ratio, *values in line["overlap"]:
+    for ratio, *values in line.overlap:
         for name, value in zip(("asked", "false_contact", "excess_clearance"), values, strict=True):
-            yield _plain(line["shape"], line["workload"], f"d/b {ratio}", name, value)
+            yield _plain(line.shape, line.workload, f"d/b {ratio}", name, value)
 
 
-def _cost(line: Line) -> Iterator[Measurement]:
-    for each in line["compared"]:
-        yield (each["name"], line["scene"], line["claim"], "ratio", each["ratio"], *_ends(each["ratio_ci95"]))
-        yield _plain(each["name"], line["scene"], line["claim"], "ns", each["median_ns"])
-        for operation, number in (each["operations"] or {}).items():
-            yield _plain(each["name"], line["scene"], line["claim"], f"operations {operation}", number)
+def _cost(line: Cost) -> Iterator[Measurement]:
+    for each in line.compared:
+        yield (each.name, line.scene, line.claim, "ratio", each.ratio, *_ends(each.ratio_ci95))
+        yield _plain(each.name, line.scene, line.claim, "ns", each.median_ns)
+        for operation, number in (each.operations or {}).items():
+            yield _plain(each.name, line.scene, line.claim, f"operations {operation}", number)
 
 
-def _kernel(line: Line) -> Iterator[Measurement]:
-    yield _plain(line["name"], "", line["target"], "wanted", line["wanted"])
-    yield (line["name"], "", line["target"], "measured", line["measured"], *_ends(line["ci95"]))
+def _kernel(line: Kernel) -> Iterator[Measurement]:
+    yield _plain(line.name, "", line.target, "wanted", line.wanted)
+    yield (line.name, "", line.target, "measured", line.measured, *_ends(line.ci95))
 
 
-def _forest(line: Line) -> Iterator[Measurement]:
-    detail = f"{line['trees']} trees"
-    yield (line["method"], "", detail, "step_ns", line["step_ns"], *_ends(line["ci95_ns"]))
-    yield (line["method"], "", detail, "ratio", line["ratio"], *_ends(line["ratio_ci95"]))
+def _forest(line: Forest) -> Iterator[Measurement]:
+    detail = f"{line.trees} trees"
+    yield (line.method, "", detail, "step_ns", line.step_ns, *_ends(line.ci95_ns))
+    yield (line.method, "", detail, "ratio", line.ratio, *_ends(line.ratio_ci95))
     for name in ("build_s", "asked", "wrong"):
-        yield _plain(line["method"], "", detail, name, line[name])
+        yield _plain(line.method, "", detail, name, getattr(line, name))
 
 
-def _scene(line: Line) -> Iterator[Measurement]:
-    for name, share in line["shares"].items():
-        yield _plain("kernel", line["scene"], name, "share", share)
+def _scene(line: Scene) -> Iterator[Measurement]:
+    for name, share in asdict(line.shares).items():
+        yield _plain("kernel", line.scene, name, "share", share)
     for name in ("rows", "wrong"):
-        yield _plain("kernel", line["scene"], "", name, line[name])
-    for mode in ("batch", "single"):
-        times = line[mode]
+        yield _plain("kernel", line.scene, "", name, getattr(line, name))
+    for mode, times in (("batch", line.batch), ("single", line.single)):
         for name in ("kernel_ns", "printed_ns", "certified_ns"):
-            yield _plain("kernel", line["scene"], mode, name, times[name])
-        for name in ("by_printed", "by_certified"):
-            yield ("kernel", line["scene"], mode, name, times[name], *_ends(times[f"{name}_ci95"]))
+            yield _plain("kernel", line.scene, mode, name, getattr(times, name))
+        yield ("kernel", line.scene, mode, "by_printed", times.by_printed, *_ends(times.by_printed_ci95))
+        yield ("kernel", line.scene, mode, "by_certified", times.by_certified, *_ends(times.by_certified_ci95))
 
 
-def _comparison(line: Line) -> Iterator[Measurement]:
-    yield (line["method"], line["workload"], line["mode"], "change", line["change"], *_ends(line["ci95"]))
+def _comparison(line: Comparison) -> Iterator[Measurement]:
+    yield (line.method, line.workload, line.mode, "change", line.change, *_ends(line.ci95))
     for name in ("before", "after", "allowed"):
-        yield _plain(line["method"], line["workload"], line["mode"], name, line[name])
+        yield _plain(line.method, line.workload, line.mode, name, getattr(line, name))
 
 
 def _ends(interval: Sequence[float] | None) -> tuple[Any, Any]:
     return (None, None) if interval is None else (interval[0], interval[1])
 
 
-MEASUREMENTS: dict[str, Callable[[Line], Iterable[Measurement]]] = {
-    "oracle": _named("asked", "undecided", "disagreeing", "seconds", method="oracle", workload="family"),
-    "finding": _named("asked", "wrong", method="formula", workload="family", detail="cause"),
-    "group": _group,
-    "map": _named("points", "wrong", workload="name"),
-    "timing": _timing,
-    "accuracy": _accuracy,
-    "speed": _speed,
-    "noise": _noise,
-    "memory": _named("peak_bytes", detail="rows"),
-    "stability": _stability,
-    "places": _places,
-    "convergence": _convergence,
-    "bounding": _bounding,
-    "cost": _cost,
-    "kernel": _kernel,
-    "forest": _forest,
-    "scene": _scene,
-    "comparison": _comparison,
+MEASUREMENTS: dict[type[Line], Callable[[Any], Iterable[Measurement]]] = {
+    Oracle: _named("asked", "undecided", "disagreeing", "seconds", method="oracle", workload="family"),
+    Finding: _named("asked", "wrong", method="formula", workload="family", detail="cause"),
+    Group: _group,
+    Map: _named("points", "wrong", workload="name"),
+    Timing: _timing,
+    Accuracy: _accuracy,
+    Speed: _speed,
+    Noise: _noise,
+    Memory: _named("peak_bytes", detail="rows"),
+    Stability: _stability,
+    Places: _places,
+    Convergence: _convergence,
+    Bounding: _bounding,
+    Cost: _cost,
+    Kernel: _kernel,
+    Forest: _forest,
+    Scene: _scene,
+    Comparison: _comparison,
 }
 """What is measured in each type of line; the others measure nothing."""

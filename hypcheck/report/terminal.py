@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hypcheck.record import Record
+from hypcheck.record.measurements import Absent, Speed, Unmeasured
 from hypcheck.report.changes import (
     FASTER,
     SLOWER,
@@ -60,7 +61,7 @@ def summary_lines(
     ended = verdict(record)
     head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
-        *settings_facts(record.header),
+        *settings_facts(record.header.settings),
         *_failures(record),
         *([] if against is None else _changes(record, against)),
         *_advice(record),
@@ -95,7 +96,7 @@ def _failures(record: Record) -> Iterator[str]:
 
 def _changes(record: Record, against: Record) -> Iterator[str]:
     """What is not as it was in another record, the most important of each kind by name."""
-    yield f"against the run of {against.header['started']}, which ended: {verdict(against).sentence}"
+    yield f"against the run of {against.header.started}, which ended: {verdict(against).sentence}"
     statuses, ratios = status_changes(against, record), ratio_changes(against, record)
     accuracies = accuracy_changes(against, record)
     worse = [f"{change.implementation} on {change.family}" for change in statuses if change.worse]
@@ -137,17 +138,17 @@ def _advice(record: Record) -> Iterator[str]:
 
 def _absent(record: Record) -> Iterator[str]:
     """What was left out because something is not there, and what would bring it."""
-    yield from (f"left out: {line['reason']}" for line in record.of("absent"))
+    yield from (f"left out: {line.reason}" for line in record.of(Absent))
 
 
 def _unmeasured(record: Record) -> Iterator[str]:
     """What could not be timed, and how many samples of what could be were impossible."""
-    for line in record.of("unmeasured"):
-        yield f"not measured: {line['method']} on {line['workload']}, {line['mode']}: {line['reason']}"
-    dropped = [line for line in record.of("speed") if line.get("dropped")]
+    for line in record.of(Unmeasured):
+        yield f"not measured: {line.method} on {line.workload}, {line.mode}: {line.reason}"
+    dropped = [(speed, speed.dropped) for speed in record.of(Speed) if speed.dropped]
     if dropped:
-        number = sum(line["dropped"] for line in dropped)
-        where = listed([f"{line['method']} ({line['workload']}, {line['mode']})" for line in dropped])
+        number = sum(samples for _, samples in dropped)
+        where = listed([f"{speed.method} ({speed.workload}, {speed.mode})" for speed, _ in dropped])
         yield f"{counted(number, 'sample')} dropped, no longer than the empty call that is taken off: {where}"
 
 

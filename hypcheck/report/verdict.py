@@ -7,13 +7,15 @@ down, and findings other than the known ones.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 
 from hypcheck.judge import in_words
 from hypcheck.pairs import Position
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Disagreement, Drift, Group, NotStarted, Oracle, Proof
 from hypcheck.report import benchmark
 from hypcheck.report.digest import (
     Implementation,
@@ -81,33 +83,33 @@ def failures(record: Record) -> list[Failure]:
 
 
 def _oracles(record: Record) -> Iterator[Failure]:
-    for line in record.of("oracle"):
-        yield from (_disagreement(line, case) for case in line["disagreements"])
-        rest = line["disagreeing"] - len(line["disagreements"])
+    for line in record.of(Oracle):
+        yield from (_disagreement(line, case) for case in line.disagreements)
+        rest = line.disagreeing - len(line.disagreements)
         if rest > 0:
-            message = f"{line['oracle']} on {line['family']}: {counted(rest, 'further case')}, not kept in the record"
-            yield Failure("oracle", line["oracle"], line["family"], "disagreement", message, count=rest)
+            message = f"{line.oracle} on {line.family}: {counted(rest, 'further case')}, not kept in the record"
+            yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
 
 
-def _disagreement(line: Line, case: Line) -> Failure:
-    message = f"{case['oracle']}: {case['opinion']}; exact decision: {case['exact']}"
-    replay = classify_command(from_hex(case["row"]))
-    return Failure("oracle", line["oracle"], line["family"], "disagreement", message, case["case"], replay=replay)
+def _disagreement(line: Oracle, case: Disagreement) -> Failure:
+    message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
+    replay = classify_command(from_hex(case.row))
+    return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay)
 
 
 def _proofs(record: Record) -> Iterator[Failure]:
-    for line in record.of("proof"):
-        if not line["holds"]:
-            message = f"{line['formula']}: not proved: {line['statement']}"
-            yield Failure("proof", line["formula"], line["quantity"], "unproved", message)
+    for line in record.of(Proof):
+        if not line.holds:
+            message = f"{line.formula}: not proved: {line.statement}"
+            yield Failure("proof", line.formula, line.quantity, "unproved", message)
 
 
 def _starts(record: Record) -> Iterator[Failure]:
     """Implementations that could not be started, or broke the protocol throughout."""
     for tested in under_test(record):
-        if not tested.line["started"]:
-            yield Failure("implementation", tested.name, "start", "not-started", str(tested.line["trouble"]))
-        elif tested.line["broke_protocol_throughout"]:
+        if isinstance(tested.line, NotStarted):
+            yield Failure("implementation", tested.name, "start", "not-started", str(tested.line.trouble))
+        elif tested.line.broke_protocol_throughout:
             message = f"{tested.name} broke the protocol throughout"
             yield Failure("implementation", tested.name, "start", "protocol", message)
 
@@ -115,45 +117,45 @@ def _starts(record: Record) -> Iterator[Failure]:
 def _abstentions(record: Record) -> Iterator[Failure]:
     """What fails an implementation as a whole and no family of its own: abstentions, answers that change."""
     for tested in under_test(record):
-        for trouble in tested.line.get("troubles", ()):
-            yield Failure("implementation", tested.name, "all families", "behaviour", str(trouble))
+        for trouble in [] if isinstance(tested.line, NotStarted) else tested.line.troubles:
+            yield Failure("implementation", tested.name, "all families", "behaviour", trouble)
 
 
 def _implementations(record: Record) -> Iterator[Failure]:
     replays, names = Replays.of(record), names_in(record)
-    for line in record.of("group"):
-        for status, number in in_order(line["counts"]).items():
-            if status in line.get("failing", ()) or _breaks_promise(line, status):
+    for line in record.of(Group):
+        for status, number in in_order(Counter(line.counts)).items():
+            if status in (line.failing or ()) or _breaks_promise(line, status):
                 yield _broken(names[subject_of(line)], line, status, number, replays)
 
 
-def _breaks_promise(line: Line, status: str) -> bool:
+def _breaks_promise(line: Group, status: str) -> bool:
     """Whether a status fails a method of the project itself; of a gated one the record says what fails it."""
-    return status not in HARMLESS if line["exact"] else status in FATAL
+    return status not in HARMLESS if line.exact else status in FATAL
 
 
-def _broken(name: str, line: Line, status: str, number: int, replays: Replays) -> Failure:
-    family = line["family"]
-    promise = " promises to be exact, but" if line["exact"] else ":"
-    message = f"{name}{promise} {number:,} of {counted(line['asked'], 'case')} ended as {status}"
-    first = next((case for case in line["worst"] if case["status"] == status), None)
-    fault = next((case for case in line.get("faults", ()) if case["status"] == status), None)
+def _broken(name: str, line: Group, status: str, number: int, replays: Replays) -> Failure:
+    family = line.family
+    promise = " promises to be exact, but" if line.exact else ":"
+    message = f"{name}{promise} {number:,} of {counted(line.asked, 'case')} ended as {status}"
+    first = next((case for case in line.worst if case.status == status), None)
+    fault = next((case for case in line.faults or () if case.status == status), None)
     if fault is not None:
-        message += f"; {fault['case']}: {fault['reason']}"
+        message += f"; {fault.case}: {fault.reason}"
     elif first is not None:
-        said = in_words(first["answer"], line["question"])
-        message += f"; {first['case']} is {Position(first['truth']).label}; answered: {said}"
-        message += f" ({first['mistake']}, wrong by {figure(float(first['backward_error_u']))} u)"
+        said = in_words(first.answer, line.question)
+        message += f"; {first.case} is {Position(first.truth).label}; answered: {said}"
+        message += f" ({first.mistake}, wrong by {figure(float(first.backward_error_u))} u)"
     case = first if fault is None else fault
     if case is None:
         return Failure("implementation", name, family, status, message)
     place, replay = replays.place(case), replays.command(line, case)
-    return Failure("implementation", name, family, status, message, case["case"], place, replay)
+    return Failure("implementation", name, family, status, message, case.case, place, replay)
 
 
 def _drift(record: Record) -> Iterator[Failure]:
-    for line in record.of("drift"):
-        yield Failure("findings", "known findings", "drift", "drift", str(line["sentence"]))
+    for line in record.of(Drift):
+        yield Failure("findings", "known findings", "drift", "drift", str(line.sentence))
 
 
 def verdict(record: Record) -> Verdict:
@@ -162,7 +164,7 @@ def verdict(record: Record) -> Verdict:
     if record.footer is None:
         so_far = f" What was finished has already failed: {_named(found)}." if found else ""
         return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is no pass.{so_far}")
-    code = record.footer["exit_code"]
+    code = record.footer.exit_code
     if code == 0 and found:
         return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_named(found)}.")
     if code == 0:
@@ -193,9 +195,14 @@ def _held(record: Record) -> Verdict:
     totals = [total for total in oracle_totals(record) if total.asked]
     tested = [each for each in implementations(record) if each.asked]
     compared = [each for each in measured(record) if each.asked or each.speed]
-    if not totals and not tested and not compared and not any(map(record.of, benchmark.ALONE)):
+    if (
+        not totals
+        and not tested
+        and not compared
+        and not any(isinstance(line, benchmark.ALONE) for line in record.lines)
+    ):
         return Verdict(False, "NOTHING was asked and nothing was judged: this is no pass.")
-    proofs = len(record.of("proof"))
+    proofs = len(record.of(Proof))
     clauses = [
         *([_oracle_clause(totals)] if totals else []),
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),

@@ -94,7 +94,11 @@ def kept() -> list[str]:
 def files_of(record: Record) -> list[str]:
     """The names of the reports that a run with this record writes, where all of them can be made."""
     every = [REPORTS[name] for name in kept()]
-    return [each.file for each in every if not each.shows or record.of(each.shows)]
+    return [each.file for each in every if _shown(each, record)]
+
+
+def _shown(report: Report, record: Record) -> bool:
+    return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 
 def remove_reports(directory: Path) -> None:
@@ -123,7 +127,7 @@ def write_reports(
     drawings = _drawn_ahead(record) if "html" in wanted else {}
     for name in wanted:
         report = REPORTS[name]
-        if report.shows and not record.of(report.shows):
+        if not _shown(report, record):
             _remove(directory / report.file)
             continue
         beside = {each.path.name for each in done if each.skipped is None}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from hypcheck.methods.builtin import fast_scene
 from hypcheck.methods.fcl_naive import point_mesh
 from hypcheck.methods.method import Answers
 from hypcheck.methods.roots import by_numpy
+from hypcheck.record.lines import Timing
 from hypcheck.rows import CANNOT_SAY, Rows
 from hypcheck.verify.opinions import ORACLES
 
@@ -57,18 +57,18 @@ def contenders(*, meshes: bool) -> list[Contender]:
     return found
 
 
-def line(contender: Contender, timing: Samples) -> dict[str, Any]:
+def line(contender: Contender, timing: Samples) -> Timing:
     """The record's line about one contender."""
-    return {
-        "workload": WORKLOAD,
-        "median_ns": timing.median_ns,
-        "name": timing.name,
-        "title": contender.title,
-        "rows": timing.rows,
-        "loops": timing.loops,
-        "samples_ns": timing.samples_ns,
-        "checksum": timing.checksum,
-    }
+    return Timing(
+        workload=WORKLOAD,
+        median_ns=timing.median_ns,
+        name=timing.name,
+        title=contender.title,
+        rows=timing.rows,
+        loops=timing.loops,
+        samples_ns=timing.samples_ns,
+        checksum=timing.checksum,
+    )
 
 
 def _fast(rows: Rows) -> Answers:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from hypcheck.judge import Criterion, Status
 from hypcheck.methods.domain import EVERYWHERE, representable
 from hypcheck.methods.method import Method
 from hypcheck.pairs import COLUMNS, Pair
+from hypcheck.record.lines import Group
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth.exact import cubic
 from hypcheck.truth.kinds import Kind
@@ -78,7 +78,7 @@ def exact_formulas() -> list[Formula]:
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
-def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan) -> dict[str, Any]:
+def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan) -> Group:
     """The record's line about one method and one family; `octaves` as in groups.line, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
@@ -100,4 +100,6 @@ def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan
         skipped=int((~asked).sum()),
     )
     tallied = groups.tally(ended, criterion)
-    return {"method": method.name, **groups.line(tallied, batch.family.name, criterion)}
+    return groups.line(
+        tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
+    )

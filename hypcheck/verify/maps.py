@@ -7,12 +7,12 @@ On it one sees the ring: at z = 0, far outside the surface, the discriminant van
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from hypcheck import judge
 from hypcheck.methods.method import Method
+from hypcheck.record.lines import Map
 from hypcheck.rows import Rows
 from hypcheck.truth import batch
 
@@ -45,23 +45,23 @@ def tower_panels() -> tuple[Panel, Panel]:
     return whole, near
 
 
-def draw(panel: Panel, method: Method) -> dict[str, Any]:
+def draw(panel: Panel, method: Method) -> Map:
     """The record's line about one panel: a text line of letters for each z, from the lowest up."""
     rows = _grid(panel)
     truth = batch.positions(rows)
     wrong = method.answer(rows) != judge.expected(truth, method.question)
     letters = np.array([LETTERS[position] for position in truth.tolist()])
     letters[wrong] = np.char.upper(letters[wrong])
-    return {
-        "name": panel.name,
-        "method": method.name,
-        "sizes": list(panel.sizes),
-        "r": list(panel.r),
-        "z": list(panel.z),
-        "wrong": int(wrong.sum()),
-        "points": len(rows),
-        "lines": ["".join(line) for line in letters.reshape(panel.lines, panel.columns).tolist()],
-    }
+    return Map(
+        name=panel.name,
+        method=method.name,
+        sizes=panel.sizes,
+        r=panel.r,
+        z=panel.z,
+        wrong=int(wrong.sum()),
+        points=len(rows),
+        lines=["".join(line) for line in letters.reshape(panel.lines, panel.columns).tolist()],
+    )
 
 
 def _grid(panel: Panel) -> Rows:

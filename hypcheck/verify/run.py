@@ -15,7 +15,7 @@ from hypcheck.judge import Status
 from hypcheck.methods.builtin import builtin, builtin_methods, methods_without_meshes
 from hypcheck.methods.method import Method
 from hypcheck.processes import processes
-from hypcheck.record import Recorder
+from hypcheck.record import Recorder, lines
 from hypcheck.verify import contenders, crosscheck, findings, known, maps
 from hypcheck.verify.crosscheck import Tally
 from hypcheck.verify.opinions import ORACLES
@@ -87,17 +87,17 @@ def _with_available(plan: Plan, recorder: Recorder) -> Plan:
     reasons = {name: ORACLES[name].available() for name in plan.oracles}
     for name, reason in reasons.items():
         if reason is not None:
-            recorder.add("unavailable", oracle=name, reason=reason)
+            recorder.add(lines.Unavailable(oracle=name, reason=reason))
     present = tuple(name for name, reason in reasons.items() if reason is None)
     return replace(plan, oracles=present)
 
 
 def _derive(recorder: Recorder, outcome: Outcome, advance: Advance) -> None:
     for equation in check_equations():
-        recorder.add("equation", **asdict(equation))
+        recorder.add(lines.Equation(**asdict(equation)))
     advance(1)
     for proof in prove_formulas():
-        recorder.add("proof", **asdict(proof))
+        recorder.add(lines.Proof(**asdict(proof)))
         if not proof.holds:
             outcome.failed_proofs.append(f"{proof.formula}: {proof.statement}")
     advance(1)
@@ -118,11 +118,22 @@ def _cross_check(
             advance(1)
     for tally in crosscheck.merged(tallies):
         outcome.disagreements += len(tally.disagreements)
-        cases = [{**asdict(case), "row": [value.hex() for value in case.row]} for case in tally.disagreements[:20]]
-        fields = {
-            name: getattr(tally, name) for name in ("oracle", "family", "asked", "undecided", "stages", "seconds")
-        }
-        recorder.add("oracle", **fields, disagreeing=len(tally.disagreements), disagreements=cases)
+        cases = [
+            lines.Disagreement(**{**asdict(case), "row": tuple(value.hex() for value in case.row)})
+            for case in tally.disagreements[:20]
+        ]
+        recorder.add(
+            lines.Oracle(
+                oracle=tally.oracle,
+                family=tally.family,
+                asked=tally.asked,
+                undecided=tally.undecided,
+                stages=dict(tally.stages),
+                seconds=tally.seconds,
+                disagreeing=len(tally.disagreements),
+                disagreements=cases,
+            )
+        )
 
 
 def _exact_findings(
@@ -133,12 +144,12 @@ def _exact_findings(
         for formula in findings.exact_formulas():
             for finding in findings.mathematical(formula, batch, plan):
                 found.append(finding)
-                row = [value.hex() for value in finding.first_row]
+                row = tuple(value.hex() for value in finding.first_row)
                 fields = {**asdict(finding), "first_row": row}
-                recorder.add("finding", **fields, reason=known.reason_for(finding, listed))
+                recorder.add(lines.Finding(**fields, reason=known.reason_for(finding, listed)))
             advance(1)
     for sentence in known.drift(found, listed, complete=plan.complete):
-        recorder.add("drift", sentence=sentence)
+        recorder.add(lines.Drift(sentence=sentence))
         outcome.drift.append(sentence)
 
 
@@ -155,15 +166,15 @@ def _judge(
         advance(1)
         for method in methods:
             line = findings.group(method, batch, octaves, plan)
-            recorder.add("group", exact=method.exact, title=method.title, **line)
-            if method.exact and set(line["counts"]) - {Status.RIGHT.value, Status.SKIPPED.value}:
+            recorder.add(line)
+            if method.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}:
                 outcome.exact_methods_wrong.append(f"{method.name} on {batch.family.name}")
             advance(1)
 
 
 def _draw(recorder: Recorder, advance: Advance) -> None:
     for panel in maps.tower_panels():
-        recorder.add("map", **maps.draw(panel, builtin("table-2-float32")))
+        recorder.add(maps.draw(panel, builtin("table-2-float32")))
         advance(1)
 
 
@@ -172,7 +183,7 @@ def _time(plan: Plan, recorder: Recorder, advance: Advance) -> None:
     for _, timings in measure([each.entry(rows) for each in found], ROUNDS):
         advance(1)
         for contender, timing in zip(found, timings, strict=False):
-            recorder.add("timing", **contenders.line(contender, timing))
+            recorder.add(contenders.line(contender, timing))
 
 
 def options(plan: Plan) -> Mapping[str, Any]:

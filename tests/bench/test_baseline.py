@@ -7,6 +7,7 @@ import io
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from msgspec import structs
 
 from hypcheck.bench.baseline import Change, change_of, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.contenders import contenders
@@ -14,6 +15,10 @@ from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
 from hypcheck.record import Recorder
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import Drift
+from hypcheck.record.measurements import Noise, Speed
+from tests.report import bench_lines
 
 KEY = ("mine", "uniform", "batch")
 
@@ -26,17 +31,14 @@ def run(slowness=1.0, machine=1.0, spread=0.01, floor=0.01, seed=0):
         return (time * machine * np.exp(generator.normal(0, spread, (5, 5)))).tolist()
 
     def speed(method, time):
-        return {
-            "type": "speed",
-            "method": method,
-            "workload": "uniform",
-            "mode": "batch",
-            "ratio": time / 10.0,
-            "samples_ns": samples(time),
-        }
+        return structs.replace(speed_of(method, time / 10.0), samples_ns=samples(time))
 
-    noise = {"type": "noise", "workload": "uniform", "mode": "batch", "floor": floor}
-    return speeds_of([noise, speed(REFERENCE, 10.0), speed("mine", 4.0 * slowness), {"type": "method"}])
+    noise = Noise(workload="uniform", mode="batch", ratio=1.0, ratio_ci95=(1.0, 1.0), floor=floor)
+    return speeds_of([noise, speed(REFERENCE, 10.0), speed("mine", 4.0 * slowness), Drift(sentence="odd")])
+
+
+def speed_of(method, ratio):
+    return decoded(bench_lines.speed(method, "uniform", "batch", 10.0 * ratio, 10.0), Speed)
 
 
 def verdict(before, after, allowed=1.1):
@@ -95,11 +97,11 @@ def test_the_interval_is_widened_by_the_noise_before_it_is_read(low, high, noise
 
 def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():
     before, after = run(seed=1), run(2.0, seed=2)
-    after.speeds["new", "uniform", "batch"] = {**after.speeds[KEY], "method": "new"}
+    after.speeds["new", "uniform", "batch"] = structs.replace(after.speeds[KEY], method="new")
     (line,) = comparisons(BenchPlan(), before, after, {"mine"})
-    assert (line["method"], line["verdict"], line["gates"], line["allowed"]) == ("mine", "slower", True, 1.1)
-    assert line["change"] == pytest.approx(2.0)
-    assert line["ci95"][0] <= line["change"] <= line["ci95"][1]
+    assert (line.method, line.verdict, line.gates, line.allowed) == ("mine", "slower", True, 1.1)
+    assert line.change == pytest.approx(2.0)
+    assert line.ci95[0] <= line.change <= line.ci95[1]
 
 
 def test_what_gates_is_what_was_named_else_our_certified_methods():
@@ -119,7 +121,7 @@ def recorded(path, lines=(), **options):
     stream = io.StringIO()
     recorder = Recorder(stream, {"command": "bench", "reference": REFERENCE, "quick": True, **options})
     for line in lines:
-        recorder.add("speed", **line)
+        recorder.add(line)
     recorder.close(0)
     path.write_text(stream.getvalue(), encoding="utf-8")
     return BenchPlan(quick=True, baseline=path)
@@ -141,8 +143,7 @@ def test_what_is_no_baseline_for_this_run_is_refused(tmp_path, options, message)
 
 
 def test_the_folder_of_a_run_stands_for_its_record(tmp_path):
-    line = {"method": "mine", "workload": "uniform", "mode": "batch", "ratio": 2.0, "samples_ns": [[3.0]]}
-    recorded(tmp_path / "record.jsonl", [line])
+    recorded(tmp_path / "record.jsonl", [speed_of("mine", 2.0)])
     found = read_baseline(BenchPlan(quick=True, baseline=tmp_path))
     assert list(found.speeds) == [("mine", "uniform", "batch")]
 

@@ -112,12 +112,12 @@ def test_lines_say_what_was_found():
         "roots-numpy": {PRINTED: 10.0, TRIGONOMETRIC: 25.0, claims.EIGENVALUES: 2e4, FIRST_AGAIN: 10.0},
     }
     lines = list(costs.lines(BenchPlan(amounts=FEW), measured(times)))
-    assert [line["verdict"] for line in lines] == ["holds", "does not hold", "holds"]
-    assert [each["ratio"] for each in lines[0]["compared"]] == pytest.approx([1.0, 1 / 3, 1 / 2], rel=0.01)
-    assert FIRST_AGAIN not in {each["name"] for line in lines for each in line["compared"]}
-    assert lines[0]["compared"][0]["operations"]["multiplications"] > 50
-    assert "2 divisions a position" in lines[1]["says"]
-    assert "a position for the roots, none for the coefficients" in lines[2]["says"]
+    assert [line.verdict for line in lines] == ["holds", "does not hold", "holds"]
+    assert [each.ratio for each in lines[0].compared] == pytest.approx([1.0, 1 / 3, 1 / 2], rel=0.01)
+    assert FIRST_AGAIN not in {each.name for line in lines for each in line.compared}
+    assert lines[0].compared[0].operations["multiplications"] > 50
+    assert "2 divisions a position" in lines[1].says
+    assert "a position for the roots, none for the coefficients" in lines[2].says
     noisy = {**times["procedures-numpy"], FIRST_AGAIN: 360.0}
     found = measured({**times, "procedures-numpy": noisy})
-    assert next(costs.lines(BenchPlan(amounts=FEW), found))["verdict"] == "inconclusive"
+    assert next(costs.lines(BenchPlan(amounts=FEW), found)).verdict == "inconclusive"

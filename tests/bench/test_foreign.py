@@ -6,8 +6,9 @@ import itertools
 from dataclasses import replace
 
 import pytest
+from msgspec import structs
 
-from hypcheck.bench.baseline import Baseline, alike
+from hypcheck.bench.baseline import alike, speeds_of
 from hypcheck.bench.contenders import contenders, foreign
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.rounds import Entry, RefusedError, measure
@@ -15,8 +16,12 @@ from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.methods import implementation
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.limits import Limits
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import NotStarted
+from hypcheck.record.measurements import Accuracy, Comparison, Method, Refused, Speed
 from tests.bench.test_run import ended
 from tests.miniatures import QUICK, command, compiled
+from tests.report import bench_lines
 
 ROWS = WORKLOADS["uniform"].rows(1, 50)
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -143,13 +148,10 @@ def test_one_that_takes_long_is_tried_once_a_batch(tmp_path, monkeypatch):
 
 def test_held_to_a_baseline_it_is_timed_on_as_many_rows_as_there(tmp_path):
     other = foreign.met(subject(tmp_path), Limits(), [])
-    before = Baseline(
-        {
-            ("one", "uniform", "batch"): {"rows": 53},
-            ("one", "flight", "batch"): {"rows": 50},
-            ("one", "uniform", "single"): {"rows": 256},
-        },
-        {},
+    line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), Speed)
+    asked = {("uniform", "batch"): 53, ("flight", "batch"): 50, ("uniform", "single"): 256}
+    before = speeds_of(
+        structs.replace(line, workload=workload, mode=mode, rows=rows) for (workload, mode), rows in asked.items()
     )
     assert [each.timed for each in alike(before, [replace(other, name="one"), other])] == [53, other.timed]
 
@@ -174,23 +176,23 @@ def before(tmp_path_factory):
 def test_it_is_judged_and_timed_as_the_others_are(before):
     code, record, _ = before
     assert code == 0
-    (judged,) = [line for line in record.of("accuracy") if line["method"] == "subject"]
-    assert judged["wrong"] == 0
-    timed = [line for line in record.of("speed") if line["method"] == "subject"]
-    assert {line["mode"] for line in timed} == {"batch", "single"}
-    assert {line["timed_by"] for line in timed} == {"worker"}
-    assert [line["kind"] for line in record.of("method")][-1] == "foreign"
+    (judged,) = [line for line in record.of(Accuracy) if line.method == "subject"]
+    assert judged.wrong == 0
+    timed = [line for line in record.of(Speed) if line.method == "subject"]
+    assert {line.mode for line in timed} == {"batch", "single"}
+    assert {line.timed_by for line in timed} == {"worker"}
+    assert [line.kind for line in record.of(Method)][-1] == "foreign"
 
 
 def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp_path):
     *_, baseline = before
     slower = subject(tmp_path, times=1000)
     code, record = ended(tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", slower)
-    compared = {(line["method"], line["mode"]): line for line in record.of("comparison") if line["gates"]}
-    assert compared["subject", "batch"]["verdict"] == "slower"
-    assert compared["subject", "batch"]["change"] > 5
+    compared = {(line.method, line.mode): line for line in record.of(Comparison) if line.gates}
+    assert compared["subject", "batch"].verdict == "slower"
+    assert compared["subject", "batch"].change > 5
     assert code == 3
-    assert {line["method"] for line in record.of("comparison")} == {"subject", "fast-numpy"}
+    assert {line.method for line in record.of(Comparison)} == {"subject", "fast-numpy"}
 
 
 def test_the_same_again_is_not_found_slower(before, tmp_path):
@@ -198,25 +200,25 @@ def test_the_same_again_is_not_found_slower(before, tmp_path):
     code, record = ended(
         tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", subject(tmp_path)
     )
-    assert "slower" not in {line["verdict"] for line in record.of("comparison") if line["change"] < 1.5}
-    assert code in (0, 4) or max(line["change"] for line in record.of("comparison") if line["gates"]) > 1.5
+    assert "slower" not in {line.verdict for line in record.of(Comparison) if line.change < 1.5}
+    assert code in (0, 4) or max(line.change for line in record.of(Comparison) if line.gates) > 1.5
 
 
 def test_what_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, f"python:{tmp_path / 'nowhere.py'}:classify")
     assert code == 5
-    assert record.of("implementation")[0]["started"] is False
-    assert record.of("speed")
+    assert record.of(NotStarted)
+    assert record.of(Speed)
 
 
 def test_one_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0"))
     assert code == 1
-    refused = record.of("refused")
+    refused = record.of(Refused)
     assert refused
-    assert all("ZeroDivisionError" in line["reason"] for line in refused)
-    assert all("; the row is 2.0, 17.8, 0.25, 0.15, " in line["reason"] for line in refused)
-    assert "subject" not in {line["method"] for line in record.of("speed")}
+    assert all("ZeroDivisionError" in line.reason for line in refused)
+    assert all("; the row is 2.0, 17.8, 0.25, 0.15, " in line.reason for line in refused)
+    assert "subject" not in {line.method for line in record.of(Speed)}
 
 
 def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
@@ -228,5 +230,5 @@ def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
     path.write_text(begun + path.read_text(encoding="utf-8"), encoding="utf-8")
     code, record = ended(tmp_path / "out", *SMALL, spec)
     assert code == 1
-    reasons = {line["reason"] for line in record.of("refused") if line["method"] == "subject"}
+    reasons = {line.reason for line in record.of(Refused) if line.method == "subject"}
     assert reasons == {"its answers, when it was about to be timed, were not those that were judged"}

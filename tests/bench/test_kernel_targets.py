@@ -18,8 +18,10 @@ from hypcheck.bench.kernel.target import Target
 from hypcheck.errors import UnavailableError
 from hypcheck.kernel.choice import LEVELS, choice
 from hypcheck.record import SCHEMA
-from hypcheck.report.json_schema import violations
+from hypcheck.record.fields import as_json
+from hypcheck.record.measurements import Absent, Kernel
 from hypcheck.truth.nearest import clearances
+from tests.schemas import violations
 
 PUBLISHED = Path(hypcheck.__file__).parent / "report" / "schemas" / f"record-{SCHEMA}.json"
 COMPILER = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
@@ -31,9 +33,9 @@ class Recorder:
     def __init__(self):
         self.lines = []
 
-    def add(self, kind, /, **fields):
+    def add(self, line):
         """As Recorder.add."""
-        self.lines.append({"type": kind, **fields})
+        self.lines.append(line)
 
 
 @pytest.fixture
@@ -54,13 +56,13 @@ def test_every_target_has_a_line_of_the_record_s_schema(small):
     recorder, advanced = Recorder(), []
     kernel.run(recorder, advanced.append, quick=True)
     assert sum(advanced) == kernel.steps()
-    found = [line for line in recorder.lines if line["type"] == "kernel"]
-    names = [line["name"] for line in found]
+    found = [line for line in recorder.lines if isinstance(line, Kernel)]
+    names = [line.name for line in found]
     assert len(set(names)) == len(names) == 15
     definition = json.loads(PUBLISHED.read_text(encoding="utf-8"))
     for line in found:
-        assert not violations(line, definition["$defs"]["kernel"], definition)
-        assert line["ci95"][0] <= line["measured"] <= line["ci95"][1]
+        assert not violations(as_json(line), definition, closed=True)
+        assert line.ci95[0] <= line.measured <= line.ci95[1]
 
 
 def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, monkeypatch):
@@ -70,7 +72,7 @@ def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, mon
     monkeypatch.setattr(compiled, "baselines", missing)
     recorder = Recorder()
     kernel.run(recorder, lambda _: None, quick=True)
-    said = {line["what"] for line in recorder.lines if line["type"] == "absent"}
+    said = {line.what for line in recorder.lines if isinstance(line, Absent)}
     if choice().kernel == "compiled":
         assert "C compiler" in said
     monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
@@ -81,16 +83,16 @@ def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, mon
     finally:
         monkeypatch.delenv("HYPCHECK_KERNEL")
         choice.cache_clear()
-    names = {line["name"] for line in recorder.lines if line["type"] == "kernel"}
+    names = {line.name for line in recorder.lines if isinstance(line, Kernel)}
     assert names >= {"fallback, powers", "fallback, products", "one pair, plain Python"}
     assert "memory speed" not in names
-    assert "compiled kernel" in {line["what"] for line in recorder.lines if line["type"] == "absent"}
+    assert "compiled kernel" in {line.what for line in recorder.lines if isinstance(line, Absent)}
 
 
 def test_a_target_is_met_by_the_median():
     least, most = Target("speed", "", 2.0), Target("time", "", 2.0, at_most=True)
-    assert [least.line([1.0, 3.0, 4.0], "")["met"], most.line([1.0, 3.0, 4.0], "")["met"]] == [True, False]
-    assert least.line([2.0], "says")["measured"] == 2.0
+    assert [least.line([1.0, 3.0, 4.0], "").met, most.line([1.0, 3.0, 4.0], "").met] == [True, False]
+    assert least.line([2.0], "says").measured == 2.0
 
 
 @COMPILER

@@ -21,11 +21,11 @@ PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged
 
 
 def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never_wrong():
-    found = {line["method"]: line for line in stability.lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
-    exact = found["fast-numpy"]["bins"]
+    found = {line.method: line for line in stability.lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
+    exact = found["fast-numpy"].bins
     assert len(exact) == 400
     assert all(asked == 4 and wrong == 0 for _, _, asked, wrong in exact)
-    coarse = {(i, j): wrong / asked for i, j, asked, wrong in found["table-2-float32"]["bins"]}
+    coarse = {(i, j): wrong / asked for i, j, asked, wrong in found["table-2-float32"].bins}
     assert coarse[0, 3] == 0.0  # α/b of 1 to 3, γ/d of 30 to 100
     assert max(coarse[i, j] for i, j in coarse if i >= 10 and j >= 10) > 0.5  # both beyond 1e5
 
@@ -41,13 +41,13 @@ def test_cells_hold_the_rows_of_their_sizes():
 
 def test_the_maps_know_the_ring():
     whole, ring = next(places.lines(PLAN, ["table-2-float32"], None))
-    assert (whole["region"], ring["region"]) == ("whole", "ring")
+    assert (whole.region, ring.region) == ("whole", "ring")
     for line, columns in ((whole, 29), (ring, 15)):
-        assert len(line["wrong"]) == line["z"][2] == 15
-        assert {len(text) for text in line["wrong"]} == {columns} == {line["r"][2]}
-        assert line["z"][0] == -line["z"][1]
-    assert "w" in ring["wrong"][7]  # at z = 0 it calls contact what is clear
-    assert set("".join(whole["wrong"][:5])) == {"."}
+        assert len(line.wrong) == line.z[2] == 15
+        assert {len(text) for text in line.wrong} == {columns} == {line.r[2]}
+        assert line.z[0] == -line.z[1]
+    assert "w" in ring.wrong[7]  # at z = 0 it calls contact what is clear
+    assert set("".join(whole.wrong[:5])) == {"."}
 
 
 def test_a_map_has_a_letter_for_each_mistake():
@@ -64,14 +64,14 @@ def test_a_map_has_a_letter_for_each_mistake():
 
 def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not():
     lines = list(shapes.lines(PLAN))
-    assert {(line["shape"], line["workload"]) for line in lines} == {
+    assert {(line.shape, line.workload) for line in lines} == {
         (shape, workload) for shape in ("sphere", "cylinder") for workload in ("uniform", "flight")
     }
     for line in lines:
-        assert line["false_clear"] == 0
-        assert line["false_contact"] == sum(row[2] for row in line["overlap"])
-        assert line["asked"] == sum(row[1] for row in line["overlap"])
-    sphere = {row[0]: row for row in lines[0]["overlap"]}
+        assert line.false_clear == 0
+        assert line.false_contact == sum(row[2] for row in line.overlap)
+        assert line.asked == sum(row[1] for row in line.overlap)
+    sphere = {row[0]: row for row in lines[0].overlap}
     assert sphere[1.0][2] == 0
     assert sphere[1.0][3] is None
     assert sphere[16.0][2] > sphere[2.0][2] >= 0
@@ -80,29 +80,29 @@ def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not()
 
 def test_an_open_shape_is_found_to_be_dangerous():
     rows = WORKLOADS["uniform"].rows(1, 300)
-    assert shapes.compared(rows, lambda some: np.ones(len(some), dtype=np.int8))["false_clear"] > 0
-    assert shapes.compared(rows, bounding.sphere)["false_clear"] == 0
+    assert shapes.compared(rows, lambda some: np.ones(len(some), dtype=np.int8), "sphere", "uniform").false_clear > 0
+    assert shapes.compared(rows, bounding.sphere, "sphere", "uniform").false_clear == 0
 
 
 @pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
 def test_convergence_counts_triangles_against_errors():
     lines = list(convergence.lines(PLAN))
-    assert [line["method"] for line in lines] == ["fcl-point"] * 2 + ["fcl-sphere"] * 2 + ["fcl-ellipsoid"] * 2
+    assert [line.method for line in lines] == ["fcl-point"] * 2 + ["fcl-sphere"] * 2 + ["fcl-ellipsoid"] * 2
     assert len(lines) == convergence.steps(PLAN)
-    assert lines[1]["deviation"] < lines[0]["deviation"]
-    assert lines[1]["wrong"] < lines[0]["wrong"] < lines[0]["asked"]
-    assert lines[0]["build_ns"] > 0
-    assert lines[0]["query_ns"] > 0
+    assert lines[1].deviation < lines[0].deviation
+    assert lines[1].wrong < lines[0].wrong < lines[0].asked
+    assert lines[0].build_ns > 0
+    assert lines[0].query_ns > 0
 
 
 def test_memory_is_what_a_batch_takes():
     names = ["table-2-float64", "bounding-cylinder"]
-    found = {line["method"]: line for line in memory.lines(replace(PLAN, workers=2), names)}
-    answers = found["bounding-cylinder"]["rows"]
+    found = {line.method: line for line in memory.lines(replace(PLAN, workers=2), names)}
+    answers = found["bounding-cylinder"].rows
     assert answers == QUICK.timed
     # The cylinder makes arrays of all rows, Table 2 of a chunk at a time.
-    assert found["bounding-cylinder"]["peak_bytes"] > 2 * 8 * answers
-    assert found["table-2-float64"]["peak_bytes"] < 100_000_000
+    assert found["bounding-cylinder"].peak_bytes > 2 * 8 * answers
+    assert found["table-2-float64"].peak_bytes < 100_000_000
 
 
 def test_methods_that_are_mapped_can_answer_many_rows():

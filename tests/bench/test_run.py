@@ -14,7 +14,9 @@ from hypcheck.bench.plan import REFERENCE
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, read
-from hypcheck.report.json_schema import violations
+from hypcheck.record.fields import as_json
+from hypcheck.record.measurements import Accuracy, Method, Noise, Speed, Workload
+from tests.schemas import violations
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -34,7 +36,7 @@ def ended(folder, *options):
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     record = read(folder / "record.jsonl")
-    return record.footer["exit_code"], record
+    return record.footer.exit_code, record
 
 
 @pytest.fixture(scope="module")
@@ -46,58 +48,58 @@ def test_it_ends_well_and_every_line_fits_the_schema(small):
     code, record = small
     assert code == 0
     for line in record.lines:
-        assert violations(line, RECORD, closed=True) == []
-    assert violations(record.header, RECORD, closed=True) == []
-    assert record.header["options"]["command"] == "bench"
-    assert record.header["options"]["reference"] == REFERENCE
+        assert violations(as_json(line), RECORD, closed=True) == []
+    assert violations(as_json(record.header), RECORD, closed=True) == []
+    assert record.header.options["command"] == "bench"
+    assert record.header.options["reference"] == REFERENCE
 
 
 def test_what_was_chosen_is_compared_and_the_reference_with_it(small):
     _, record = small
-    assert [line["method"] for line in record.of("method")] == [
+    assert [line.method for line in record.of(Method)] == [
         REFERENCE,
         "table-2-float16",
         "fast-numpy",
         "bounding-cylinder",
     ]
-    assert [line["workload"] for line in record.of("workload")] == ["uniform", "ring"]
+    assert [line.workload for line in record.of(Workload)] == ["uniform", "ring"]
 
 
 def test_every_method_is_judged_on_every_workload(small):
     _, record = small
-    judged = {(line["method"], line["workload"]): line for line in record.of("accuracy")}
+    judged = {(line.method, line.workload): line for line in record.of(Accuracy)}
     assert len(judged) == 8
-    assert judged["fast-numpy", "ring"]["wrong"] == 0
-    assert judged[REFERENCE, "ring"]["wrong"] > 0
-    assert judged["table-2-float16", "uniform"]["reliable_above"] > judged[REFERENCE, "uniform"]["reliable_above"]
+    assert judged["fast-numpy", "ring"].wrong == 0
+    assert judged[REFERENCE, "ring"].wrong > 0
+    assert judged["table-2-float16", "uniform"].reliable_above > judged[REFERENCE, "uniform"].reliable_above
 
 
 def test_methods_are_timed_in_every_process_and_round(small):
     _, record = small
-    timed = {(line["method"], line["workload"], line["mode"]): line for line in record.of("speed")}
+    timed = {(line.method, line.workload, line.mode): line for line in record.of(Speed)}
     assert {key[1] for key in timed} == {"uniform"}
     assert {key[0] for key in timed} == {REFERENCE, "fast-numpy", "bounding-cylinder"}
     assert {key[2] for key in timed} == {"batch", "single"}
     for line in timed.values():
-        assert [len(part) for part in line["samples_ns"]] == [2, 2]
-        low, high = line["ratio_ci95"]
-        assert low <= line["ratio"] <= high
-    assert timed[REFERENCE, "uniform", "batch"]["ratio"] == 1.0
+        assert [len(part) for part in line.samples_ns] == [2, 2]
+        low, high = line.ratio_ci95
+        assert low <= line.ratio <= high
+    assert timed[REFERENCE, "uniform", "batch"].ratio == 1.0
 
 
 def test_a_call_of_numpy_for_one_row_costs_more_than_a_row_in_a_batch(small):
     _, record = small
-    timed = {(line["method"], line["mode"]): line["median_ns"] for line in record.of("speed")}
+    timed = {(line.method, line.mode): line.median_ns for line in record.of(Speed)}
     assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]
 
 
 def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
     _, record = small
-    kinds = [line["type"] for line in record.lines if line["type"] in ("noise", "speed")]
+    kinds = [line.type for line in record.lines if line.type in ("noise", "speed")]
     assert kinds[:2] == ["noise", "noise"]
-    for line in record.of("noise"):
-        low, high = line["ratio_ci95"]
-        assert line["floor"] == pytest.approx(max(high, 1 / low) - 1)
+    for line in record.of(Noise):
+        low, high = line.ratio_ci95
+        assert line.floor == pytest.approx(max(high, 1 / low) - 1)
 
 
 @pytest.mark.parametrize(

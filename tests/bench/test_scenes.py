@@ -9,6 +9,7 @@ from importlib import resources
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import astuple
 
 from hypcheck.bench import scene_kernel, scenes
 from hypcheck.bench.forest import contenders, growth, stepping
@@ -19,7 +20,9 @@ from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
 from hypcheck.record import SCHEMA, read
-from hypcheck.report.json_schema import violations
+from hypcheck.record.measurements import Forest
+from hypcheck.record.measurements import Scene as SceneLine
+from tests.schemas import violations
 from tests.specialise.scenes import HILLS, PLAIN
 
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -36,7 +39,7 @@ def ended(folder, *options):
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     record = read(folder / "record.jsonl")
-    return record.footer["exit_code"], record, (folder / "report.md").read_text(encoding="utf-8")
+    return record.footer.exit_code, record, (folder / "report.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture
@@ -52,16 +55,16 @@ def small(monkeypatch):
 def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
     code, record, report = ended(tmp_path, "--forest")
     assert code == 0
-    lines = record.of("forest")
-    assert {line["trees"] for line in lines} == {10, 200}
+    lines = record.of(Forest)
+    assert {line.trees for line in lines} == {10, 200}
     for line in lines:
         assert not violations(line, DEFINITIONS["$defs"]["forest"], DEFINITIONS)
-        assert line["step_ns"] > 0
-    assert all(line["wrong"] == 0 and line["ratio"] == 1 for line in lines if line["method"] == contenders.OURS)
+        assert line.step_ns > 0
+    assert all(line.wrong == 0 and line.ratio == 1 for line in lines if line.method == contenders.OURS)
     assert "A step in a forest" in report
     assert "a walker's step timed in 2 forests of up to 200 trees" in report
     if FCL.trouble() is None:
-        assert {line["method"] for line in lines} == set(contenders.WALKERS)
+        assert {line.method for line in lines} == set(contenders.WALKERS)
 
 
 def test_only_a_whole_run_measures_scenes_and_forests_unasked():
@@ -102,18 +105,18 @@ def test_an_exact_walker_that_errs_fails_the_run(small, tmp_path, monkeypatch):
     monkeypatch.setattr(contenders, "WALKERS", walkers)
     code, record, report = ended(tmp_path, "--forest")
     assert code == 1
-    assert any(line["wrong"] for line in record.of("forest"))
+    assert any(line.wrong for line in record.of(Forest))
     assert "promises to be exact" in report
 
 
 @COMPILER
 def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_path):
     code, record, report = ended(tmp_path, "--scene", "tower")
-    (line,) = record.of("scene")
+    (line,) = record.of(SceneLine)
     assert code == 0
     assert not violations(line, DEFINITIONS["$defs"]["scene"], DEFINITIONS)
-    assert (line["scene"], line["settings"], line["wrong"]) == ("cooling tower", 2, 0)
-    assert sum(line["shares"].values()) == pytest.approx(1)
+    assert (line.scene, line.settings, line.wrong) == ("cooling tower", 2, 0)
+    assert sum(astuple(line.shares)) == pytest.approx(1)
     for mode in ("batch", "single"):
         assert min(line[mode][name] for name in ("kernel_ns", "printed_ns", "certified_ns")) > 0
         low, high = line[mode]["by_printed_ci95"]

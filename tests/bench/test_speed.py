@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 
 import pytest
+from msgspec import UNSET, structs
 
 from hypcheck.bench import run, speed
 from hypcheck.bench.baseline import speeds_of
@@ -13,6 +14,9 @@ from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.rounds import Samples
 from hypcheck.bench.session import AGAIN, Measured
 from hypcheck.record import Recorder
+from hypcheck.record.fields import decoded
+from hypcheck.record.measurements import Speed, Unmeasured
+from tests.report import bench_lines
 
 WHERE = ("uniform", "single")
 
@@ -29,35 +33,35 @@ def lines(*found):
 
 
 def of(found, kind, name):
-    return [line for each, line in found if each == kind and line["method"] == name]
+    return [line for line in found if isinstance(line, kind) and line.method == name]
 
 
 def test_an_impossible_sample_is_dropped_and_counted():
     """30 ns were taken off each; one of the calls was much shorter, as no call can be that does the work."""
     found = lines(parts("theirs", [20.0, -29.0, 21.0, 22.0, 21.0, 21.0, 21.0], [30.0] * 7))
-    (line,) = of(found, "speed", "theirs")
-    assert line["samples_ns"] == [[20.0, 21.0, 22.0, 21.0, 21.0, 21.0]] * 2
-    assert line["dropped"] == 2
-    assert (line["median_ns"], line["ratio"]) == (21.0, pytest.approx(0.2, rel=0.03))
-    assert "dropped" not in of(found, "speed", REFERENCE)[0]
+    (line,) = of(found, Speed, "theirs")
+    assert line.samples_ns == [[20.0, 21.0, 22.0, 21.0, 21.0, 21.0]] * 2
+    assert line.dropped == 2
+    assert (line.median_ns, line.ratio) == (21.0, pytest.approx(0.2, rel=0.03))
+    assert of(found, Speed, REFERENCE)[0].dropped is UNSET
 
 
 @pytest.mark.parametrize("samples", [[-3.0, 2.0, -1.0, 4.0], [0.01, 0.0, -0.02, 0.0], [5.0, 4.0, -1.0, 9.0]])
 def test_a_time_that_cannot_be_told_from_an_empty_call_is_not_measured_and_says_why(samples):
     found = lines(parts("theirs", samples, [200.0, 210.0, 190.0, 205.0]))
-    assert of(found, "speed", "theirs") == []
-    (line,) = of(found, "unmeasured", "theirs")
-    assert (line["workload"], line["mode"]) == WHERE
-    assert "cannot be told from that of a call that does nothing, 202 ns (190 to 210)" in line["reason"]
+    assert of(found, Speed, "theirs") == []
+    (line,) = of(found, Unmeasured, "theirs")
+    assert (line.workload, line.mode) == WHERE
+    assert "cannot be told from that of a call that does nothing, 202 ns (190 to 210)" in line.reason
 
 
 def test_a_time_of_which_nothing_was_taken_off_is_always_measured():
-    assert len(of(lines(parts("theirs", [0.5, 0.6])), "speed", "theirs")) == 1
+    assert len(of(lines(parts("theirs", [0.5, 0.6])), Speed, "theirs")) == 1
 
 
 def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_pass(tmp_path):
-    before = [{"type": kind, **line} for kind, line in lines(parts("fast-numpy", [20.0, 21.0], [3.0, 3.1]))]
-    after = [{"type": kind, **line} for kind, line in lines(parts("fast-numpy", [-1.0, 0.2], [3.0, 3.1]))]
+    before = list(lines(parts("fast-numpy", [20.0, 21.0], [3.0, 3.1])))
+    after = list(lines(parts("fast-numpy", [-1.0, 0.2], [3.0, 3.1])))
     plan = BenchPlan(methods=("fast-numpy",), baseline=tmp_path)
     for now, inconclusive in ((before, 0), (after, 1)):
         outcome = run.BenchOutcome()
@@ -70,7 +74,8 @@ def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_
 
 def test_a_baseline_of_an_earlier_version_is_not_compared_where_its_times_were_lost():
     """It wrote 0.01 ns where an empty call was no shorter, and gated 46 millionths to 17,900."""
-    line = {"type": "speed", "method": "theirs", "workload": "uniform", "mode": "single", "ratio": 1e-6}
-    kept = {**line, "mode": "batch", "samples_ns": [[5.0, 6.0]]}
-    known = speeds_of([{**line, "samples_ns": [[0.01, 0.01, 7.0]]}, kept])
+    line = decoded({**bench_lines.speed("theirs", "uniform", "single", 0.01, 10_000.0)}, Speed)
+    lost = structs.replace(line, samples_ns=[[0.01, 0.01, 7.0]])
+    kept = structs.replace(line, mode="batch", samples_ns=[[5.0, 6.0]])
+    known = speeds_of([lost, kept])
     assert list(known.speeds) == [("theirs", "uniform", "batch")]

@@ -24,8 +24,8 @@ from hypcheck.casebook.frozen.writing import vectors_text
 from hypcheck.casebook.ladder import RUNGS
 from hypcheck.casebook.tangency import ULPS
 from hypcheck.pairs import Position
-from hypcheck.report.json_schema import violations
 from hypcheck.rows import invalid
+from tests.schemas import violations
 
 FOLDER = vectors.folder()
 ALL = (*vectors.NAMES, refusals.NAME)

@@ -10,7 +10,8 @@ import pytest
 
 from hypcheck.cli.main import main
 
-HEAVY = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
+LIBRARIES = ("msgspec", "numpy", "sympy", "mpmath", "fcl")
+HEAVY = (*LIBRARIES, "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
 UNDRAWN = "sys.modules.update(matplotlib=None, jinja2=None)"
 """For runs whose reports are not looked at: to draw them takes longer than the run."""
 
@@ -53,11 +54,11 @@ def test_one_pair_needs_no_arrays():
         (["emit", "--scene", "tower", "--language", "c"], {"numpy"}),
         (["plan", "tower"], {"numpy"}),
         (["simulate", "forest"], {"numpy", "mpmath"}),
-        (["replay", "tower-body/1/1/3", "builtin:fast"], {"numpy"}),
-        (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], {"numpy"}),
+        (["replay", "tower-body/1/1/3", "builtin:fast"], {"msgspec", "numpy"}),
+        (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], {"msgspec", "numpy"}),
         (
             ["verify", "--self", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
-            {"numpy", "sympy", "mpmath"},
+            {"msgspec", "numpy", "sympy", "mpmath"},
         ),
     ],
 )
@@ -70,7 +71,7 @@ def test_a_command_loads_what_it_uses(arguments, allowed, tmp_path):
 def test_a_report_in_text_loads_no_pictures(tmp_path, text_reports):
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "9", "--out", str(tmp_path)]) == 0
     for form in ([], ["--format", "markdown"], ["--format", "junit"]):
-        assert after(["report", str(tmp_path), *form]) <= {"numpy", "importlib.metadata"}
+        assert after(["report", str(tmp_path), *form]) <= {"msgspec", "numpy", "importlib.metadata"}
 
 
 def test_importing_the_package_loads_nothing_heavy():

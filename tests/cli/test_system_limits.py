@@ -8,12 +8,12 @@ import subprocess
 import sys
 
 import pytest
+from hypcheck.record.writing import Recorder
 
 from hypcheck import processes
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError, SystemLimitError, limit_reached
 from hypcheck.methods.opening import open_implementation
-from hypcheck.record.writing import Recorder
 from tests.miniatures import LIMITS, command, function, rows, truth
 
 LIMITED = """

@@ -18,14 +18,13 @@ from hypcheck.cli.settings import read_settings
 from hypcheck.gate.known_failures import read_known_failures, render
 from hypcheck.kernel.emission.kernel import emitted
 from hypcheck.kernel.emission.telling import plan_as_json, plan_lines
-from hypcheck.record import read
+from hypcheck.record.reader import notes, read
 from hypcheck.record.repairing import check, repair
 from hypcheck.replay.recorded import recorded_cases
 from hypcheck.report import github
 from hypcheck.report.html import page as html_page
 from hypcheck.report.plots.drawn import Drawn, drawn
 from hypcheck.report.plots.table import PLOTS
-from hypcheck.report.reading import notes, read_checked
 from hypcheck.report.write import REPORTS, Around
 from hypcheck.scene.reading import read_scene
 from hypcheck.tables.route import Route
@@ -75,7 +74,7 @@ def repaired(data: bytes) -> None:
 
 def reports(data: bytes) -> None:
     """A record of which every report in text is made."""
-    found = read_checked(kept(data, "record.jsonl"))
+    found = read(kept(data, "record.jsonl"))
     notes(found)
     for name in ("terminal", "json", "markdown", "junit"):
         REPORTS[name].render(found)
@@ -87,14 +86,14 @@ def page(data: bytes) -> None:
 
     Drawing takes 97 % of a page's time, and reading jinja2's templates most of the rest.
     """
-    found = read_checked(kept(data, "record.jsonl"))
+    found = read(kept(data, "record.jsonl"))
     with patch.object(html_page, "_environment", _environment):
         REPORTS["html"].render(found, Around(drawings=UNDRAWN))
 
 
 def plots(data: bytes) -> None:
     """A record of which one of the plots is drawn."""
-    found = read_checked(kept(data, "record.jsonl"))
+    found = read(kept(data, "record.jsonl"))
     names = sorted(PLOTS)
     drawn(names[len(data) % len(names)], found, {})
 

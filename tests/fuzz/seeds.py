@@ -10,6 +10,7 @@ import numpy as np
 
 from hypcheck.casebook import vectors
 from hypcheck.methods import frames
+from hypcheck.record.fields import as_json
 from hypcheck.scene.reading import shipped_scenes, shipped_text
 from hypcheck.tables.route import FORMATS as TABLES
 from tests import report_samples
@@ -66,7 +67,7 @@ def report_records() -> tuple[bytes, ...]:
     """Those of which reports are made: of a whole run, of an interrupted one, of a benchmark."""
     texts = (report_samples.text_and_record()[0], report_samples.text_and_record(exit_code=None)[0])
     bench = bench_lines.bench_record()
-    return (*(text.encode() for text in texts), resealed([bench.header, *bench.lines]))
+    return (*(text.encode() for text in texts), resealed(map(as_json, [bench.header, *bench.lines])))
 
 
 def _lines(text: str) -> list[dict]:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from hypcheck.cli.main import main
 from hypcheck.gate import chunks, progress, schedule
 from hypcheck.record import read
-from hypcheck.record.reading import FILE, GROWING
+from hypcheck.record.reader import FILE, GROWING
 
 SPECS = ("builtin:hessian-float32", "python:tests.gate.subjects:dies_on_the_axis")
 WORDS = ("--families", "tower-body,axis", "--count", "300", "--restarts", "1", "--precision", "float32")

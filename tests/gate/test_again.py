@@ -7,6 +7,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.gate.arranging import FULL
 from hypcheck.record import read
+from hypcheck.record.lines import Group, Implementation
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -18,15 +19,15 @@ def gate(tmp_path, name, *options):
 
 
 def counts(record):
-    return {line["family"]: line["counts"] for line in record.of("group")}
+    return {line.family: line.counts for line in record.of(Group)}
 
 
 def test_answers_carried_over_from_moment_to_moment_are_found(tmp_path):
     code, record = gate(tmp_path, "carries_over", "--families", "flight")
     assert code == 1
-    (line,) = record.of("group")
-    assert set(line["counts"]) == {"right", "nondeterministic"}
-    assert "when asked again, in another order and question" in line["faults"][0]["reason"]
+    (line,) = record.of(Group)
+    assert set(line.counts) == {"right", "nondeterministic"}
+    assert "when asked again, in another order and question" in line.faults[0].reason
     assert gate(tmp_path, "carries_over", "--families", "flight", "--count", "0")[0] == 0  # nothing moves
 
 
@@ -35,7 +36,7 @@ def test_a_question_as_large_as_it_stands_is_asked_by_default(tmp_path, name, co
     count = ("--count", "4000" if code else "1")  # enough questions to grow, though the machine be busy
     ended, record = gate(tmp_path, name, "--families", "tower-body", *count)
     assert ended == code
-    assert counts(record)["tower-body"].get("nondeterministic", 0) == record.of("implementation")[0]["again"]["beyond"]
+    assert counts(record)["tower-body"].get("nondeterministic", 0) == record.of(Implementation)[0].again.beyond
     assert FULL > 4096
 
 
@@ -43,22 +44,22 @@ def test_a_question_as_large_as_it_stands_is_asked_by_default(tmp_path, name, co
 def test_a_small_run_asks_the_same_row_again_too(tmp_path, name):
     code, record = gate(tmp_path, name, "--families", "tower-body", "--count", "40")
     assert code == 1
-    assert record.of("group")[0]["counts"]["nondeterministic"] > 0
+    assert record.of(Group)[0].counts["nondeterministic"] > 0
 
 
 def test_one_case_in_a_hundred_is_asked_again_of_many(tmp_path):
     code, record = gate(tmp_path, "exact", "--families", "tower-body,ring", "--count", "20000")
     assert code == 0
-    (line,) = record.of("implementation")
-    asked = sum(each["asked"] for each in record.of("group"))
-    assert asked / 100 < line["again"]["asked"] < asked / 50
-    assert line["again"]["within"] == line["again"]["beyond"] == 0
+    (line,) = record.of(Implementation)
+    asked = sum(each.asked for each in record.of(Group))
+    assert asked / 100 < line.again.asked < asked / 50
+    assert line.again.within == line.again.beyond == 0
 
 
 def test_a_change_that_rounding_explains_fails_those_alone_who_must_not_change(tmp_path):
     families = ("--families", "tangent,tower-body")
     code, record = gate(tmp_path, "forgets_a_little", *families)
-    assert record.of("implementation")[0]["again"]["within"] > 0
+    assert record.of(Implementation)[0].again.within > 0
     assert set(counts(record)["tangent"]) == {"right", "tolerated"}
     assert code == 0
     assert gate(tmp_path, "forgets_a_little", *families, "--deterministic")[0] == 1
@@ -67,6 +68,6 @@ def test_a_change_that_rounding_explains_fails_those_alone_who_must_not_change(t
 def test_who_fails_when_asked_again_is_told_with_the_reason(tmp_path):
     code, record = gate(tmp_path, "raises_when_asked_alone", "--families", "tower-body")
     assert code == 1
-    (line,) = record.of("group")
-    assert set(line["counts"]) == {"right", "error"}
-    assert line["faults"][0]["reason"].startswith("when asked again: it raised ValueError: one is not enough")
+    (line,) = record.of(Group)
+    assert set(line.counts) == {"right", "error"}
+    assert line.faults[0].reason.startswith("when asked again: it raised ValueError: one is not enough")

@@ -7,7 +7,8 @@ import signal
 import pytest
 
 from hypcheck.record import read
-from hypcheck.record.reading import FILE
+from hypcheck.record.lines import Progress
+from hypcheck.record.reader import FILE
 from tests.gate.clusters import Cluster
 from tests.gate.interrupted import CODE, came_to, ended, started, wait_for
 from tests.gate.test_interrupted import all_gone, needs_proc, token  # noqa: F401
@@ -36,7 +37,7 @@ def lost(tmp_path, out, strike):
     finally:
         cluster.end()
     assert process.returncode == 2
-    assert read(out / FILE).of("progress")
+    assert read(out / FILE).of(Progress)
     return said
 
 

@@ -7,21 +7,25 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec import structs
 
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.gate import chunks, run, schedule
 from hypcheck.gate.consistency import MissingCasesError, planned, require_all_tallied, require_lines, require_state
 from hypcheck.gate.known_failures import KnownFailure
+from hypcheck.gate.lines import as_recorded
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Progress
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State, states
 from hypcheck.gate.workers import Here
 from hypcheck.groups import Tally
+from hypcheck.methods.description import Description
 from hypcheck.methods.limits import Limits
-from hypcheck.record import read
-from hypcheck.record.reading import FILE
+from hypcheck.record import lines, read
+from hypcheck.record.fields import as_json
+from hypcheck.record.reader import FILE
 from tests.records import resealed
 
 KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("axis/1/1/300", None, 9.0, "near"))
@@ -129,7 +133,8 @@ def test_an_edited_line_of_progress_is_refused_in_a_sentence(edit, said):
     *_, (used, rules, state) = list(every_state(plan))[:7]
     content = json.loads(json.dumps(saved(state)))
     edit(content)
-    line = {"number": 0, "declared": {}, "cases": 3, "state": content, "program": ""}
+    declared = as_recorded(Description("mine"))
+    line = lines.Progress(number=0, declared=declared, cases=3, state=content, program="")
     with pytest.raises((InputError, ValueError), match=said):
         require_state(Progress.of_line(line, "some.jsonl").state, run.steps_of(plan, used), plan, rules)
 
@@ -150,17 +155,16 @@ def test_edited_lines_of_a_finished_implementation_are_not_gone_on_with(tmp_path
     words = ["verify", *specs, "--families", "ring", "--count", "30", "--out", str(tmp_path)]
     assert main(words) == 1
     record = read(tmp_path / FILE)
-    lines = json.loads(json.dumps([record.header, *record.lines[:2]]))
+    group, whole = record.lines[:2]
     plan = replace(plan_of(specs[0]), families=("ring",), count=30)
-    require_lines(lines[1:], plan)
-    group = lines[1]
-    group["failing"] = []
-    (tmp_path / FILE).write_bytes(resealed(lines))
+    require_lines([group], whole, plan)
+    edited = [record.header, structs.replace(group, failing=[]), whole]
+    (tmp_path / FILE).write_bytes(resealed(map(as_json, edited)))
     before = (tmp_path / FILE).read_bytes()
     capsys.readouterr()
     assert main([*words, "--resume", str(tmp_path)]) == 2
     assert "ring fails for [], and its counts say ['wrong']" in capsys.readouterr().err
     assert Path(tmp_path / FILE).read_bytes() == before
-    for field, number in (("asked", 3), ("counts", {"right": group["asked"]}), ("mistakes", {})):
+    for field, number in (("asked", 3), ("counts", {"right": group.asked}), ("mistakes", {})):
         with pytest.raises(ValueError, match="ring"):
-            require_lines([{**group, "failing": ["wrong"], field: number}, *lines[2:]], plan)
+            require_lines([structs.replace(group, **{field: number})], whole, plan)

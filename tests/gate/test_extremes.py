@@ -6,6 +6,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
+from hypcheck.record.lines import Group
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -15,7 +16,7 @@ FAMILY = "extreme-magnitude"
 def counts(tmp_path, spec, *options, families=FAMILY):
     out = tmp_path / "out"
     code = main(["verify", spec, "--out", str(out), "--count", "40", "--families", families, *options])
-    return code, read(out / "record.jsonl").of("group")[0]["counts"]
+    return code, read(out / "record.jsonl").of(Group)[0].counts
 
 
 def test_who_declares_no_ranges_is_asked_every_row(tmp_path):

@@ -10,6 +10,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
+from hypcheck.record.lines import Group, NotStarted
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -26,8 +27,8 @@ def subject(name):
 
 def statuses(record):
     total = {}
-    for line in record.of("group"):
-        for status, number in line["counts"].items():
+    for line in record.of(Group):
+        for status, number in line.counts.items():
             total[status] = total.get(status, 0) + number
     return total
 
@@ -78,11 +79,11 @@ def test_answers_that_change_fail(tmp_path):
 def test_a_fault_costs_its_own_cases(tmp_path, name, status, families):
     code, record = gate(tmp_path, subject(name), "--families", families, "--restarts", "200", count="10")
     assert code == 1
-    found = {line["family"]: line for line in record.of("group")}
-    assert found["tower-body"]["counts"].get("right", 0) > 100
+    found = {line.family: line for line in record.of(Group)}
+    assert found["tower-body"].counts.get("right", 0) > 100
     (other,) = set(found) - {"tower-body"}
-    assert found[other]["counts"][status] > 0
-    assert found[other]["faults"][0]["reason"]
+    assert found[other].counts[status] > 0
+    assert found[other].faults[0].reason
 
 
 def test_a_hang_ends_as_timeout(tmp_path):
@@ -97,7 +98,7 @@ def test_a_hang_ends_as_timeout(tmp_path):
 def test_what_cannot_be_started_ends_with_5(tmp_path):
     code, record = gate(tmp_path, "command:/nowhere/at/all", "--families", "ring")
     assert code == 5
-    assert record.of("implementation")[0]["started"] is False
+    assert record.of(NotStarted)
 
 
 def test_a_domain_that_skips_everything_is_no_pass(tmp_path, capsys):
@@ -114,8 +115,8 @@ def test_refusing_is_tested_where_it_is_declared(tmp_path):
     assert statuses(record)["refused"] > 50
     code, record = gate(tmp_path, "python:tests.gate.refusing:does_not", *families)
     assert code == 1
-    (line,) = [line for line in record.of("group") if line["family"] == "invalid"]
-    assert line["counts"]["wrong"] > 50
+    (line,) = [line for line in record.of(Group) if line.family == "invalid"]
+    assert line.counts["wrong"] > 50
 
 
 LIST = """
@@ -211,14 +212,14 @@ def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
 
 def test_the_worst_cancellations_are_asked_where_nothing_else_was_chosen(tmp_path):
     _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
-    asked = {line["family"]: line for line in record.of("group")}
-    assert asked["worst-cancellation"]["counts"]["wrong"] > 10
+    asked = {line.family: line for line in record.of(Group)}
+    assert asked["worst-cancellation"].counts["wrong"] > 10
 
 
 def test_more_rows_than_distances_are_recorded_of(tmp_path):
     code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
     assert code == 0
-    (line,) = record.of("group")
-    assert line["asked"] == line["counts"]["right"] > 70000
-    assert sum(number for counts in line["octaves"].values() for number in counts.values()) == 2000
-    assert sum(cell[2] for cell in line["size_bins"]) == line["asked"]
+    (line,) = record.of(Group)
+    assert line.asked == line.counts["right"] > 70000
+    assert sum(number for counts in line.octaves.values() for number in counts.values()) == 2000
+    assert sum(cell[2] for cell in line.size_bins) == line.asked

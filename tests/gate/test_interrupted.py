@@ -10,6 +10,7 @@ import time
 import pytest
 
 from hypcheck.record import read
+from hypcheck.record.lines import Group, Implementation
 from tests.miniatures import all_gone, needs_proc, token  # noqa: F401
 from tests.undrawn import COMMAND
 
@@ -37,10 +38,10 @@ def test_what_was_finished_is_told(tmp_path, token, number, code, workers):  # n
     assert b"Traceback" not in errors
     record = read(out / "record.jsonl")
     assert record.footer is None
-    (group,) = record.of("group")
-    assert group["counts"]["wrong"] > 0
-    assert group["asked"] == sum(group["counts"].values()) >= 120
-    assert record.of("implementation")[0]["started"] is True
+    (group,) = record.of(Group)
+    assert group.counts["wrong"] > 0
+    assert group.asked == sum(group.counts.values()) >= 120
+    assert record.of(Implementation)[0].started is True
     assert "TRUNCATED" in summary.read_text(encoding="utf-8")
     assert "TRUNCATED" in (out / "report.md").read_text(encoding="utf-8")
     assert b"::error" in said

@@ -9,14 +9,17 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import Group, Implementation
+from hypcheck.record.reader import line_of
 from hypcheck.replay.case import case_of
 from hypcheck.report import junit, markdown, summary
 from hypcheck.report.claims import claims
 from hypcheck.report.digest import implementations, under_test
-from hypcheck.report.json_schema import violations
 from hypcheck.report.terminal import summary_lines
 from hypcheck.report.verdict import failures
 from tests.report.test_schemas import RECORD, SUMMARY
+from tests.schemas import violations
 
 SPECS = (
     "builtin:fast",
@@ -43,7 +46,7 @@ def record(out):
 
 def test_the_record_fits_its_schema(out):
     record = read(out / "record.jsonl")
-    lines = [record.header, *record.lines, record.footer]
+    lines = [as_json(line) for line in (record.header, *record.lines, record.footer)]
     assert {"header", "group", "implementation", "footer"} == {line["type"] for line in lines}
     for line in lines:
         assert violations(line, RECORD, closed=True) == []
@@ -65,7 +68,7 @@ def test_the_record_fits_its_schema(out):
     ],
 )
 def test_a_spoilt_line_does_not_fit(record, spoil):
-    line = json.loads(json.dumps(record.of("implementation")[0]))
+    line = as_json(record.of(Implementation)[0])
     assert violations(line, RECORD, closed=True) == []
     spoil(line)
     assert violations(line, RECORD, closed=True)
@@ -108,7 +111,7 @@ def test_a_name_that_two_bear_is_told_apart(tmp_path):
 
 
 def test_every_failing_family_has_a_command_that_shows_it(record):
-    failing = {(line["spec"], line["family"]) for line in record.of("group") if line["failing"]}
+    failing = {(line.spec, line.family) for line in record.of(Group) if line.failing}
     replayed = [each for each in failures(record) if each.replay]
     assert {each.kind for each in replayed} >= {"wrong", "crash"}
     assert {(shlex.split(each.replay)[3], each.group) for each in replayed} == failing
@@ -155,19 +158,19 @@ def test_an_excused_case_is_not_shown_as_the_wrong_one(tmp_path):
     out, listed = tmp_path / "out", tmp_path / "known.toml"
     words = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "0", "--out", str(out)]
     assert main(words) == 1
-    (group,) = read(out / "record.jsonl").of("group")
-    worst = [case["case"] for case in group["worst"]]
+    (group,) = read(out / "record.jsonl").of(Group)
+    worst = [case.case for case in group.worst]
     entries = [f'[[known_failure]]\ncase = "{case}"\nreason = "known"\n' for case in worst]
     listed.write_text("".join(entries), encoding="utf-8")
     assert main([*words, "--known-failures", str(listed)]) == 1
-    (group,) = read(out / "record.jsonl").of("group")
-    assert group["counts"]["excused"] == len(worst)
+    (group,) = read(out / "record.jsonl").of(Group)
+    assert group.counts["excused"] == len(worst)
     (failure,) = failures(read(out / "record.jsonl"))
     assert failure.case not in worst
 
 
 def test_the_only_sizes_of_a_domain_are_named_and_fit_the_schema(record):
-    line = json.loads(json.dumps(record.of("implementation")[0]))
+    line = as_json(record.of(Implementation)[0])
     line["used"]["domain"]["settings"] = [{"sizes": [2.0, 17.8, 0.25, 0.15], "x": None, "y": [-1, "inf"], "z": [0, 0]}]
     assert violations(line, RECORD, closed=True) == []
-    assert any("only α, γ, b, d = (2, 17.8, 0.25, 0.15), " in claim for claim in claims(line))
+    assert any("only α, γ, b, d = (2, 17.8, 0.25, 0.15), " in claim for claim in claims(line_of(line)))

@@ -21,8 +21,8 @@ from hypcheck.cli.main import main
 from hypcheck.gate import progress
 from hypcheck.gate.resuming import finished_part
 from hypcheck.record import read
-from hypcheck.record.reading import FILE
-from hypcheck.report.json_schema import violations
+from hypcheck.record.lines import Progress
+from hypcheck.record.reader import FILE
 from tests.gate.interrupted import (
     CODE,
     SPECS,
@@ -36,6 +36,7 @@ from tests.gate.interrupted import (
 )
 from tests.records import resealed
 from tests.report.test_schemas import RECORD
+from tests.schemas import violations
 
 MOMENTS = int(os.environ.get("HYPCHECK_MOMENTS", "3"))
 """Random moments to interrupt a run at; fifty are for whoever changes how progress is kept."""
@@ -134,7 +135,7 @@ def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_
         code, said = here(tmp_path)
     assert code == 130
     assert f"the same command with --resume {tmp_path} goes on" in said
-    assert read(tmp_path / FILE).of("progress")
+    assert read(tmp_path / FILE).of(Progress)
     assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
     assert came_to(tmp_path) == whole[0]
 
@@ -204,9 +205,9 @@ def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_
         path.write_bytes(content[:cut])
         record = read(path)
         carried, kept = finished_part(record)
-    whole_second = len(record.lines) - len(record.of("progress")) >= 6 and form[-1].get("finished", True)
+    whole_second = len(record.lines) - len(record.of(Progress)) >= 6 and form[-1].get("finished", True)
     assert list(carried) == [*groups, first, *(second if whole_second else [])]
-    assert kept == (progress if record.of("progress") and not whole_second else None)
+    assert kept == (progress if record.of(Progress) and not whole_second else None)
 
 
 @pytest.mark.parametrize("most", [3000, 12000])

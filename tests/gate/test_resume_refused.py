@@ -11,8 +11,9 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import Recorder, read
+from hypcheck.record.fields import as_json
 from hypcheck.record.owning import OwnedError, owning
-from hypcheck.record.reading import FILE, GROWING
+from hypcheck.record.reader import FILE, GROWING
 from tests.gate.interrupted import in_small_steps, paused_bytes, started, wait_for, words
 from tests.gate.test_interrupted import needs_proc
 from tests.records import resealed
@@ -60,7 +61,7 @@ def refused(out, capsys, *more):
         (lambda lines: lines[-1].update(program="00"), 'the sha256 of hypcheck\'s own files was "00", and is'),
         (lambda lines: lines[-1]["declared"].update(version="9"), "the version that python:tests.gate.subjects"),
         (lambda lines: lines[0]["files"].update(dict.fromkeys(lines[0]["files"], "00")), "the sha256 of "),
-        (lambda lines: lines[-1].pop("state"), "line 5, progress: $ lacks state"),
+        (lambda lines: lines[-1].pop("state"), "line 5, progress: it lacks state"),
         (lambda lines: lines[-1].update(state={}), "says nothing to go on from: KeyError('left')"),
     ],
 )
@@ -97,7 +98,7 @@ def test_the_record_of_a_run_of_another_kind(tmp_path, capsys):
     (tmp_path / "ours.jsonl").write_text(text_and_record()[0], encoding="utf-8")
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "ours.jsonl"))
     assert "it is the record of a run of `verify without SPEC`, which begins anew" in said
-    header = {**read(tmp_path / "ours.jsonl").header, "options": {"command": "bench"}}
+    header = {**as_json(read(tmp_path / "ours.jsonl").header), "options": {"command": "bench"}}
     (tmp_path / "bench.jsonl").write_bytes(resealed([header]))
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "bench.jsonl"))
     assert "it is the record of a run of `bench`, which begins anew" in said

@@ -15,7 +15,8 @@ import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.record import read
-from hypcheck.record.reading import FILE
+from hypcheck.record.lines import Drift
+from hypcheck.record.reader import FILE
 
 SUBJECT = """
 from pathlib import Path
@@ -72,8 +73,8 @@ def test_an_implementation_that_writes_over_the_judge_fails_and_the_file_is_name
     assert "ended with 1" in said
     assert f"hypcheck's own file {verdict} was changed while an implementation was asked" in said
     record = read(tmp_path / "run" / "out" / FILE)
-    assert record.footer["exit_code"] == 1
-    assert [line["sentence"].split()[3] for line in record.of("drift")] == [str(lines), str(verdict)]
+    assert record.footer.exit_code == 1
+    assert [line.sentence.split()[3] for line in record.of(Drift)] == [str(lines), str(verdict)]
     assert json.loads((tmp_path / "run" / "out" / "summary.json").read_text())["passed"] is False
 
 
@@ -99,7 +100,7 @@ def test_an_implementation_that_writes_over_itself_fails(installed, tmp_path):
 def test_a_run_in_which_nothing_changes_holds_and_its_header_has_the_hash_of_the_program(installed, tmp_path):
     said = gated(installed, tmp_path / "run", "pass")
     assert "ended with 0" in said
-    program = read(tmp_path / "run" / "out" / FILE).header["program"]
+    program = read(tmp_path / "run" / "out" / FILE).header.program
     assert program == own_sha256()  # the copy is that of the tree
 
 

@@ -18,6 +18,7 @@ from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import LostError, Workers
 from hypcheck.methods.limits import Limits
 from hypcheck.record import read
+from hypcheck.record.lines import Group
 from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 from tests.undrawn import COMMAND
 
@@ -65,9 +66,9 @@ def test_one_worker_may_end_as_well(tmp_path):
     command = [*COMMAND, *words]
     done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
     assert done.returncode == 1, done.stderr
-    (group,) = read(tmp_path / "record.jsonl").of("group")
-    assert group["counts"]["crash"] == 2501
-    assert "3 processes of hypcheck ended while they asked these cases" in group["faults"][0]["reason"]
+    (group,) = read(tmp_path / "record.jsonl").of(Group)
+    assert group.counts["crash"] == 2501
+    assert "3 processes of hypcheck ended while they asked these cases" in group.faults[0].reason
 
 
 STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us who was stopped")

@@ -19,6 +19,7 @@ from hypcheck.cli.main import main
 from hypcheck.gate import trial
 from hypcheck.judge import Criterion
 from hypcheck.record import read
+from hypcheck.record.lines import Group
 from hypcheck.rows import Rows
 from tests.mutants.collection import Mutant
 from tests.mutants.expectation import Options
@@ -82,9 +83,9 @@ def run(spec: str, options: Options) -> Ruling:
         draw_nothing(stack.enter_context(pytest.MonkeyPatch.context()))  # a ruling is in the record alone
         code = main(["verify", spec, "--out", folder, *options])
         path = Path(folder) / "record.jsonl"
-        groups = read(path).of("group") if path.exists() else []
-    killed_by = {line["family"]: failed for line in groups if (failed := _failed(line))}
-    return Ruling(code, killed_by, sum(line["asked"] for line in groups), said.getvalue())
+        groups = read(path).of(Group) if path.exists() else []
+    killed_by = {line.family: failed for line in groups if (failed := _failed(line))}
+    return Ruling(code, killed_by, sum(line.asked for line in groups), said.getvalue())
 
 
 _flip_octaves, _judged = judge.flip_octaves, judge._judged
@@ -119,5 +120,5 @@ _KEPT = (
 """What costs most of a run and does not depend on the implementation: where it stands, and what stands in for it."""
 
 
-def _failed(line: dict[str, Any]) -> int:
-    return sum(number for status, number in line["counts"].items() if status not in HARMLESS)
+def _failed(line: Group) -> int:
+    return sum(number for status, number in line.counts.items() if status not in HARMLESS)

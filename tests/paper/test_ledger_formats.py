@@ -19,7 +19,7 @@ from hypcheck.paper.derive.choosing import Chosen
 from hypcheck.paper.derive.layout import WIDTH, broken, columns, paragraph
 from hypcheck.paper.derive.tex import UnknownCharacterError, formula, sentence
 from hypcheck.paper.ledger import entries
-from hypcheck.report.json_schema import violations
+from tests.schemas import violations
 
 ALL = Chosen(tuple(PARTS))
 CLAIM = Chosen((), "Proposition 3")

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.report.json_schema import violations
 from hypcheck.scene.reading import shipped_text
+from tests.schemas import violations
 
 SHORT = shipped_text("tower").replace("distance = 500.0", "distance = 3.0")
 FOREST = ("simulate", "forest", "--seed", "3")

@@ -8,7 +8,7 @@ from hypcheck.cli.main import main
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.record import Recorder
 from hypcheck.record.growing import Growing
-from hypcheck.record.reading import FILE, GROWING
+from hypcheck.record.reader import FILE, GROWING
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 

@@ -8,16 +8,57 @@ import math
 import tracemalloc
 
 import pytest
+from msgspec import UNSET
 
 from hypcheck.errors import InputError
-from hypcheck.record import Recorder, read, scanning
+from hypcheck.record import SCHEMA, Recorder, read, scanning
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import Drift, Footer, Implementation
 from tests.records import resealed
+
+HEADER = {
+    "type": "header",
+    "schema": SCHEMA,
+    "hypcheck": "0.1.0",
+    "started": "2026-01-02T03:04:05+00:00",
+    "python": "3.11.7",
+    "versions": {"numpy": "2.0.0"},
+    "machine": {"system": "Linux", "architecture": "x86_64", "processor": "one", "cores": None},
+    "options": {},
+}
+FOOTER = {"type": "footer", "lines": 3, "exit_code": 0, "seconds": 0.5}
+SETTING = {"sizes": [1, 2, 3, 4], "x": ["-inf", 3.5], "y": None, "z": None}
+DESCRIPTION = {
+    "name": "mine",
+    "version": "",
+    "language": "C",
+    "precision": "float64",
+    "question": "position",
+    "domain": {"regimes": ["a>=1"], "ratio": None, "magnitude": None},
+    "refuses": False,
+    "binary": True,
+    "time": False,
+}
+SAMPLE = {
+    "type": "implementation",
+    "spec": "command:./mine",
+    "name": "mine",
+    "started": True,
+    "declared": DESCRIPTION,
+    "used": DESCRIPTION,
+    "restarts": 0,
+    "again": {"asked": 3, "within": 0, "beyond": 0},
+    "broke_protocol_throughout": False,
+    "troubles": [],
+}
+"""A line about an implementation, with everything that an exact reading must bring back."""
 
 
 def written(path, close=True):
     stream = io.StringIO()
     recorder = Recorder(stream, {"seed": 3})
-    recorder.add("group", method="m", worst=[math.inf, -math.inf, 0.1], counts={1: (2, 3)})
+    domain = {"regimes": [], "ratio": [0.1, math.inf], "magnitude": None, "settings": [SETTING]}
+    recorder.add(decoded({**SAMPLE, "used": {**SAMPLE["used"], "domain": domain}}, Implementation))
     record = recorder.close(0) if close else None
     path.write_text(stream.getvalue(), encoding="utf-8")
     return record
@@ -31,7 +72,9 @@ def path(tmp_path):
 def test_what_is_read_is_what_was_written(path):
     record = written(path)
     assert read(path) == record
-    assert read(path).of("group")[0]["worst"] == ["inf", "-inf", 0.1]
+    domain = read(path).of(Implementation)[0].used.domain
+    assert (domain.ratio, domain.settings[0].x) == ((0.1, math.inf), (-math.inf, 3.5))
+    assert '"ratio": [0.1, "inf"]' in path.read_text(encoding="utf-8")
 
 
 def test_without_a_footer_a_record_is_truncated(path):
@@ -49,9 +92,9 @@ def test_lines_that_end_as_on_windows_are_the_same_lines(path):
 def test_a_text_that_utf_8_cannot_hold_comes_back(path):
     stream = io.StringIO()
     recorder = Recorder(stream, {})
-    recorder.add("drift", sentence="a lone surrogate \udc80, a line \u2028 and \x00")
+    recorder.add(Drift(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
     path.write_text(stream.getvalue(), encoding="utf-8")
-    assert read(path).lines[0]["sentence"] == "a lone surrogate \udc80, a line \u2028 and \x00"
+    assert read(path).of(Drift)[0].sentence == "a lone surrogate \udc80, a line \u2028 and \x00"
 
 
 OLDER = '{"type": "header", "schema": "%s"}\n{"type": "group", "n": 1}\n{"type": "footer", "lines": 3}\n'
@@ -59,17 +102,22 @@ OLDER = '{"type": "header", "schema": "%s"}\n{"type": "group", "n": 1}\n{"type":
 
 @pytest.mark.parametrize("version", ["1.0.0", "1.1.0"])
 def test_an_older_version_is_read_without_checksums(path, version):
-    path.write_text(OLDER % version, encoding="utf-8")
-    assert read(path).lines == ({"type": "group", "n": 1},)
-    assert read(path).footer == {"type": "footer", "lines": 3}
-
-
-def test_a_newer_minor_version_is_read_and_what_it_adds_is_kept(path):
-    lines = [{"type": "header", "schema": "1.99.0", "new": [1]}, {"type": "novelty", "n": 1e300}]
-    path.write_bytes(resealed([*lines, {"type": "footer", "lines": 3}]))
+    lines = [{**HEADER, "schema": version}, {"type": "drift", "sentence": "odd"}, FOOTER]
+    path.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
     record = read(path)
-    assert record.header["new"] == [1]
-    assert record.of("novelty") == [{"type": "novelty", "n": 1e300}]
+    assert (record.header.schema, record.header.files, record.header.settings) == (version, UNSET, UNSET)
+    assert record.lines == (Drift(sentence="odd"),)
+    assert record.footer == Footer(lines=3, exit_code=0, seconds=0.5)
+
+
+def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
+    drift = {"type": "drift", "sentence": "odd", "new": {"n": [1]}}
+    lines = [{**HEADER, "schema": "1.99.0", "new": [1]}, {"type": "novelty", "n": 1e300}, drift]
+    path.write_bytes(resealed([*lines, {**FOOTER, "lines": 4}]))
+    record = read(path)
+    assert record.header.schema == "1.99.0"
+    assert record.lines == (Drift(sentence="odd"),)
+    assert record.footer is not None
 
 
 @pytest.mark.parametrize(
@@ -118,7 +166,8 @@ def test_bytes_that_are_no_text_and_a_file_that_is_not_there_are_refused(path, t
         read(path)
     with pytest.raises(InputError, match=r"cannot read .*: no such file"):
         read(tmp_path / "none.jsonl")
-    with pytest.raises(InputError, match=r"cannot read .*: is a directory"):
+    path.unlink()
+    with pytest.raises(InputError, match=r"cannot read .*record\.jsonl: no such file"):
         read(tmp_path)
 
 

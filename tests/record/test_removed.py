@@ -12,7 +12,12 @@ import pytest
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
-from hypcheck.record.reading import FILE, GROWING
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import Progress, Unavailable
+from hypcheck.record.reader import FILE, GROWING
+from tests.record.test_reading import DESCRIPTION
+
+PROGRESS = decoded({"type": "progress", "number": 0, "declared": DESCRIPTION, "cases": 1, "state": {}}, Progress)
 
 
 @pytest.mark.parametrize("end", [None, KeyboardInterrupt, NothingJudgedError("nothing")])
@@ -31,7 +36,7 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
             raise end
 
     def parts(recorder):
-        recorder.add("unavailable", oracle="mesh", reason="before")
+        recorder.add(Unavailable(oracle="mesh", reason="before"))
         return [Part("", 1, removes)]
 
     with contextlib.suppress(KeyboardInterrupt, NothingJudgedError):
@@ -39,7 +44,7 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
     assert not (out / GROWING).exists()
     if not isinstance(end, NothingJudgedError):
         record = read(out / FILE)
-        assert [line["reason"] for line in record.lines] == ["before"]
+        assert [line.reason for line in record.lines] == ["before"]
         assert bool(record.footer) is (end is None)
 
 
@@ -52,7 +57,7 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
             shutil.rmtree(out)
             out.write_text("a file")
             if keeps:
-                recorder.keep(done=1)
+                recorder.keep(PROGRESS)
 
         return [Part("", 1, replaces)]
 
@@ -74,7 +79,7 @@ def test_links_planted_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_
         (out / f"{GROWING}.new").symlink_to(precious)
 
     def parts(recorder):
-        recorder.keep(done=1)
+        recorder.keep(PROGRESS)
         return [Part("", 1, plants)]
 
     record_and_report(out, {}, parts, lambda: 0)

@@ -16,6 +16,8 @@ from hypcheck.methods.builtin import builtin
 from hypcheck.record import read
 from hypcheck.replay.case import case_of
 from hypcheck.replay.recorded import recorded_cases
+from tests import report_samples as samples
+from tests.records import resealed
 
 FREE = "1,99,1,1,5,0,0"
 """Exterior, far off, beside what is nearly a cylinder."""
@@ -167,11 +169,11 @@ def test_cases_of_a_record_are_numbered(tmp_path, capsys):
     assert [each.number for each in kept] == list(range(1, len(kept) + 1))
     for each in kept[::4]:
         case = case_of(f"{out / 'record.jsonl'}:{each.number}")
-        assert case.name == each.case["case"]
+        assert case.name == each.case.case
         assert case.row == case_of(case.name).row
         assert case == case_of(f"{out}:{each.number}")
         found = replayed(capsys, f"{out / 'record.jsonl'}:{each.number}", subject("contact"), code=1)
-        assert found["backward_error"] == each.case["backward_error"]
+        assert found["backward_error"] == each.case.backward_error
     assert main(["replay", f"{out / 'record.jsonl'}:{len(kept) + 1}", subject("contact")]) == 2
     assert f"they are 1 to {len(kept)}" in capsys.readouterr().err
 
@@ -249,11 +251,18 @@ def test_what_cannot_be_started_ends_with_5():
 
 def test_a_record_whose_row_is_no_row(tmp_path, capsys):
     path = tmp_path / "record.jsonl"
-    for row in (["1"] * 6, ["x"] * 7, 3):
-        group = {"type": "group", "worst": [{"case": "a", "row": row}]}
-        path.write_text("\n".join(map(json.dumps, [{"type": "header", "schema": "1.0.0"}, group])) + "\n", "utf-8")
+    for row, said in (
+        (["0x1p+0"] * 6, "worst[0].row is "),
+        (["x"] * 7, 'worst[0].row[0] is "x"; it must be a text matching'),
+        (3, "worst[0].row is 3; it must be a list"),
+        (["0x1p+9999"] * 7, "case 1 has a number that is too large for float64"),
+    ):
+        worst = {**samples.worst("a", "wrong", 3.0), "row": row}
+        text, _ = samples.text_and_record([samples.group("m", "float64", "ring", {"wrong": 1})])
+        header, group, footer = map(json.loads, text.splitlines())
+        path.write_bytes(resealed([header, {**group, "worst": [worst]}, footer]))
         assert main(["replay", f"{path}:1", "builtin:fast"]) == 2
-        assert "case 1" in capsys.readouterr().err
+        assert said in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("spec", ["builtin:table-2-float64", subject("exact")])

@@ -8,11 +8,11 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.report import junit, markdown, summary, terminal
-from hypcheck.report.json_schema import violations
 from hypcheck.report.verdict import failures, verdict
 from tests.report import bench_lines
 from tests.report.bench_lines import bench_record
 from tests.report.test_schemas import SUMMARY
+from tests.schemas import violations
 
 
 def lines(kind, **changes):

@@ -7,6 +7,8 @@ import json
 
 import pytest
 
+from hypcheck.record.fields import as_json, decoded
+from hypcheck.record.lines import Header
 from hypcheck.report import markdown, terminal
 from hypcheck.report.changes import (
     FASTER,
@@ -111,11 +113,11 @@ def test_errors_of_a_benchmark():
 
 
 def test_what_else_is_not_the_same_is_said():
-    header = json.loads(json.dumps(BEFORE.header))
+    header = as_json(BEFORE.header)
     header["machine"]["processor"] = "another"
     header["options"]["seed"] = 2
     header["hypcheck"] = "9.9.9"
-    other = dataclasses.replace(BEFORE, header=header, footer=None)
+    other = dataclasses.replace(BEFORE, header=decoded(header, Header), footer=None)
     said = list(conditions(BEFORE, other))
     assert any(each.startswith("another machine: processor") for each in said)
     assert "option seed 1, now 2" in said

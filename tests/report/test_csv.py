@@ -64,7 +64,7 @@ def test_a_verification_has_its_counts():
 
 
 def test_every_kind_of_line_that_measures_is_there():
-    measuring = set(MEASUREMENTS)
+    measuring = {kind.__struct_config__.tag for kind in MEASUREMENTS}
     assert {row["kind"] for row in rows(samples.record([*samples.lines(), *bench_lines.lines()]))} == measuring
 
 

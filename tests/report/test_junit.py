@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given, settings
 
+from hypcheck.record.lines import Footer
 from hypcheck.report.junit import render
 from hypcheck.visible import visible
 from tests import report_samples as samples
@@ -68,7 +70,7 @@ def test_times_are_seconds_to_the_millisecond():
 
 def test_the_time_of_the_run_stands_once_and_a_case_that_was_not_timed_has_none():
     _, record = samples.text_and_record(exit_code=0)
-    record.footer["seconds"] = 12.5
+    record = dataclasses.replace(record, footer=Footer(lines=9, exit_code=0, seconds=12.5))
     root = parsed(record)
     assert root.get("time") == "12.500"
     assert case(root, "run", "ended").get("time") == "11.500"  # the four oracles' 0.25 s have cases of their own

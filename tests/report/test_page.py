@@ -10,8 +10,11 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
+from msgspec import structs
 
 from hypcheck.errors import UnavailableError
+from hypcheck.record.fields import decoded
+from hypcheck.record.lines import Settings
 from hypcheck.report.content.blocks import LONGEST
 from hypcheck.report.html import page
 from hypcheck.report.plots.table import PLOTS, draw
@@ -148,7 +151,8 @@ def test_what_failed_stands_before_what_holds(no_plots):
 def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_plots):
     weakened = [{"option": "--tolerance", "value": "1e+18", "default": "8", "source": "hypcheck.toml"}]
     record = samples.record()
-    header = {**record.header, "settings": {"file": "hypcheck.toml", "weakened": weakened}}
+    settings = decoded({"file": "hypcheck.toml", "weakened": weakened}, Settings)
+    header = structs.replace(record.header, settings=settings)
     text = page.render(replace(record, header=header)).decode("utf-8")
     assert "weaker than the default: --tolerance 1e+18, not 8 (hypcheck.toml)." in text
     assert text.index("weaker than the default") < text.rindex("The oracles")

@@ -7,52 +7,60 @@ import json
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.report import reading
-from hypcheck.report.reading import notes, read_checked
+from hypcheck.record import plain
+from hypcheck.record.reader import notes, read
+from hypcheck.record.schema import schema
 from hypcheck.report.write import REPORTS
 from tests import report_samples as samples
 from tests.records import resealed
 from tests.report import bench_lines
 
-REQUIRED = {name: part.get("required", ()) for name, part in reading._schema()["$defs"].items()}
+REQUIRED = {name: part.get("required", ()) for name, part in schema()["$defs"].items()}
 """The fields that each type of line must have."""
 
 
 def written(tmp_path, body=None, **header):
-    text, _ = samples.text_and_record(body)
-    first, *rest = map(json.loads, text.splitlines())
+    first, *_, last = map(json.loads, samples.text_and_record()[0].splitlines())
+    lines = plain(samples.lines() if body is None else body)
     path = tmp_path / "record.jsonl"
-    path.write_bytes(resealed([{**first, **header}, *rest]))
+    path.write_bytes(resealed([{**first, **header}, *lines, {**last, "lines": len(lines) + 2}]))
     return path
 
 
 @pytest.mark.parametrize("body", [samples.lines(), bench_lines.lines()])
 def test_a_record_from_its_file_or_its_folder(tmp_path, body):
     path = written(tmp_path, body)
-    assert read_checked(path) == read_checked(tmp_path)
-    assert notes(read_checked(path)) == []
+    assert read(path) == read(tmp_path)
+    assert notes(read(path)) == []
 
 
 @pytest.mark.parametrize(
     ("kind", "spoilt", "said"),
     [
-        ("group", {"counts": None}, "counts is None, not object"),
-        ("group", {"worst": [{}]}, "worst[0] lacks answer, backward_error, "),
-        ("oracle", {"asked": -4}, "asked is -4, below 0"),
-        ("timing", {"samples_ns": ["\x1b[31m"]}, r"samples_ns[0] is '\x1b[31m', not number"),
+        ("group", {"counts": None}, "counts is null; it must be an object"),
+        ("group", {"worst": [{}]}, "worst[0] lacks case"),
+        ("oracle", {"asked": -4}, "asked is -4; it must be a whole number >= 0"),
+        ("timing", {"samples_ns": ["\x1b[31m"]}, r'samples_ns[0] is "\u001b[31m"; it must be a number'),
         ("group", {"octaves": {"-in\u202e": {}}}, "octaves has '-in\\u202e', which is neither a small whole number"),
         ("group", {"octaves": {"12345": {}}}, "octaves has '12345', which is neither a small whole number"),
         ("group", {"size_bins": [[0, 0, 3, 4]]}, "size_bins[0] has 4 wrong answers of 3"),
         ("group", {"place_bins": [[0, 0, 3, 2], [0, 10**5, 1, 1]]}, "place_bins[1] is at 100000"),
         ("group", {"place_bins": [[0, 0, -3, -4]]}, "place_bins[0] has -4 wrong answers of -3"),
-        ("map", {"lines": ["x" * 10**6]}, "lines[0] is 'xxxxxxxxxxxxxxxxx"),
+        ("map", {"lines": ["x" * 10**6]}, 'lines[0] is "xxxxxxxxxxxxxxxxx'),
+        ("map", {"r": [1, 2, 3]}, "r is [1, 2, 3]; it must be a list of length 2"),
+        ("equation", {"verdict": "odd"}, 'verdict is "odd"; it must be a text out of holds, misprint, false'),
+        (
+            "group",
+            {"worst": [samples.worst("x", "wrong", "inf") | {"backward_error": "nan"}]},
+            "worst[0].backward_error",
+        ),
     ],
 )
 def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
     body = [{**line, **spoilt} if line["type"] == kind else line for line in samples.lines()]
     number = 2 + next(place for place, line in enumerate(body) if line["type"] == kind)
     with pytest.raises(InputError) as caught:
-        read_checked(written(tmp_path, body))
+        read(written(tmp_path, body))
     assert f"record.jsonl: line {number}, {kind}: {said}" in str(caught.value)
     assert len(str(caught.value)) < 1000
 
@@ -62,13 +70,13 @@ def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
     [
         ([[-3, 2, 3]], "octaves[0] has 3 wrong answers of 2"),
         ([["-inf", 2, 1], [10**5, 1, 1]], "octaves[1] is at 100000; it must be between"),
-        ([[-3, "-inf", 3]], "octaves[0] has a count that is no number"),
+        ([[-3, "-inf", 3]], 'octaves[0][1] is "-inf"; it must be a whole number'),
     ],
 )
 def test_counts_that_cannot_be_are_named(tmp_path, octaves, said):
     body = [{**line, "octaves": octaves} if line["type"] == "accuracy" else line for line in bench_lines.lines()]
     with pytest.raises(InputError) as caught:
-        read_checked(written(tmp_path, body))
+        read(written(tmp_path, body))
     assert f", accuracy: {said}" in str(caught.value)
 
 
@@ -77,7 +85,7 @@ def test_constants_that_are_no_json_are_refused(tmp_path, constant):
     path = tmp_path / "record.jsonl"
     path.write_text(f'{{"type": "header", "schema": "1.1.0"}}\n{{"type": "proof", "seconds": {constant}}}\n')
     with pytest.raises(InputError, match=f"in line 2, at byte 38: {constant} is no number of JSON"):
-        read_checked(path)
+        read(path)
 
 
 def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
@@ -87,33 +95,33 @@ def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
     header, *lines = map(json.loads, samples.text_and_record(list(first.values()))[0].splitlines())
     path = tmp_path / "record.jsonl"
     path.write_bytes(resealed([header, *lines]))
-    read_checked(path)
+    read(path)
     for place, whole in enumerate(lines):
         for field in set(REQUIRED[whole["type"]]) - {"type"}:
             less = [dict(line) for line in lines]
             del less[place][field]
             path.write_bytes(resealed([header, *less]))
             with pytest.raises(InputError, match=rf"{field}|footer counts"):
-                read_checked(path)
+                read(path)
 
 
 def test_other_versions(tmp_path):
-    later = read_checked(written(tmp_path, [*samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
+    later = read(written(tmp_path, [*samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
     assert notes(later) == [
         "the record has schema 1.9.0, later than this program's 1.4.0; what it adds is not shown",
     ]
     for name in ("terminal", "json", "markdown", "junit"):
         assert REPORTS[name].render(later)
-    assert notes(read_checked(written(tmp_path, schema="1.0.0"))) == []
-    for schema in ("0.9.0", "2.0.0"):
+    assert notes(read(written(tmp_path, schema="1.0.0"))) == []
+    for version in ("0.9.0", "2.0.0"):
         with pytest.raises(InputError, match=r"reads 1\.x"):
-            read_checked(written(tmp_path, schema=schema))
+            read(written(tmp_path, schema=version))
     with pytest.raises(InputError, match=r"no header with a schema such as 1\.0\.0"):
-        read_checked(written(tmp_path, schema="1"))
+        read(written(tmp_path, schema="1"))
 
 
 def test_a_truncated_record_is_noted(tmp_path):
     text, _ = samples.text_and_record(exit_code=None)
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
-    assert "interrupted" in notes(read_checked(path))[0]
+    assert "interrupted" in notes(read(path))[0]

@@ -13,6 +13,8 @@ from hypothesis import given, settings
 from matplotlib.colors import to_rgb
 
 from hypcheck.errors import UnavailableError
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import Map
 from hypcheck.report.pictures import map as picture
 from hypcheck.report.plots import scene_map
 from hypcheck.report.plots.style import styled
@@ -20,7 +22,7 @@ from tests import report_samples as samples
 
 
 def maps(body=None):
-    return samples.record(body).of("map")
+    return samples.record(body).of(Map)
 
 
 def of_figure(body=None):
@@ -42,7 +44,7 @@ def test_each_grid_point_has_its_colour():
     for axes, line in zip(panels, maps(), strict=True):
         image = axes.images[0].get_array()
         assert axes.images[0].origin == "lower"  # the first line is the lowest z
-        for up, text in enumerate(line["lines"]):
+        for up, text in enumerate(line.lines):
             for across, letter in enumerate(text):
                 wanted = to_rgb(scene_map.WRONG) if letter.isupper() else colours[letter]
                 assert np.allclose(image[up, across], [*wanted, 1])
@@ -128,6 +130,6 @@ def test_it_is_loaded_only_where_it_is_used():
 @settings(max_examples=4)
 @given(foreign=samples.FOREIGN)
 def test_any_name_can_be_drawn(foreign):
-    body = samples.rewritten(maps(), "table-2-float32", f"${foreign}$ \\frac")
+    body = samples.rewritten([as_json(line) for line in maps()], "table-2-float32", f"${foreign}$ \\frac")
     content = picture.render(samples.record(body))
     ElementTree.fromstring(content)  # noqa: S314

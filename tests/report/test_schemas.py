@@ -14,15 +14,18 @@ from hypcheck.casebook.families import FAMILIES
 from hypcheck.derivation.printed import EquationCheck
 from hypcheck.derivation.proofs import Proof
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
-from hypcheck.record import Recorder, read
+from hypcheck.record import Recorder, measurements, plain, read
+from hypcheck.record.fields import as_json
+from hypcheck.record.reader import LINES
+from hypcheck.record.schema import file_name, text
 from hypcheck.report import summary
-from hypcheck.report.json_schema import violations
 from hypcheck.verify import run
 from hypcheck.verify.contenders import Contender
 from hypcheck.verify.contenders import line as timing_line
 from hypcheck.verify.plan import Plan
 from tests import report_samples as samples
 from tests.report import bench_lines
+from tests.schemas import violations
 
 
 def schema(name):
@@ -33,48 +36,10 @@ RECORD = schema(f"record-{RECORD_SCHEMA}.json")
 SUMMARY = schema(f"summary-{summary.SCHEMA}.json")
 
 
-PARTS = {
-    "scene_times",
-    "settings",
-    "count",
-    "counts",
-    "error",
-    "interval",
-    "row",
-    "invalid_row",
-    "limit",
-    "span",
-    "limits",
-    "description",
-    "bins",
-    "grid",
-    "ratio",
-    "ratios",
-    "load",
-}
-"""Definitions that are no lines of their own."""
-
 OF_A_BENCHMARK = {
-    "method",
-    "unmeasured",
-    "workload",
-    "accuracy",
-    "speed",
-    "noise",
-    "memory",
-    "stability",
-    "places",
-    "convergence",
-    "bounding",
-    "cost",
-    "kernel",
-    "forest",
-    "scene",
-    "comparison",
-    "absent",
-    "compiler",
-    "conditions",
-    "refused",
+    kind.__struct_config__.tag
+    for kind in vars(measurements).values()
+    if isinstance(kind, type) and kind in LINES.values()
 }
 """Lines that `hypcheck bench` writes, since schema 1.1.0."""
 
@@ -93,37 +58,45 @@ def of_summary(record):
     return json.loads(summary.render(record))
 
 
+def test_the_published_schema_is_that_of_the_lines():
+    published = resources.files("hypcheck.report").joinpath("schemas", file_name()).read_text(encoding="utf-8")
+    assert published == text(), "make schemas writes it anew"
+
+
 def test_every_line_of_the_sample_fits():
     text, _ = samples.text_and_record()
     kinds = set()
     for line in lines_of(text):
         assert violations(line, RECORD, closed=True) == []
         kinds.add(line["type"])
-    assert kinds == set(RECORD["$defs"]) - PARTS - {"drift", "implementation", "progress"} - OF_A_BENCHMARK
+    assert kinds == set(LINES) - {"drift", "implementation", "progress"} - OF_A_BENCHMARK
 
 
 def test_every_line_of_a_benchmark_fits():
-    found = bench_lines.bench_record().lines
+    found = [as_json(line) for line in bench_lines.bench_record().lines]
     for line in found:
         assert violations(line, RECORD, closed=True) == []
     assert {line["type"] for line in found} == OF_A_BENCHMARK - {"refused", "unmeasured"}
 
 
-def test_the_older_schema_is_part_of_the_newer():
-    older = schema("record-1.0.0.json")
-    added = {"grid", "ratio", "ratios", "load", "span", "progress", "scene_times", "settings"}
-    assert set(RECORD["$defs"]) == set(older["$defs"]) | OF_A_BENCHMARK | added
-    # Null and the sizes of a domain were added, and room for a fault of each of the six statuses.
-    alike = older["$defs"].keys() - {"limits", "description", "group", "header", "implementation"}
-    assert {name: RECORD["$defs"][name] for name in alike} == {name: older["$defs"][name] for name in alike}
-    newer = RECORD["$defs"]["group"]["properties"]
-    faults = newer["faults"] | {"maxItems": 5}
-    assert newer | {"faults": faults} == older["$defs"]["group"]["properties"]
-    for kind, fields_ in (("header", ("files", "program", "settings")), ("implementation", ("finished",))):
-        newer = dict(RECORD["$defs"][kind]["properties"])
-        for field in fields_:
-            del newer[field]
-        assert RECORD["$defs"][kind] | {"properties": newer} == older["$defs"][kind]
+@pytest.mark.parametrize("version", ["1.0.0", "1.2.0"])
+def test_a_line_that_fits_an_older_schema_fits_this_one(version):
+    older = schema(f"record-{version}.json")
+    kinds = {each["$ref"].removeprefix("#/$defs/") for each in older["oneOf"]} - {"implementation"}
+    assert len(kinds) > 10
+    for kind in kinds:
+        before, now = older["$defs"][kind], RECORD["$defs"][kind]
+        assert set(now["required"]) <= set(before["required"])
+        assert set(before["properties"]) <= set(now["properties"])
+    for line in [*samples.lines(), *bench_lines.lines()]:
+        if line["type"] in kinds:
+            assert violations(plain(line), older) == violations(plain(line), RECORD) == []
+
+
+def test_an_implementation_that_was_not_started_has_nothing_but_its_trouble():
+    line = {"type": "implementation", "spec": "command:x", "name": "x", "started": False, "trouble": "none"}
+    assert violations(line, RECORD, closed=True) == []
+    assert violations({**line, "started": True}, RECORD["$defs"]["implementation"] | {"$defs": RECORD["$defs"]})
 
 
 @pytest.fixture(scope="module")
@@ -161,7 +134,7 @@ def test_a_timing_line_is_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
     contender = Contender("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
     *_, (_, (timing,)) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
-    line = {"type": "timing", **json.loads(json.dumps(timing_line(contender, timing)))}
+    line = json.loads(json.dumps(as_json(timing_line(contender, timing))))
     assert violations(line, RECORD, closed=True) == []
 
 

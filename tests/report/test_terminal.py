@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from hypcheck.report.write import Written
 from tests import report_samples as samples
+from tests.report import bench_lines
 from tests.report.test_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
 
 WRITTEN = [
@@ -55,7 +56,7 @@ def test_an_interrupted_run_says_so_first():
 
 
 def test_it_stays_short():
-    many = [samples.group(f"m-{name}", name, "ring", {"wrong": 1, "right": 2}) for name in "abcdefghijklmnop"]
+    many = [bench_lines.cost(f"claim {name}", "holds") for name in "abcdefghijklmnop"]
     lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6, width=WIDTH)
     assert len(lines) == MOST_LINES == 25
     assert lines[9] == "  ✗ and 42 more failures; junit.xml lists them all"

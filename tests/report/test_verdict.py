@@ -142,7 +142,7 @@ def test_an_implementations_totals():
     assert list(low.statuses.items()) == [("right", 28), ("tolerated", 5), ("wrong", 6), ("skipped", 1)]
     assert low.mistakes == {"false-clear": 1, "false-contact": 10}
     assert low.worst is not None
-    assert low.worst["case"] == "ring/1/1/7"  # inf is more than any number
+    assert low.worst.case == "ring/1/1/7"  # inf is more than any number
     assert (high.asked, high.statuses) == (20, {"right": 20, "skipped": 20})
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
+from hypcheck.record.lines import Map
 from hypcheck.report import junit, markdown, summary, table_csv
 from hypcheck.report.html import page
 from hypcheck.report.pictures import map as picture
@@ -39,7 +40,8 @@ def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
     text, record = samples.text_and_record()
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
-    shown = {name: report for name, report in REPORTS.items() if report.shows is None or record.of(report.shows)}
+    kinds = {line.type for line in record.lines}
+    shown = {name: report for name, report in REPORTS.items() if report.shows in (None, *kinds)}
     assert len(shown) == len(REPORTS) - 3  # the pictures of a benchmark
     for name, report in shown.items():
         assert report.render(read(path)) == report.render(record), name
@@ -60,7 +62,7 @@ def test_wherever_it_was_interrupted(kept, tmp_path):
     record = samples.record(samples.lines()[:kept], exit_code=None)
     written = write_reports(record, tmp_path, [*TEXTS, *(["map", "html"] if kept % 6 == 0 else [])])
     assert not [each.path.name for each in written if each.skipped]
-    assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of("map")))
+    assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(Map)))
 
 
 def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):

@@ -8,11 +8,11 @@ from importlib import resources
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.report.json_schema import violations
 from hypcheck.scene.model import Flight, Span, Start, Walk
 from hypcheck.scene.reading import parse_scene
 from tests.scene.test_reading import LEAST
 from tests.scene.test_schema import accepted, places, replaced, tomllib
+from tests.schemas import violations
 
 SCHEMA = json.loads(
     resources.files("hypcheck.scene").joinpath("schemas", "scene-1.0.0.json").read_text(encoding="utf-8")

@@ -10,9 +10,9 @@ from importlib import resources
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.report.json_schema import violations
 from hypcheck.scene.reading import parse_scene, shipped_scenes, shipped_text
 from tests.scene.test_reading import LEAST, WHOLE
+from tests.schemas import violations
 
 if sys.version_info >= (3, 11):
     import tomllib

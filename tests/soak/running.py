@@ -18,6 +18,7 @@ from pathlib import Path
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
+from hypcheck.record.lines import Group, NotStarted
 from tests.soak.measuring import Sample, faults, sample
 
 HERE = Path(__file__).parent
@@ -83,9 +84,9 @@ def _round(course: Course, folder: Path, out: Path, seed: int, size: list[str]) 
         course.troubles.append(f"round {course.rounds} ended with {code}: {said.getvalue()[-500:]!r}")
         return
     record = read(out / "record.jsonl")
-    course.not_started += [line["trouble"] for line in record.of("implementation") if not line["started"]]
-    for group in record.of("group"):
-        course.statuses += Counter(group["counts"])
+    course.not_started += [line.trouble for line in record.of(NotStarted)]
+    for group in record.of(Group):
+        course.statuses += Counter(group.counts)
     left = [path.name for path in out.iterdir() if path.name.startswith(".") or path.name.endswith(".part")]
     if left or record.footer is None:
         course.troubles.append(f"round {course.rounds} left {left or 'a record without an end'}")

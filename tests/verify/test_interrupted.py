@@ -10,6 +10,7 @@ import time
 import pytest
 
 from hypcheck.record import read
+from hypcheck.record.lines import Proof
 from tests.undrawn import COMMAND
 
 
@@ -28,6 +29,6 @@ def test_what_was_finished_is_written(tmp_path, number, code):
     assert b"Traceback" not in errors
     record = read(tmp_path / "record.jsonl")
     assert record.footer is None
-    assert record.of("proof")
+    assert record.of(Proof)
     assert "TRUNCATED" in (tmp_path / "report.md").read_text(encoding="utf-8")
     assert not part.exists()

@@ -13,6 +13,8 @@ from hypcheck.cli.verify import verify
 from hypcheck.methods import builtin
 from hypcheck.pairs import Position
 from hypcheck.record import read
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import Drift, Oracle, Timing
 from hypcheck.verify import opinions, run
 
 SMALL = ["--count", "6", "--workers", "1", "--families", "ring,tangent"]
@@ -27,7 +29,7 @@ def ended(tmp_path, *options):
 
 
 def exit_code(tmp_path):
-    return read(tmp_path / "record.jsonl").footer["exit_code"]
+    return read(tmp_path / "record.jsonl").footer.exit_code
 
 
 @pytest.fixture(scope="module")
@@ -87,10 +89,10 @@ def test_a_wrong_oracle_ends_with_6_and_shows_the_case(tmp_path, monkeypatch, na
     monkeypatch.setitem(opinions.ORACLES, name, replace(right, ask=lying))
     result = ended(tmp_path)
     assert exit_code(tmp_path) == 6
-    disagreeing = [line for line in read(tmp_path / "record.jsonl").of("oracle") if line["disagreeing"]]
-    assert {line["oracle"] for line in disagreeing} == {name}
-    case = disagreeing[0]["disagreements"][0]["case"]
-    assert any(line["disagreements"][0]["case"] in result.output for line in disagreeing), case
+    disagreeing = [line for line in read(tmp_path / "record.jsonl").of(Oracle) if line.disagreeing]
+    assert {line.oracle for line in disagreeing} == {name}
+    case = disagreeing[0].disagreements[0].case
+    assert any(line.disagreements[0].case in result.output for line in disagreeing), case
 
 
 def test_an_oracle_whose_tangencies_are_wrong_ends_with_6(tmp_path, monkeypatch):
@@ -122,7 +124,7 @@ def test_a_finding_that_is_not_known_ends_with_1(tmp_path, monkeypatch):
     monkeypatch.setattr(run.known, "known_findings", lambda: ())
     ended(tmp_path)
     assert exit_code(tmp_path) == 1
-    assert any("not a known finding" in line["sentence"] for line in read(tmp_path / "record.jsonl").of("drift"))
+    assert any("not a known finding" in line.sentence for line in read(tmp_path / "record.jsonl").of(Drift))
 
 
 def test_a_formula_that_is_not_the_derivation_ends_with_6(tmp_path, monkeypatch):
@@ -135,9 +137,9 @@ def test_a_formula_that_is_not_the_derivation_ends_with_6(tmp_path, monkeypatch)
 def test_the_same_seed_gives_the_same_record_but_for_times(whole, tmp_path):
     def lines(folder):
         return [
-            {key: value for key, value in line.items() if key != "seconds"}
+            {key: value for key, value in as_json(line).items() if key != "seconds"}
             for line in read(folder / "record.jsonl").lines
-            if line["type"] not in ("timing",)
+            if not isinstance(line, Timing)
         ]
 
     ended(tmp_path, *MORE, "--workers", "2")

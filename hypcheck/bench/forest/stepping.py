@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from time import perf_counter
-from typing import Any
 
 from hypcheck.bench.forest.contenders import OURS, Clear, Walker, answers, here
 from hypcheck.bench.forest.growth import Forest, forest_of, walk
@@ -16,6 +15,7 @@ from hypcheck.bench.statistics import estimate, ratios
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
 from hypcheck.record import Recorder
+from hypcheck.record.measurements import Forest as ForestLine
 
 TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 MOST, QUICK_MOST = 100_000, 10_000
@@ -37,13 +37,13 @@ def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int],
     """Add a line for each forest, which has so many trees, and each of those that are asked."""
     for trees in forests:
         for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
-            recorder.add("forest", **line)
+            recorder.add(line)
         advance(1)
     if (trouble := FCL.trouble()) is not None:
         note_absent(recorder, FCL.title, trouble)
 
 
-def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[dict[str, Any]]:
+def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
     centres = walk(Scene(forest.model), forest, STEPS, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
     made = {name: _made(each, forest) for name, each in here().items()}
@@ -68,20 +68,20 @@ def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
     return clear, perf_counter() - started
 
 
-def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> dict[str, Any]:
+def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> ForestLine:
     step = estimate([each.samples_ns])
     ratio = estimate(ratios([each.samples_ns], [ours.samples_ns]))
-    return {
-        "method": each.name,
-        "title": walker.title,
-        "exact": each.name == OURS,
-        "trees": trees,
-        "triangles": walker.triangles,
-        "asked": STEPS,
-        "wrong": wrong,
-        "build_s": built_s,
-        "step_ns": step.median,
-        "ci95_ns": [step.low, step.high],
-        "ratio": ratio.median,
-        "ratio_ci95": [ratio.low, ratio.high],
-    }
+    return ForestLine(
+        method=each.name,
+        title=walker.title,
+        exact=each.name == OURS,
+        trees=trees,
+        triangles=walker.triangles,
+        asked=STEPS,
+        wrong=wrong,
+        build_s=built_s,
+        step_ns=step.median,
+        ci95_ns=(step.low, step.high),
+        ratio=ratio.median,
+        ratio_ci95=(ratio.low, ratio.high),
+    )

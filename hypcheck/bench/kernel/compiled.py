@@ -7,7 +7,6 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 from time import thread_time_ns
-from typing import Any
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from hypcheck.bench.rounds import Entry, Samples, clocked
 from hypcheck.kernel.answering import Columns
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_path import fill_scene, in_parts
+from hypcheck.record.measurements import Kernel
 from hypcheck.rows import Positions
 
 MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
@@ -34,7 +34,7 @@ TOUCHING = Target("near contact", "nanoseconds a row where all rows are within 1
 STREAMED = Target("streamed", "a row in streams of 1e6 to 1e9 rows, the dearest to the cheapest", 1.15, at_most=True)
 
 
-def from_memory(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
+def from_memory(folder: Path, rounds: int) -> Iterator[Kernel]:
     """Ten million rows: reading them, the plain formula, the kernel on one thread and on two."""
     columns, out = uniform(MANY), np.zeros(MANY, dtype=np.int8)
     libraries = baselines(folder, str(choice().level))
@@ -61,7 +61,7 @@ def from_memory(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
     yield THREADS.line(times_as_fast(two, alone), says)
 
 
-def in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
+def in_cache(folder: Path, rounds: int) -> Iterator[Kernel]:
     """A hundred thousand rows, which stay in the cache."""
     columns, out = uniform(CACHED), np.zeros(CACHED, dtype=np.int8)
     libraries = baselines(folder, str(choice().level))
@@ -72,7 +72,7 @@ def in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
     yield IN_CACHE.line(times_as_fast(found["one"], plain), says)
 
 
-def threads_in_cache(folder: Path, rounds: int) -> Iterator[dict[str, Any]]:
+def threads_in_cache(folder: Path, rounds: int) -> Iterator[Kernel]:
     """Two threads whose rows stay in the cache, over and over: what the memory takes no part in."""
     columns, out = uniform(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = baselines(folder, str(choice().level))[0]
@@ -98,14 +98,14 @@ def _over_and_over(library: Baseline, columns: Columns, out: Positions, threads:
     return out[: threads * CACHED]
 
 
-def near_contact(rounds: int) -> Iterator[dict[str, Any]]:
+def near_contact(rounds: int) -> Iterator[Kernel]:
     """Rows that floats cannot decide."""
     columns, out = touching(WORST), np.zeros(WORST, dtype=np.int8)
     found = measured([Entry("worst", WORST, worked(lambda: _answered(columns, out)))], rounds)["worst"]
     yield TOUCHING.line(found.samples_ns, f"{rate(found)}; the exact integers decide nearly all of them")
 
 
-def streamed(most: int, rounds: int) -> Iterator[dict[str, Any]]:
+def streamed(most: int, rounds: int) -> Iterator[Kernel]:
     """From a million rows to `most`, a million at a time, out of a ring of parts that no cache holds."""
     columns, out = uniform(PARTS * PART), np.zeros(PART, dtype=np.int8)
     slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]

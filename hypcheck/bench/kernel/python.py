@@ -20,6 +20,7 @@ from hypcheck.kernel.scalar import exact_position
 from hypcheck.methods.engines import FCL
 from hypcheck.methods.roots import by_numpy
 from hypcheck.methods.scene_mesh import SceneMesh, built, height_of
+from hypcheck.record.measurements import Kernel
 from hypcheck.rows import Rows
 
 MANY, CALLS, FEW = 10_000_000, 1000, 200
@@ -44,7 +45,7 @@ PLAIN_CALL = Target(
 )
 
 
-def against_numpy(rounds: int) -> Iterator[dict[str, Any]]:
+def against_numpy(rounds: int) -> Iterator[Kernel]:
     """Ten million rows: both numpy expressions and both kernels, as one calls them."""
     columns = uniform(MANY)
     work = {
@@ -63,7 +64,7 @@ def against_numpy(rounds: int) -> Iterator[dict[str, Any]]:
             yield target.line(times_as_fast(own, found[other]), says)
 
 
-def against_others(rounds: int) -> Iterator[dict[str, Any]]:
+def against_others(rounds: int) -> Iterator[Kernel]:
     """numpy.roots and FCL a row, beside a hundred thousand rows of the kernel."""
     columns = uniform(100_000)
     rows = np.column_stack([*(np.full(FEW, size) for size in SIZES), *(column[:FEW] for column in columns)])
@@ -82,7 +83,7 @@ def against_others(rounds: int) -> Iterator[dict[str, Any]]:
             yield target.line(times_as_fast(found["kernel"], other), says)
 
 
-def one_call(rounds: int) -> Iterator[dict[str, Any]]:
+def one_call(rounds: int) -> Iterator[Kernel]:
     """One pair at a time, from a loop in Python whose own time is taken off."""
     rows = list(zip(*(column[:CALLS].tolist() for column in _as_columns()), strict=True))
     entries = [

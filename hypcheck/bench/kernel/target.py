@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import thread_time_ns
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.rounds import Clocked, Entry, Samples, measure
 from hypcheck.bench.statistics import estimate
+from hypcheck.record.measurements import Kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,19 +27,19 @@ class Target:
     wanted: float
     at_most: bool = False
 
-    def line(self, measured: list[float], says: str) -> dict[str, Any]:
+    def line(self, measured: list[float], says: str) -> Kernel:
         """The record's line: the median of what was measured, round by round, with its 95 % interval."""
         found = estimate([measured])
         met = found.median <= self.wanted if self.at_most else found.median >= self.wanted
-        return {
-            "name": self.name,
-            "target": self.text,
-            "wanted": self.wanted,
-            "measured": found.median,
-            "ci95": [found.low, found.high],
-            "met": met,
-            "says": says,
-        }
+        return Kernel(
+            name=self.name,
+            target=self.text,
+            wanted=self.wanted,
+            measured=found.median,
+            ci95=(found.low, found.high),
+            met=met,
+            says=says,
+        )
 
 
 def worked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from hypcheck.bench.kernel import compiled, python
 from hypcheck.errors import UnavailableError
 from hypcheck.kernel.choice import choice
 from hypcheck.methods.engines import FCL
 from hypcheck.record import Recorder
+from hypcheck.record.measurements import Absent, Kernel
 
 ROUNDS, QUICK_ROUNDS = 15, 7
 STREAM, QUICK_STREAM = 1_000_000_000, 100_000_000
 
-Group = Callable[[Path, bool], Iterable[dict[str, Any]]]
+Group = Callable[[Path, bool], Iterable[Kernel]]
 
 
 def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> None:
@@ -25,14 +25,14 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
         for group in _groups():
             try:
                 for line in group(Path(folder), quick):
-                    recorder.add("kernel", **line)
+                    recorder.add(line)
             except UnavailableError as error:
-                recorder.add("absent", what="C compiler", reason=str(error))
+                recorder.add(Absent(what="C compiler", reason=str(error)))
             advance(1)
     if choice().kernel != "compiled":
-        recorder.add("absent", what="compiled kernel", reason=choice().reason)
+        recorder.add(Absent(what="compiled kernel", reason=choice().reason))
     if (trouble := FCL.trouble()) is not None:
-        recorder.add("absent", what=FCL.title, reason=trouble)
+        recorder.add(Absent(what=FCL.title, reason=trouble))
 
 
 def steps() -> int:

@@ -44,7 +44,7 @@ def sections(record: Record, against: Record) -> Iterator[Section]:
     """The section; it is there whenever another record is, and says so where nothing changed."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
-    began = against.header["started"]
+    began = against.header.started
     blocks: list[Block] = [
         Paragraph(f"Against the run of {began}, which ended: {verdict(against).sentence}"),
         bullets([f"{each}." for each in (*conditions(against, record), *in_one_alone(against, record))]),

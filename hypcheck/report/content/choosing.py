@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from hypcheck.record import Record
+from hypcheck.record.measurements import Speed
 from hypcheck.report.choice import Advice, beaten, choice, price
 from hypcheck.report.content.blocks import (
     Block,
@@ -39,8 +40,8 @@ def sections(record: Record) -> Iterator[Section]:
     if not chosen.advice:
         return
     known = workloads(record)
-    timed = [line for name, line in known.items() if any(each["workload"] == name for each in record.of("speed"))]
-    scenes = listed([str(line["title"]) for line in timed])
+    timed = [line for name, line in known.items() if any(each.workload == name for each in record.of(Speed))]
+    scenes = listed([str(line.title) for line in timed])
     against = reference(record)
     said: list[Text] = [*_in_short(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:
@@ -62,7 +63,7 @@ def _in_short(record: Record) -> Iterator[Text]:
         errs = (
             f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
         )
-        times = listed([f"{figure(ratio)} times ({known[name]['title']})" for name, ratio in found.ratios])
+        times = listed([f"{figure(ratio)} times ({known[name].title})" for name, ratio in found.ratios])
         fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
         lead = "What it costs never to be wrong: in a batch "
         yield (lead, Code(found.never.name), f" takes {times} as long as ", fastest, ".")
@@ -75,8 +76,8 @@ def named(record: Record) -> Iterator[Section]:
         items: list[Text] = [
             (
                 Code(name),
-                f", {each.tier}: {each.line['title']}",
-                f"; {note}" if (note := each.line["note"]) else "",
+                f", {each.tier}: {each.line.title}",
+                f"; {note}" if (note := each.line.note) else "",
                 ".",
             )
             for name, each in found.items()
@@ -96,15 +97,14 @@ def _table(advice: tuple[Advice, ...]) -> Block:
 
 def _row(each: Advice) -> tuple[Cell, ...]:
     line = each.use.speed[each.workload, each.need.mode]
-    interval = line["ratio_ci95"]
-    ratio = with_interval(float(line["ratio"]), interval)
+    ratio = line.ratio or 0.0
     return (
         Cell(each.need.what),
         Cell(Code(each.use.name)),
         Cell(each.need.where),
         Cell(each.need.asked),
-        Cell(ratio, float(line["ratio"])),
-        Cell(figure(line["median_ns"]), line["median_ns"]),
+        Cell(with_interval(ratio, line.ratio_ci95), ratio),
+        Cell(figure(line.median_ns), line.median_ns),
         Cell(f"{each.use.asked:,}", each.use.asked),
         Cell(joined([Code(other.name) for other in each.alike])),
         Cell(", ".join(each.errs)),

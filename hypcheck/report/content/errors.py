@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Accuracy, Places, Speed, Stability
 from hypcheck.report.content.blocks import (
     Block,
     Cell,
@@ -48,9 +49,9 @@ _PLACES = tuple((role, words) for words, role in places.MISTAKES.values())
 
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of these."""
-    if record.of("accuracy"):
+    if record.of(Accuracy):
         blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
-        if record.of("speed"):
+        if record.of(Speed):
             yield Section("Error against run time", blocks)
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
         yield Section("Wrong answers by distance", (Paragraph(_DISTANCE), ERRORS, others))
@@ -63,7 +64,7 @@ def _table(record: Record) -> Block:
         number, ("asked", "wrong", "false clear", "false contact", "wrong side", "abstained", "reliable above")
     )
     columns: tuple[Column | str, ...] = ("method", "workload", *numbers, "case farthest from contact")
-    titles = {name: str(line["title"]) for name, line in workloads(record).items()}
+    titles = {name: str(line.title) for name, line in workloads(record).items()}
     rows = [
         (Cell(Code(each.name)), Cell(titles[name]), *_row(line))
         for each in measured(record)
@@ -72,27 +73,27 @@ def _table(record: Record) -> Block:
     return table("wrong answers by workload", columns, rows)
 
 
-def _row(line: Line) -> tuple[Cell, ...]:
-    worst = max(line["worst"], key=lambda case: float(case["flip_distance"]), default=None)
-    reliable = float(line["reliable_above"])
-    counts = [count(line[name]) for name in ("false_contact", "wrong_side", "abstained")]
+def _row(line: Accuracy) -> tuple[Cell, ...]:
+    worst = max(line.worst, key=lambda case: float(case.flip_distance), default=None)
+    reliable = float(line.reliable_above)
+    counts = [count(number) for number in (line.false_contact, line.wrong_side, line.abstained)]
     return (
-        count(line["asked"]),
-        count(line["wrong"]),
-        count(line["false_clear"], bad=True),
+        count(line.asked),
+        count(line.wrong),
+        count(line.false_clear, bad=True),
         *counts,
         Cell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
-        Cell(Code(worst["case"]) if worst else ""),
+        Cell(Code(worst.case) if worst else ""),
     )
 
 
 def _maps(record: Record) -> Iterator[Section]:
-    if record.of("stability"):
+    if record.of(Stability):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
         figures = Figures("stability", small=True, legend=HEAT)
         never = _never("Wrong nowhere: ", stability.right(record))
         yield Section("Stability", (Paragraph(words), figures, never), page=True)
-    if record.of("places"):
+    if record.of(Places):
         words = "Grid points of the half plane, distance from the axis across and height up, in metres."
         figures = Figures("places", small=True, legend=_PLACES)
         never = _never("Wrong at none of the grid points: ", places.right(record))

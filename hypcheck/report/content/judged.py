@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from msgspec import UNSET
+
 from hypcheck.judge import Status
 from hypcheck.pairs import Position
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Fault, Group, WrongAnswer
 from hypcheck.report.content.blocks import (
     Block,
     Cell,
@@ -83,23 +86,23 @@ def _statuses(found: Sequence[Implementation]) -> Table:
     return table("families", columns, rows)
 
 
-def _status_row(group: Line, seen: Sequence[str]) -> tuple[Cell, ...]:
-    error = worst_error_u(worst_case(group["worst"]))
-    failing = group.get("failing", _BAD)
-    mistakes = [count(group["mistakes"].get(name, 0)) for name in ("false-clear", "false-contact", "wrong-side")]
+def _status_row(group: Group, seen: Sequence[str]) -> tuple[Cell, ...]:
+    error = worst_error_u(worst_case(group.worst))
+    failing = _BAD if group.failing is UNSET else group.failing
+    mistakes = [count(group.mistakes.get(name, 0)) for name in ("false-clear", "false-contact", "wrong-side")]
     return (
-        Cell(Code(group["family"])),
-        count(group["asked"]),
-        *(count(group["counts"].get(status, 0), bad=status in failing) for status in seen),
+        Cell(Code(group.family)),
+        count(group.asked),
+        *(count(group.counts.get(status, 0), bad=status in failing) for status in seen),
         *mistakes,
         Cell(figure(error) if error else "·", error),
     )
 
 
 def _cases(found: Sequence[Implementation], replays: Replays) -> Iterator[Table]:
-    worst = [(each, group, case) for each in found for group in each.groups for case in group["worst"]]
+    worst = [(each, group, case) for each in found for group in each.groups for case in group.worst]
     if worst:
-        worst.sort(key=lambda of: -float(of[2]["backward_error_u"]))
+        worst.sort(key=lambda of: -float(of[2].backward_error_u))
         kept = [of for each in found for of in [one for one in worst if one[0] is each][:MOST_CASES]]
         columns: tuple[Column | str, ...] = (
             "case",
@@ -112,31 +115,31 @@ def _cases(found: Sequence[Implementation], replays: Replays) -> Iterator[Table]
             "look at it with",
         )
         yield table("worst cases", columns, [_case(*of, replays) for of in kept])
-    faults = [(each, group, case) for each in found for group in each.groups for case in group.get("faults", ())]
+    faults = [(each, group, case) for each in found for group in each.groups for case in group.faults or ()]
     if faults:
         columns = ("case", "method", "ended", "because", "look at it with")
         yield table("cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]])
 
 
-def _case(each: Implementation, group: Line, case: Line, replays: Replays) -> tuple[Cell, ...]:
-    error = float(case["backward_error_u"])
+def _case(each: Implementation, group: Group, case: WrongAnswer, replays: Replays) -> tuple[Cell, ...]:
+    error = float(case.backward_error_u)
     return (
-        Cell(Code(case["case"])),
+        Cell(Code(case.case)),
         Cell(Code(each.name)),
-        Cell(Position(case["truth"]).label),
-        Cell(str(case["answer"])),
-        Cell(case["mistake"]),
+        Cell(Position(case.truth).label),
+        Cell(str(case.answer)),
+        Cell(case.mistake),
         Cell(figure(error), error),
-        Cell(case["status"], tone="bad" if case["status"] in _BAD else ""),
+        Cell(case.status, tone="bad" if case.status in _BAD else ""),
         Cell(Code(replays.command(group, case))),
     )
 
 
-def _fault(each: Implementation, group: Line, case: Line, replays: Replays) -> tuple[Cell, ...]:
+def _fault(each: Implementation, group: Group, case: Fault, replays: Replays) -> tuple[Cell, ...]:
     return (
-        Cell(Code(case["case"])),
+        Cell(Code(case.case)),
         Cell(Code(each.name)),
-        Cell(case["status"], tone="bad" if case["status"] in _BAD else ""),
-        Cell(case["reason"]),
+        Cell(case.status, tone="bad" if case.status in _BAD else ""),
+        Cell(case.reason),
         Cell(Code(replays.command(group, case))),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hypcheck.record import Record
+from hypcheck.record.lines import Map
 from hypcheck.report.content.blocks import Code, Figures, Section, bullets
 from hypcheck.report.text import counted
 
@@ -15,11 +16,11 @@ def sections(record: Record) -> Iterator[Section]:
     """The section; none where there is no map."""
     items = [
         (
-            f"{line['name']}: ",
-            Code(line["method"]),
-            f" is wrong at {line['wrong']:,} of {counted(line['points'], 'grid point')}",
+            f"{line.name}: ",
+            Code(line.method),
+            f" is wrong at {line.wrong:,} of {counted(line.points, 'grid point')}",
         )
-        for line in record.of("map")
+        for line in record.of(Map)
     ]
     if items:
         yield Section("Where it goes wrong", (MAP, bullets(items)))

@@ -56,7 +56,7 @@ def _exact(methods: Sequence[Implementation]) -> Section:
 
 
 def _introduction(record: Record, methods: Sequence[Implementation]) -> Section:
-    tolerance = tolerance_of(record.header["options"])
+    tolerance = tolerance_of(record.header.options)
     limit = f"at most {figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
     said = (
         prose(
@@ -106,25 +106,25 @@ def _row(each: Implementation) -> tuple[Cell, ...]:
         count(statuses.get("wrong", 0), bad=True),
         count(each.mistakes.get("false-clear", 0)),
         Cell(figure(error) if worst else NOTHING, error),
-        Cell(Code(worst["case"]) if worst else NOTHING),
+        Cell(Code(worst.case) if worst else NOTHING),
     )
 
 
 def _matrix(methods: Sequence[Implementation]) -> tuple[Block, ...]:
-    families = dict.fromkeys(group["family"] for each in methods for group in each.groups)
-    groups = {(each.name, group["family"]): group for each in methods for group in each.groups}
+    families = dict.fromkeys(group.family for each in methods for group in each.groups)
+    groups = {(each.name, group.family): group for each in methods for group in each.groups}
 
     def cell(method: str, family: str) -> Cell:
         group = groups.get((method, family))
-        if group is None or not group["asked"]:
+        if group is None or not group.asked:
             return Cell(NOT_ASKED, -1)
-        wrong = group["counts"].get("wrong", 0)
+        wrong = group.counts.get("wrong", 0)
         return Cell(f"{wrong:,}", wrong, "bad") if wrong else Cell(NOTHING, 0)
 
     rows: list[tuple[Cell, ...]] = [
         (Cell(Code(family)), *(cell(each.name, family) for each in methods)) for family in families
     ]
-    asked = max((group["asked"] for group in groups.values()), default=0)
+    asked = max((group.asked for group in groups.values()), default=0)
     columns: tuple[Column | str, ...] = ("family", *(number(Code(_plain_name(each))) for each in methods))
     return (
         Paragraph(

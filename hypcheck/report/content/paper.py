@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.lines import Equation, Finding, Proof
 from hypcheck.report.content.blocks import (
     Cell,
     Code,
@@ -33,7 +34,7 @@ _FINDINGS = prose(
 
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of these."""
-    equations, proofs, found = (record.of(kind) for kind in ("equation", "proof", "finding"))
+    equations, proofs, found = record.of(Equation), record.of(Proof), record.of(Finding)
     if equations:
         yield _equations(equations)
     if proofs:
@@ -42,25 +43,25 @@ def sections(record: Record) -> Iterator[Section]:
         yield _findings(found)
 
 
-def _equations(lines: list[Line]) -> Section:
-    holding = [f"({line['number']})" for line in lines if line["holds"]]
+def _equations(lines: list[Equation]) -> Section:
+    holding = [f"({line.number})" for line in lines if line.holds]
     items = [
         Item(
-            (Strong(f"({line['number']})"), f" {line['verdict']}: {line['finding']}."),
-            (("printed: ", Code(line["statement"])), ("derived: ", Code(line["correction"]))),
+            (Strong(f"({line.number})"), f" {line.verdict}: {line.finding}."),
+            (("printed: ", Code(line.statement)), ("derived: ", Code(line.correction))),
         )
         for line in lines
-        if not line["holds"]
+        if not line.holds
     ]
     named = f": {', '.join(holding)}." if holding else "."
     said = f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
     return Section("The paper's equations", (Paragraph(said), bullets(items)))
 
 
-def _proofs(lines: list[Line]) -> Section:
+def _proofs(lines: list[Proof]) -> Section:
     by_formula: dict[str, list[bool]] = {}
     for line in lines:
-        by_formula.setdefault(line["formula"], []).append(line["holds"])
+        by_formula.setdefault(line.formula, []).append(line.holds)
     rows = [
         (Code(name), Cell(str(sum(holds)), sum(holds)), Cell(str(len(holds)), len(holds)))
         for name, holds in by_formula.items()
@@ -69,12 +70,12 @@ def _proofs(lines: list[Line]) -> Section:
     return Section("The proofs", (Paragraph(_PROOFS), proved))
 
 
-def _findings(lines: list[Line]) -> Section:
+def _findings(lines: list[Finding]) -> Section:
     """Inside the stated regimes first: there a formula breaks its own word. Formulas with one witness share a line."""
-    alike: dict[tuple[object, ...], list[Line]] = {}
-    for line in sorted(lines, key=lambda line: not line["inside"]):
-        fields = ("inside", "family", "cause", "first_case", "wrong", "asked", "reason")
-        alike.setdefault(tuple(line[field] for field in fields), []).append(line)
+    alike: dict[tuple[object, ...], list[Finding]] = {}
+    for line in sorted(lines, key=lambda line: not line.inside):
+        key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
+        alike.setdefault(key, []).append(line)
     columns = (
         "formula",
         "family",
@@ -88,16 +89,16 @@ def _findings(lines: list[Line]) -> Section:
     return Section("Mathematical findings", (Paragraph(_FINDINGS), found))
 
 
-def _finding(group: list[Line]) -> tuple[Cell, ...]:
+def _finding(group: list[Finding]) -> tuple[Cell, ...]:
     line = group[0]
     why = explanation(line)
-    row = from_hex(line["first_row"])
+    row = from_hex(line.first_row)
     return (
-        Cell(joined([Code(each["formula"]) for each in group])),
-        Cell(Code(line["family"])),
-        Cell(Strong("inside") if line["inside"] else "outside"),
-        Cell(f"{line['wrong']:,} of {line['asked']:,}", line["wrong"] / max(1, line["asked"])),
+        Cell(joined([Code(each.formula) for each in group])),
+        Cell(Code(line.family)),
+        Cell(Strong("inside") if line.inside else "outside"),
+        Cell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
         Cell(Strong(why), tone="bad") if unlisted(line) else Cell(why),
         Cell(short_row(row)),
-        Cell(Code(line["first_case"])),
+        Cell(Code(line.first_case)),
     )

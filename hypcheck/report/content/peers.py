@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Bounding, Convergence
 from hypcheck.report.content.blocks import (
     Cell,
     Code,
@@ -32,32 +33,32 @@ _BOUNDS = prose(
 
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of these."""
-    if record.of("convergence"):
-        yield Section("Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of("convergence"))))
-    if record.of("bounding"):
-        lines = record.of("bounding")
+    if record.of(Convergence):
+        yield Section("Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(Convergence))))
+    if record.of(Bounding):
+        lines = record.of(Bounding)
         yield Section("Bounding volumes", (Paragraph(_BOUNDS), Figures("bounding"), _bounds(lines), _overlaps(lines)))
 
 
-def _meshes(lines: list[Line]) -> Table:
+def _meshes(lines: list[Convergence]) -> Table:
     numbers = map(number, ("triangles", "deviation, radii", "asked", "wrong", "query, ns", "build, ns"))
     columns: tuple[Column | str, ...] = ("method", *numbers)
     rows = [
         (
-            Cell(Code(line["method"])),
-            count(line["triangles"]),
-            Cell(figure(line["deviation"]), line["deviation"]),
-            count(line["asked"]),
-            count(line["wrong"]),
-            Cell(figure(line["query_ns"]), line["query_ns"]),
-            Cell(figure(line["build_ns"]), line["build_ns"]),
+            Cell(Code(line.method)),
+            count(line.triangles),
+            Cell(figure(line.deviation), line.deviation),
+            count(line.asked),
+            count(line.wrong),
+            Cell(figure(line.query_ns), line.query_ns),
+            Cell(figure(line.build_ns), line.build_ns),
         )
         for line in lines
     ]
     return table("meshes", columns, rows)
 
 
-def _bounds(lines: list[Line]) -> Table:
+def _bounds(lines: list[Bounding]) -> Table:
     columns: tuple[Column | str, ...] = (
         "shape",
         "workload",
@@ -65,25 +66,25 @@ def _bounds(lines: list[Line]) -> Table:
     )
     rows = [
         (
-            Cell(line["shape"]),
-            Cell(line["workload"]),
-            count(line["asked"]),
-            count(line["false_contact"]),
-            _share(line["false_contact"], line["asked"]),
-            count(line["false_clear"], bad=True),
+            Cell(line.shape),
+            Cell(line.workload),
+            count(line.asked),
+            count(line.false_contact),
+            _share(line.false_contact, line.asked),
+            count(line.false_clear, bad=True),
         )
         for line in lines
     ]
     return table("bounding volumes", columns, rows)
 
 
-def _overlaps(lines: list[Line]) -> Table:
+def _overlaps(lines: list[Bounding]) -> Table:
     numbers = map(number, ("d/b", "asked", "false contact", "share", "median excess clearance, radii"))
     columns: tuple[Column | str, ...] = ("shape", "workload", *numbers)
     rows = [
         (
-            Cell(line["shape"]),
-            Cell(line["workload"]),
+            Cell(line.shape),
+            Cell(line.workload),
             Cell(figure(ratio), ratio),
             count(int(asked)),
             count(int(contacts)),
@@ -91,7 +92,7 @@ def _overlaps(lines: list[Line]) -> Table:
             Cell("–") if excess is None else Cell(figure(excess), excess),
         )
         for line in lines
-        for ratio, asked, contacts, excess in line["overlap"]
+        for ratio, asked, contacts, excess in line.overlap
     ]
     return table("bounding volumes by shape of the spheroid", columns, rows)
 

@@ -71,4 +71,4 @@ def content(record: Record, against: Record | None = None) -> Content:
 
 def title(record: Record) -> str:
     """The command that made the record."""
-    return f"hypcheck {record.header['options'].get('command', 'verify')}"
+    return f"hypcheck {record.header.options.get('command', 'verify')}"

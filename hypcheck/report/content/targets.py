@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.fields import Interval
+from hypcheck.record.measurements import Comparison, Cost, Kernel
 from hypcheck.report.content.blocks import (
     Block,
     Cell,
@@ -33,36 +35,36 @@ _BASELINE = prose(
 
 def baseline(record: Record) -> Iterator[Section]:
     """The comparison with an earlier run, which stands behind what failed; none where there is no baseline."""
-    if record.of("comparison"):
-        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of("comparison"))))
+    if record.of(Comparison):
+        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of(Comparison))))
 
 
 def sections(record: Record) -> Iterator[Section]:
     """The sections about what the record has of the others."""
-    if record.of("cost"):
+    if record.of(Cost):
         yield Section("The paper's claims of cost", tuple(_claims(record)))
-    if record.of("kernel"):
-        yield Section("The kernels' targets", (_kernels(record.of("kernel")),))
+    if record.of(Kernel):
+        yield Section("The kernels' targets", (_kernels(record.of(Kernel)),))
 
 
-def _interval(value: float, ends: list[float] | None) -> Cell:
+def _interval(value: float, ends: Interval | None) -> Cell:
     return Cell(with_interval(value, ends), value)
 
 
-def _baseline(lines: list[Line]) -> Table:
+def _baseline(lines: list[Comparison]) -> Table:
     numbers = map(number, ("before", "after", "change", "allowed"))
     columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
     order = ["slower", "inconclusive", "faster", "same"]
-    ranked = sorted(lines, key=lambda line: (not line.get("gates", True), order.index(line["verdict"])))
+    ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
     rows = [
         (
-            Cell(Code(line["method"])),
-            Cell(line["workload"]),
-            Cell(line["mode"]),
-            Cell(figure(line["before"]), line["before"]),
-            Cell(figure(line["after"]), line["after"]),
-            _interval(line["change"], line["ci95"]),
-            Cell(figure(line["allowed"]), line["allowed"]),
+            Cell(Code(line.method)),
+            Cell(line.workload),
+            Cell(line.mode),
+            Cell(figure(line.before), line.before),
+            Cell(figure(line.after), line.after),
+            _interval(line.change, line.ci95),
+            Cell(figure(line.allowed), line.allowed),
             _verdict(line),
         )
         for line in ranked
@@ -70,23 +72,23 @@ def _baseline(lines: list[Line]) -> Table:
     return table("against the baseline", columns, rows)
 
 
-def _verdict(line: Line) -> Cell:
-    verdict = str(line["verdict"])
-    return Cell(verdict, tone=_TONES.get(verdict, "")) if line.get("gates", True) else Cell(f"({verdict})")
+def _verdict(line: Comparison) -> Cell:
+    verdict = line.verdict
+    return Cell(verdict, tone=_TONES.get(verdict, "")) if line.gates else Cell(f"({verdict})")
 
 
-def claims(record: Record) -> dict[str, list[Line]]:
+def claims(record: Record) -> dict[str, list[Cost]]:
     """The claims of cost with their lines, one for each scene."""
-    found: dict[str, list[Line]] = {}
-    for line in record.of("cost"):
-        found.setdefault(line["claim"], []).append(line)
+    found: dict[str, list[Cost]] = {}
+    for line in record.of(Cost):
+        found.setdefault(line.claim, []).append(line)
     return found
 
 
 def told(record: Record) -> Iterator[Section]:
     """The claims with what was measured of them, without the table of what was compared."""
     items = [
-        Item(claim, tuple((Strong(line["verdict"]), f", {line['scene']}. {line['says']}") for line in lines))
+        Item(claim, tuple((Strong(line.verdict), f", {line.scene}. {line.says}") for line in lines))
         for claim, lines in claims(record).items()
     ]
     if items:
@@ -97,7 +99,7 @@ def _claims(record: Record) -> Iterator[Block]:
     for claim, lines in claims(record).items():
         yield Paragraph(Strong(claim))
         rows = [
-            (Cell(line["scene"]), Cell(Strong(line["verdict"]), tone=_TONES.get(line["verdict"], "")), line["says"])
+            (Cell(line.scene), Cell(Strong(line.verdict), tone=_TONES.get(line.verdict, "")), line.says)
             for line in lines
         ]
         yield table("what was measured of a claim", ("scene", "verdict", "what was measured"), rows)
@@ -105,14 +107,14 @@ def _claims(record: Record) -> Iterator[Block]:
         yield table("what was compared", columns, [row for line in lines for row in _compared(line)])
 
 
-def _compared(line: Line) -> Iterator[tuple[Cell, ...]]:
-    for each in line["compared"]:
+def _compared(line: Cost) -> Iterator[tuple[Cell, ...]]:
+    for each in line.compared:
         yield (
-            Cell(line["scene"]),
-            Cell(each["name"]),
-            Cell("–") if each["ratio"] is None else _interval(each["ratio"], each["ratio_ci95"]),
-            Cell("–") if each["median_ns"] is None else Cell(figure(each["median_ns"]), each["median_ns"]),
-            Cell(_operations(each["operations"])),
+            Cell(line.scene),
+            Cell(each.name),
+            Cell("–") if each.ratio is None else _interval(each.ratio, each.ratio_ci95),
+            Cell("–") if each.median_ns is None else Cell(figure(each.median_ns), each.median_ns),
+            Cell(_operations(each.operations)),
         )
 
 
@@ -120,17 +122,17 @@ def _operations(counts: Mapping[str, int] | None) -> str:
     return "" if counts is None else ", ".join(f"{number_} {name}" for name, number_ in counts.items())
 
 
-def _kernels(lines: list[Line]) -> Table:
+def _kernels(lines: list[Kernel]) -> Table:
     columns: tuple[Column | str, ...] = ("kernel", "target", *map(number, ("wanted", "measured")), "met", "which says")
     rows = [
         (
-            Cell(line["name"]),
-            Cell(line["target"]),
-            Cell(figure(line["wanted"]), line["wanted"]),
-            _interval(line["measured"], line["ci95"]),
-            Cell("yes", tone="good") if line["met"] else Cell(Strong("no"), tone="bad"),
-            Cell(line["says"]),
+            Cell(line.name),
+            Cell(line.target),
+            Cell(figure(line.wanted), line.wanted),
+            _interval(line.measured, line.ci95),
+            Cell("yes", tone="good") if line.met else Cell(Strong("no"), tone="bad"),
+            Cell(line.says),
         )
-        for line in sorted(lines, key=lambda line: bool(line["met"]))
+        for line in sorted(lines, key=lambda line: bool(line.met))
     ]
     return table("targets of the kernels", columns, rows)

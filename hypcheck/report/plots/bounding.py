@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Bounding
 from hypcheck.report.plots.style import WIDTH, colour, log_axis, look, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.report.text import figure
@@ -19,25 +20,25 @@ QUANTITIES = (
 
 def plots(record: Record) -> Iterator[Plot]:
     """A plot for each quantity, a curve for each shape and workload."""
-    shapes = {f"{line['shape']}, {line['workload']}": line for line in record.of("bounding") if line["overlap"]}
+    shapes = {f"{line.shape}, {line.workload}": line for line in record.of(Bounding) if line.overlap}
     for what, label in QUANTITIES:
         if any(_points(line, what) for line in shapes.values()):
             yield _plot(what, label, shapes)
 
 
-def _points(line: Line, what: str) -> list[tuple[float, float, str]]:
+def _points(line: Bounding, what: str) -> list[tuple[float, float, str]]:
     """d/b, what is drawn, and a tooltip; rows that have it."""
     found = []
-    for ratio, asked, contacts, excess in line["overlap"]:
+    for ratio, asked, contacts, excess in line.overlap:
         value = excess if what == "excess" else contacts / asked if asked else None
         if value is not None and asked:
             known = "" if excess is None else f", median excess clearance {figure(excess)} radii"
-            tip = f"{line['shape']}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
+            tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
             found.append((float(ratio), float(value), tip))
     return sorted(found)
 
 
-def _plot(what: str, label: str, shapes: dict[str, Line]) -> Plot:
+def _plot(what: str, label: str, shapes: dict[str, Bounding]) -> Plot:
     from matplotlib.lines import Line2D  # noqa: PLC0415
 
     drawn = new_figure(WIDTH, 240 + 15 * len(shapes))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Convergence
 from hypcheck.report.plots.style import LIMIT, NONE_WRONG, WIDTH, colour, log_axis, look, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.report.text import figure
@@ -24,26 +25,26 @@ QUANTITIES = (
 
 def plots(record: Record) -> Iterator[Plot]:
     """A plot for each quantity, a curve a method."""
-    methods: dict[str, list[Line]] = {}
-    for line in sorted(record.of("convergence"), key=lambda line: line["triangles"]):
-        methods.setdefault(line["method"], []).append(line)
+    methods: dict[str, list[Convergence]] = {}
+    for line in sorted(record.of(Convergence), key=lambda line: line.triangles):
+        methods.setdefault(line.method, []).append(line)
     if methods:
         for what, label in QUANTITIES:
             yield _plot(what, label, methods)
 
 
-def _value(line: Line, what: str) -> float:
+def _value(line: Convergence, what: str) -> float:
     """What is drawn; of no wrong answer among n the upper limit 3/n."""
     if what == "wrong":
-        return float(line["wrong"] or min(3, line["asked"])) / float(max(1, line["asked"]))
-    return float(line[what if what == "deviation" else f"{what}_ns"])
+        return float(line.wrong or min(3, line.asked)) / float(max(1, line.asked))
+    return float(getattr(line, what if what == "deviation" else f"{what}_ns"))
 
 
-def _plot(what: str, label: str, methods: dict[str, list[Line]]) -> Plot:
+def _plot(what: str, label: str, methods: dict[str, list[Convergence]]) -> Plot:
     drawn = new_figure(WIDTH, 250 + 15 * len(methods))
     axes = drawn.subplots()
     values = [value for lines in methods.values() for line in lines if (value := _value(line, what)) > 0] or [1.0]
-    triangles = [line["triangles"] for lines in methods.values() for line in lines]
+    triangles = [line.triangles for lines in methods.values() for line in lines]
     log_axis(axes, "x", min(triangles) / 1.5, max(triangles) * 1.5)
     log_axis(axes, "y", min(values) / 1.8, max(values) * 1.8)
     axes.set(xlabel="triangles", ylabel=label)
@@ -52,7 +53,7 @@ def _plot(what: str, label: str, methods: dict[str, list[Line]]) -> Plot:
         how, shown = look(place), [line for line in lines if _value(line, what) > 0]
         axes.plot(*_xy(shown, what), color=how.colour, linestyle=how.dashes)
         for none in (False, True):
-            mine = [line for line in shown if (what == "wrong" and not line["wrong"]) == none]
+            mine = [line for line in shown if (what == "wrong" and not line.wrong) == none]
             if mine:
                 gid = f"convergence-{what}-{place}-{none}"
                 marks: dict[str, Any] = dict(LIMIT) if none else {"marker": how.marker}
@@ -65,8 +66,8 @@ def _plot(what: str, label: str, methods: dict[str, list[Line]]) -> Plot:
     )
 
 
-def _xy(lines: Sequence[Line], what: str) -> tuple[list[int], list[float]]:
-    return [line["triangles"] for line in lines], [_value(line, what) for line in lines]
+def _xy(lines: Sequence[Convergence], what: str) -> tuple[list[int], list[float]]:
+    return [line.triangles for line in lines], [_value(line, what) for line in lines]
 
 
 def _legend(drawn: Figure, names: Sequence[str], *, limit: bool) -> None:
@@ -82,9 +83,9 @@ def _legend(drawn: Figure, names: Sequence[str], *, limit: bool) -> None:
     drawn.legend(handles=handles, loc="outside lower left")
 
 
-def _tip(name: str, line: Line) -> str:
+def _tip(name: str, line: Convergence) -> str:
     return (
-        f"{name}, {line['triangles']:,} triangles: {line['wrong']:,} of {line['asked']:,} wrong,"
-        f" deviation {figure(line['deviation'])} radii, query {figure(line['query_ns'])} ns,"
-        f" build {figure(line['build_ns'])} ns"
+        f"{name}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
+        f" deviation {figure(line.deviation)} radii, query {figure(line.query_ns)} ns,"
+        f" build {figure(line.build_ns)} ns"
     )

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from hypcheck.errors import UnavailableError
 from hypcheck.processes import perform, processes, usable_processors
 from hypcheck.record import Record
+from hypcheck.record.measurements import Accuracy, Places, Stability
 from hypcheck.report.plots.svg import inline
 from hypcheck.report.plots.table import PLOTS, draw
 
@@ -37,7 +38,7 @@ def drawn(name: str, record: Record, drawings: Drawings) -> tuple[Drawn, ...]:
 
 def ahead(record: Record) -> Drawings:
     """All plots of a large record; none of a small one, or where they cannot be drawn here."""
-    if sum(len(record.of(kind)) for kind in ("accuracy", "places", "stability")) < MANY:
+    if sum(isinstance(line, (Accuracy, Places, Stability)) for line in record.lines) < MANY:
         return {}
     try:
         with processes(usable_processors()) as executor:

@@ -19,7 +19,7 @@ CELLS, PER_UNIT = 64, 8
 def plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
     for number, each in enumerate(implementations(record)):
-        found = heat.cells(row for group in each.groups for row in group["place_bins"])
+        found = heat.cells(row for group in each.groups for row in group.place_bins)
         if any(wrong for _, wrong in found.values()):
             yield _plot(f"fields-{number}", each, found)
 

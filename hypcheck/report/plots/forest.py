@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Forest
 from hypcheck.report.plots.style import WIDTH, log_axis, look, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.report.text import figure
@@ -17,22 +18,22 @@ if TYPE_CHECKING:
 
 def plots(record: Record) -> Iterator[Plot]:
     """One plot, a curve for each that was asked."""
-    methods: dict[str, list[Line]] = {}
-    for line in sorted(record.of("forest"), key=lambda line: line["trees"]):
-        methods.setdefault(line["method"], []).append(line)
+    methods: dict[str, list[Forest]] = {}
+    for line in sorted(record.of(Forest), key=lambda line: line.trees):
+        methods.setdefault(line.method, []).append(line)
     if not methods:
         return
     drawn = new_figure(WIDTH, 250 + 15 * len(methods))
     axes = drawn.subplots()
-    times = [line["step_ns"] for lines in methods.values() for line in lines]
-    trees = [line["trees"] for lines in methods.values() for line in lines]
+    times = [line.step_ns for lines in methods.values() for line in lines]
+    trees = [line.trees for lines in methods.values() for line in lines]
     log_axis(axes, "x", min(trees) / 1.5, max(trees) * 1.5)
     log_axis(axes, "y", min(times) / 2, max(times) * 2)
     axes.set(xlabel="trees", ylabel="time of a step (ns)")
     tips: dict[str, list[str]] = {}
     for place, (name, lines) in enumerate(methods.items()):
         how, gid = look(place), f"forest-{place}"
-        xs, ys = [line["trees"] for line in lines], [line["step_ns"] for line in lines]
+        xs, ys = [line.trees for line in lines], [line.step_ns for line in lines]
         axes.plot(xs, ys, color=how.colour, linestyle=how.dashes)
         axes.plot(xs, ys, gid=gid, color=how.colour, linestyle="none", marker=how.marker)
         tips[gid] = [_tip(name, line) for line in lines]
@@ -52,8 +53,8 @@ def _legend(drawn: Figure, names: Sequence[str]) -> None:
     drawn.legend(handles=handles, loc="outside lower left")
 
 
-def _tip(name: str, line: Line) -> str:
+def _tip(name: str, line: Forest) -> str:
     return (
-        f"{name}, {line['trees']:,} trees: {figure(line['step_ns'])} ns a step, built in {figure(line['build_s'])} s,"
-        f" {line['wrong']:,} of {line['asked']:,} wrong"
+        f"{name}, {line.trees:,} trees: {figure(line.step_ns)} ns a step, built in {figure(line.build_s)} s,"
+        f" {line.wrong:,} of {line.asked:,} wrong"
     )

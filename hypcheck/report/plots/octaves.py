@@ -29,7 +29,7 @@ def _curve(each: Implementation) -> Curve:
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for group in each.groups:
-        for exponent, counts in group["octaves"].items():
+        for exponent, counts in group.octaves.items():
             asked[float(exponent)] += sum(number for status, number in counts.items() if status != "skipped")
             wrong[float(exponent)] += sum(number for status, number in counts.items() if status not in NOT_WRONG)
     return curve(each.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})

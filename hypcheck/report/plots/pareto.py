@@ -47,7 +47,7 @@ class Point:
 def points(record: Record, workload: str) -> list[Point]:
     """The methods that were judged and timed on the workload."""
     return [
-        Point(each.name, each.tier, time, float(accuracy["reliable_above"]), accuracy["asked"], each.exact)
+        Point(each.name, each.tier, time, float(accuracy.reliable_above), accuracy.asked, each.exact)
         for each, time in _timed(record, workload)
         if (accuracy := each.accuracy.get(workload))
     ]
@@ -66,7 +66,7 @@ def _timed(record: Record, workload: str) -> Iterator[tuple[Measured, float]]:
     for each in measured(record):
         speed = each.speed.get((workload, BATCH))
         if speed is not None and not lost(speed):
-            yield each, float(speed["median_ns"])
+            yield each, float(speed.median_ns)
 
 
 def front(found: Sequence[Point]) -> list[Point]:
@@ -85,7 +85,7 @@ def plots(record: Record) -> Iterator[Plot]:
     for place, (name, line) in enumerate(workloads(record).items()):
         found = found_on.get(name, [])
         if found and (name != principal(record) or len(found_on) == 1):
-            yield _plot(f"pareto-{place}", f"Error against run time, {line['title']}", found)
+            yield _plot(f"pareto-{place}", f"Error against run time, {line.title}", found)
 
 
 def pair(record: Record) -> Iterator[Plot]:
@@ -93,7 +93,7 @@ def pair(record: Record) -> Iterator[Plot]:
     known, name = workloads(record), principal(record)
     near, everywhere = points(record, name), worst_points(record, name)
     if near:
-        where = str(known[name]["title"])
+        where = str(known[name].title)
         yield _plot("front-near", where.capitalize(), near, 400, timed=where)
         yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 

@@ -19,8 +19,8 @@ PLANE = heat.Plane("α/b", "γ/d", OCTAVES * math.log10(2))
 def plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
     maps = {
-        each.name: heat.cells((row for group in each.groups for row in group["size_bins"]), OCTAVES)
+        each.name: heat.cells((row for group in each.groups for row in group.size_bins), OCTAVES)
         for each in implementations(record)
-        if any(row[3] for group in each.groups for row in group["size_bins"])
+        if any(row[3] for group in each.groups for row in group.size_bins)
     }
     yield from heat.plots("sizes", PLANE, maps)

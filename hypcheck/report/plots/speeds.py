@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from hypcheck.record import Line, Record
+from hypcheck.record import Record
+from hypcheck.record.measurements import Speed
 from hypcheck.report.measured import TIERS, lost, measured, noise_floor, reference, workloads
 from hypcheck.report.plots.style import MARKERS, WIDTH, colour, log_axis, new_figure
 from hypcheck.report.plots.svg import Plot
@@ -31,21 +32,21 @@ class Row:
 def plots(record: Record) -> Iterator[Plot]:
     """A plot for each workload and mode in which there are ratios."""
     found = measured(record)
-    keys = dict.fromkeys((line["workload"], line["mode"]) for line in record.of("speed"))
+    keys = dict.fromkeys((line.workload, line.mode) for line in record.of(Speed))
     for number, (workload, mode) in enumerate(keys):
         rows = [_row(each.name, each.tier, line) for each in found if (line := each.speed.get((workload, mode)))]
         kept = sorted((row for row in rows if row is not None and row.ratio > 0), key=lambda row: row.ratio)
         if len(kept) > 1:
-            title = f"{workloads(record)[workload]['title']}, {_MODES[mode]}"
+            title = f"{workloads(record)[workload].title}, {_MODES[mode]}"
             floor = noise_floor(record, workload, mode)
             yield _plot(f"speeds-{number}", title, kept, floor, reference(record) or "the reference")
 
 
-def _row(name: str, tier: str, line: Line) -> Row | None:
-    if line["ratio"] is None or lost(line):
+def _row(name: str, tier: str, line: Speed) -> Row | None:
+    if line.ratio is None or lost(line):
         return None
-    low, high = line["ratio_ci95"] or (line["ratio"], line["ratio"])
-    return Row(name, tier, float(line["ratio"]), float(low), float(high), float(line["median_ns"]))
+    low, high = line.ratio_ci95 or (line.ratio, line.ratio)
+    return Row(name, tier, float(line.ratio), float(low), float(high), float(line.median_ns))
 
 
 def _plot(name: str, title: str, rows: Sequence[Row], floor: float | None, against: str) -> Plot:

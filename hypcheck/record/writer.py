@@ -2,16 +2,10 @@
 
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
-
-History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
-declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
-1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
-scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files.
 """
 
 from __future__ import annotations
 
-import math
 import os
 import platform
 import time
@@ -23,15 +17,12 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from hypcheck.processes import interrupts_deferred
+from hypcheck.record.fields import Line, as_json, decoded, plain
 from hypcheck.record.growing import Growing
-from hypcheck.record.model import Line, Record
+from hypcheck.record.lines import SCHEMA, Footer, Header, Implementation, NotStarted, Progress
+from hypcheck.record.reader import Record
 from hypcheck.record.sealing import sealed
 from hypcheck.version import VERSION
-
-SCHEMA = "1.4.0"
-
-PROGRESS = "progress"
-"""The line from which an interrupted run goes on; a finished record has none."""
 
 
 class Recorder:
@@ -52,12 +43,12 @@ class Recorder:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
         self._began = time.monotonic()  # the clock may be set meanwhile
-        self._lines = [line for line in carried if line["type"] != PROGRESS]
-        self._progress: Line | None = next((line for line in carried if line["type"] == PROGRESS), None)
+        self._lines = [line for line in carried if not isinstance(line, Progress)]
+        self._progress = next((line for line in carried if isinstance(line, Progress)), None)
         self._place = len(self._lines)
-        self._ending: tuple[Line, ...] = ()
+        self._ending: tuple[Footer, ...] = ()
         self._check = 0
-        self._header = plain(header(options, self._started, optional))
+        self._header = header(options, self._started, optional)
         if isinstance(stream, Growing):
             self._renew()
         else:
@@ -66,29 +57,33 @@ class Recorder:
     @property
     def goes_on(self) -> bool:
         """Whether there is something of a gating run that it could go on from."""
-        return self._progress is not None or any(line["type"] == "implementation" for line in self._lines)
+        return self._progress is not None or self.concluded > 0
+
+    @property
+    def concluded(self) -> int:
+        """How many implementations under test have been asked to their end, or could not be started."""
+        return sum(isinstance(line, (Implementation, NotStarted)) for line in self._lines)
 
     @property
     def lines(self) -> tuple[Line, ...]:
         """What was added so far."""
         return tuple(self._lines)
 
-    def add(self, kind: str, /, **fields: Any) -> None:  # noqa: ANN401  a line holds whatever JSON can
-        """Add one line of a kind."""
-        line = plain({"type": kind, **fields})
+    def add(self, line: Line) -> None:
+        """Add one line."""
         self._write(line)
         self._lines.append(line)
 
-    def keep(self, **fields: Any) -> None:  # noqa: ANN401  as above
+    def keep(self, progress: Progress) -> None:
         """Let a line of progress stand behind what is recorded, in place of the one before; in a file alone."""
         if isinstance(self._stream, Growing):
-            self._progress, self._place = plain({"type": PROGRESS, **fields}), len(self._lines)
+            self._progress, self._place = progress, len(self._lines)
             self._renew()
 
     def close(self, exit_code: int) -> Record:
         """Write the footer; the record as it would be read back."""
         seconds = time.monotonic() - self._began
-        footer: Line = {"type": "footer", "lines": len(self._lines) + 2, "exit_code": exit_code, "seconds": seconds}
+        footer = Footer(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
         self._ending = (footer,)
         if self._progress is None:
             self._write(footer)
@@ -106,7 +101,7 @@ class Recorder:
 
     def _write(self, line: Line) -> None:
         with interrupts_deferred():
-            data, self._check = sealed(line, self._check)
+            data, self._check = sealed(as_json(line), self._check)
             if isinstance(self._stream, Growing):
                 self._stream.write(data)
             else:
@@ -120,16 +115,16 @@ class Recorder:
         progress = [] if self._progress is None else [self._progress]
         data, check = b"", 0
         for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *self._ending):
-            text, check = sealed(line, check)
+            text, check = sealed(as_json(line), check)
             data += text
         with interrupts_deferred():
             self._stream.renew(data)
             self._check = check
 
 
-def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> Line:
+def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> Header:
     """The first line: versions, machine and options, and the `optional` fields that are there."""
-    return {
+    fields = {
         "type": "header",
         "schema": SCHEMA,
         "hypcheck": VERSION,
@@ -142,22 +137,10 @@ def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str,
             "processor": _processor(),
             "cores": os.cpu_count(),
         },
-        "options": dict(options),
+        "options": plain(options),
         **(optional or {}),
     }
-
-
-def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
-    """The value as JSON has it: infinities as the strings "inf" and "-inf", mappings and sequences likewise."""
-    if isinstance(value, float):
-        if math.isfinite(value):
-            return value
-        return str(value)
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    return value
+    return decoded(fields, Header)
 
 
 def _versions() -> dict[str, str]:

@@ -1,0 +1,148 @@
+"""What a field of a record's line may be, and how a line comes from JSON and becomes JSON again."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, TypeVar
+
+from msgspec import Meta, Struct, convert, to_builtins
+
+from hypcheck.visible import shortened
+
+FARTHEST = 9999
+"""No octave of a float64, of a ratio of two, or of a product of a few, lies farther from 0."""
+
+_OCTAVE = re.compile(r"-?\d{1,4}|-?inf", re.ASCII)
+_HEX = r"-?0x[01](\.[0-9a-f]+)?p[+-][0-9]+"
+
+
+class Extended(float):
+    """A float that may be infinite, which JSON has as the string "inf" or "-inf"."""
+
+
+class Unsigned(Extended):
+    """One that is not negative."""
+
+
+Kind = TypeVar("Kind")
+
+
+def decoded(value: object, kind: type[Kind]) -> Kind:
+    """The value of a kind that these dicts, lists, texts and numbers are. Raises msgspec.ValidationError."""
+    return convert(value, kind, dec_hook=_extended)
+
+
+def as_json(value: Part) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """The value as JSON has it, infinities as texts."""
+    return plain(to_builtins(value, enc_hook=_number))
+
+
+def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
+    """The value as JSON has it: infinities as the strings "inf" and "-inf", mappings and sequences likewise."""
+    if isinstance(value, float):
+        if math.isfinite(value):
+            return value
+        return str(value)
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    return value
+
+
+def _extended(kind: type, value: object) -> object:
+    if not issubclass(kind, Extended):
+        raise TypeError(f"no line has a {kind.__name__}")
+    least = "" if kind is Unsigned else ', "-inf"'
+    if value not in ("inf", "-inf") and (isinstance(value, bool) or not isinstance(value, (int, float))):
+        raise ValueError(f'Expected `float`{least} or "inf"')
+    number = kind(value)
+    if kind is Unsigned and not number >= 0:
+        raise ValueError('Expected `float` >= 0 or "inf"')
+    return number
+
+
+def _number(value: object) -> float:
+    if not isinstance(value, float):
+        raise TypeError(f"no line has a {type(value).__name__}")
+    return float(value)
+
+
+def one_of(*names: str) -> Meta:
+    """That a text is one of these names."""
+    return Meta(pattern=f"^({'|'.join(names)})$", extra_json_schema={"enum": list(names)})
+
+
+Count = Annotated[int, Meta(ge=0)]
+Counts = dict[str, Count]
+Amount = Annotated[float, Meta(ge=0)]
+"""A time, a size, a ratio of times."""
+
+Interval = tuple[float, float]
+Sizes = tuple[float, float, float, float]
+"""α, γ, b, d."""
+
+Limits = tuple[Unsigned, Unsigned] | None
+"""The least and the greatest; None: not declared."""
+
+Span = tuple[Extended, Extended] | None
+Row = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=7, max_length=7)]
+"""α, γ, b, d, x, y, z as hexadecimal floats, which read back exactly."""
+
+InvalidRow = Annotated[
+    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=7, max_length=7)
+]
+"""As a row, but also of what is no number: rows that must be refused."""
+
+Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
+"""Its two numbers, the cases in it, and how many of them did not end as right."""
+
+Truth = Annotated[int, Meta(ge=-1, le=1)]
+Question = Annotated[str, one_of("position", "exterior", "interior", "contact")]
+Precision = Annotated[str, one_of("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")]
+Mistake = Annotated[str, one_of("false-clear", "false-contact", "wrong-side")]
+
+
+class Part(Struct, frozen=True, kw_only=True):
+    """A value within a line."""
+
+
+class Line(Part, frozen=True, kw_only=True, tag_field="type", tag=str.lower):
+    """A line; the first of its fields is its type."""
+
+    @property
+    def type(self) -> str:
+        """The name of what it is."""
+        return str(self.__struct_config__.tag)
+
+
+def require_possible(field: str, bins: Sequence[Bin]) -> None:
+    """Raise ValueError where a bin is no place on a scale, or holds more wrong answers than cases."""
+    for number, (across, up, asked, wrong) in enumerate(bins):
+        require_places((across, up), f"{field}[{number}]")
+        require_counts(asked, wrong, f"{field}[{number}]")
+
+
+def require_places(places: Sequence[int], where: str) -> None:
+    """Raise ValueError where one of these is farther than FARTHEST from 0."""
+    for place in places:
+        if abs(place) > FARTHEST:
+            shown = shortened(str(place), 20)
+            raise ValueError(f"{where} is at {shown}; it must be between −{FARTHEST} and {FARTHEST}")
+
+
+def require_counts(asked: int, wrong: int, where: str) -> None:
+    """Raise ValueError where there are more wrong answers than answers."""
+    if not 0 <= wrong <= asked:
+        few, many = shortened(str(wrong), 20), shortened(str(asked), 20)
+        raise ValueError(f"{where} has {few} wrong answers of {many}")
+
+
+def require_octaves(octaves: Mapping[str, object]) -> None:
+    """Raise ValueError where a key is no octave."""
+    for octave in octaves:
+        if not _OCTAVE.fullmatch(octave):
+            shown = shortened(repr(octave), 20)
+            raise ValueError(f"octaves has {shown}, which is neither a small whole number nor inf or -inf")

@@ -1,0 +1,320 @@
+"""The lines of a record as values: what each holds, in the order in which it is written. docs/record.md explains them.
+
+Whoever reads a record gets these and nothing else; the published schema is made from them. What a later version adds to
+a line is left out. A field that is UNSET is not there: it belongs to other runs, or the record is older than the field.
+
+History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
+declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
+1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
+scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from msgspec import UNSET, Meta, UnsetType
+
+from hypcheck.record.fields import (
+    Amount,
+    Bin,
+    Count,
+    Counts,
+    Interval,
+    InvalidRow,
+    Limits,
+    Line,
+    Mistake,
+    Part,
+    Precision,
+    Question,
+    Row,
+    Sizes,
+    Span,
+    Truth,
+    Unsigned,
+    one_of,
+    require_octaves,
+    require_possible,
+)
+
+SCHEMA = "1.4.0"
+"""The version of what is written."""
+
+
+class Machine(Part, frozen=True, kw_only=True):
+    """What a run took place on."""
+
+    system: str
+    architecture: str
+    processor: str
+    cores: int | None
+
+
+class Weakened(Part, frozen=True, kw_only=True):
+    """An option that fails less, or asks less, than its default; `source` is the settings file or the command line."""
+
+    option: str
+    value: str
+    default: str
+    source: str
+
+
+class Settings(Part, frozen=True, kw_only=True):
+    """The settings file of a run, None where none was used, and what weakens its gate."""
+
+    file: str | None
+    weakened: list[Weakened]
+
+
+class Header(Line, frozen=True, kw_only=True):
+    """The first line, for some runs with the sha256 of the files under test, by path, since 1.3.0.
+
+    Since 1.4.0 also with that of the program's own files, and with the settings.
+    """
+
+    schema: Annotated[str, Meta(pattern=r"^1\.[0-9]+\.[0-9]+$")]
+    hypcheck: str
+    started: str
+    python: str
+    versions: dict[str, str]
+    machine: Machine
+    options: dict[str, Any]
+    files: dict[str, str] | UnsetType = UNSET
+    program: str | UnsetType = UNSET
+    settings: Settings | UnsetType = UNSET
+
+
+class Footer(Line, frozen=True, kw_only=True):
+    """The last line, without which a record is truncated; `lines` counts those of the file."""
+
+    lines: Count
+    exit_code: int
+    seconds: float
+
+
+class Unavailable(Line, frozen=True, kw_only=True):
+    """An oracle that could not be asked."""
+
+    oracle: str
+    reason: str
+
+
+class Equation(Line, frozen=True, kw_only=True):
+    """A displayed formula of the paper."""
+
+    number: str
+    holds: bool
+    verdict: Annotated[str, one_of("holds", "misprint", "false")]
+    statement: str
+    finding: str
+    correction: str
+
+
+class Proof(Line, frozen=True, kw_only=True):
+    """A quantity of a formula, and whether it is proved to be what it must be."""
+
+    formula: str
+    quantity: str
+    holds: bool
+    statement: str
+
+
+class Disagreement(Part, frozen=True, kw_only=True):
+    """A case of which an oracle says something else than the exact decision."""
+
+    oracle: str
+    case: str
+    row: Row
+    exact: str
+    opinion: str
+
+
+class Oracle(Line, frozen=True, kw_only=True):
+    """An oracle and a family."""
+
+    oracle: str
+    family: str
+    asked: Count
+    undecided: Count
+    stages: Counts
+    seconds: Amount
+    disagreeing: Count
+    disagreements: Annotated[list[Disagreement], Meta(max_length=20)]
+
+
+class Finding(Line, frozen=True, kw_only=True):
+    """A formula that is wrong in exact arithmetic on a family, inside its stated regimes or outside them."""
+
+    formula: str
+    family: str
+    inside: bool
+    cause: str
+    asked: Count
+    wrong: Count
+    first_case: str
+    first_row: Row
+    reason: str | None
+
+
+class Drift(Line, frozen=True, kw_only=True):
+    """A way in which what was found is not what is known."""
+
+    sentence: str
+
+
+class WrongAnswer(Part, frozen=True, kw_only=True):
+    """A wrong or tolerated answer that is kept."""
+
+    case: str
+    row: Row
+    truth: Truth
+    answer: int
+    mistake: Mistake
+    status: str
+    backward_error: Unsigned
+    backward_error_u: Unsigned
+
+
+class Fault(Part, frozen=True, kw_only=True):
+    """A case that ended without an answer that counts."""
+
+    case: str
+    row: InvalidRow
+    status: str
+    reason: str
+
+
+class Group(Line, frozen=True, kw_only=True):
+    """A method and a family; `spec`, `faults` and `failing` are there of an implementation under test alone.
+
+    `octaves` are counts by the floor of log2 of the cases' own distances to the nearest other position, `failing` the
+    statuses of its cases that fail the run.
+    """
+
+    method: str
+    spec: str | UnsetType = UNSET
+    title: str
+    exact: bool
+    question: Question
+    precision: Precision
+    family: str
+    asked: Count
+    counts: Counts
+    mistakes: Counts
+    octaves: dict[str, Counts]
+    size_bins: list[Bin]
+    place_bins: list[Bin]
+    worst: Annotated[list[WrongAnswer], Meta(max_length=3)]
+    faults: Annotated[list[Fault], Meta(max_length=6)] | UnsetType = UNSET
+    failing: list[str] | UnsetType = UNSET
+
+    def __post_init__(self) -> None:
+        require_octaves(self.octaves)
+        require_possible("size_bins", self.size_bins)
+        require_possible("place_bins", self.place_bins)
+
+    @property
+    def tested(self) -> bool:
+        """Whether it is about an implementation under test, whose failing statuses the line names."""
+        return self.failing is not UNSET
+
+
+class FixedSizes(Part, frozen=True, kw_only=True):
+    """The only sizes that an implementation knows, and the spans of the centre; None: any."""
+
+    sizes: Sizes
+    x: Span
+    y: Span
+    z: Span
+
+
+class Domain(Part, frozen=True, kw_only=True):
+    """Where an implementation claims to be right."""
+
+    regimes: list[Annotated[str, one_of("a>=1", "c2>=a")]]
+    ratio: Limits
+    magnitude: Limits
+    settings: list[FixedSizes] | UnsetType = UNSET
+
+
+class Description(Part, frozen=True, kw_only=True):
+    """What an implementation says of itself, or is taken for."""
+
+    name: str
+    version: str
+    language: str
+    precision: Precision
+    question: Question
+    domain: Domain
+    refuses: bool
+    binary: bool
+    time: bool
+
+
+class Retest(Part, frozen=True, kw_only=True):
+    """How many cases were asked again, and of how many the answer changed within the tolerance and beyond it."""
+
+    asked: Count
+    within: Count
+    beyond: Count
+
+
+class Implementation(Line, frozen=True, kw_only=True):
+    """An implementation under test as a whole; `finished`, since 1.3.0, is false where it was not asked to its end."""
+
+    spec: str
+    name: str
+    started: bool = True
+    declared: Description
+    used: Description
+    restarts: Count
+    again: Retest
+    broke_protocol_throughout: bool
+    troubles: list[str]
+    finished: bool | UnsetType = UNSET
+
+
+class NotStarted(Line, frozen=True, kw_only=True, tag="implementation"):
+    """An implementation under test that could not be started."""
+
+    spec: str
+    name: str
+    started: bool = False
+    trouble: str
+
+
+class Progress(Line, frozen=True, kw_only=True):
+    """Since 1.3.0, of a run with SPEC that did not finish: what it goes on from. `program`: the sha256 of our files."""
+
+    number: Count
+    declared: Description
+    cases: Count
+    state: dict[str, Any]
+    program: str | None = None
+
+
+class Map(Line, frozen=True, kw_only=True):
+    """A method over the half plane of a scene: a text for each z, a letter for each r, upper case where it is wrong."""
+
+    name: str
+    method: str
+    sizes: Sizes
+    r: Interval
+    z: Interval
+    wrong: Count
+    points: Count
+    lines: list[Annotated[str, Meta(pattern="^[eciECI]+$")]]
+
+
+class Timing(Line, frozen=True, kw_only=True):
+    """A contender on a workload: nanoseconds a row, one for each round."""
+
+    workload: str
+    median_ns: Amount
+    name: str
+    title: str
+    rows: Count
+    loops: Count
+    samples_ns: Annotated[list[Amount], Meta(min_length=1)]
+    checksum: int

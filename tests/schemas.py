@@ -1,0 +1,25 @@
+"""JSON values held to a published schema by the library that implements JSON Schema."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from jsonschema import Draft202012Validator
+
+
+def violations(value: Any, schema: dict[str, Any], *, closed: bool = False) -> list[str]:
+    """What is wrong with the value, a sentence each; with `closed`, so is a property that the schema does not name."""
+    checker = Draft202012Validator(_closed(schema) if closed else schema)
+    return [f"{error.json_path}: {error.message[:300]}" for error in checker.iter_errors(value)]
+
+
+def _closed(schema: Any) -> Any:
+    """The schema without room for properties that it does not name; of a choice, in each of its parts."""
+    if isinstance(schema, list):
+        return [_closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {key: _closed(part) for key, part in schema.items()}
+    if isinstance(schema.get("properties"), dict) and "oneOf" not in schema:
+        found.setdefault("additionalProperties", False)
+    return found
