@@ -42,7 +42,8 @@ class Moves:
 
     `lane` says which flights; they went, or would have gone, from `start` to `end`. `accepted` and `refused` are
     movements the procedure was asked about; `vertical` ones go up or down. A turn in place (`turning`) was asked about
-    too where `executed`. `touching` is Δ ≤ 0 at `end`. The heading was `before`; it turned by `turn` degrees, in place.
+    too where `executed`, and may be refused where its answer is obeyed. `touching` is Δ ≤ 0 at `end`. The heading was
+    `before`; it turned by `turn` degrees, in place.
     """
 
     lane: NDArray[np.int64]
@@ -207,11 +208,14 @@ def _advance(
     executed = ~(vertical & _beyond(craft, end)) & ~(chosen.turning & (flight.turn == "free"))
     valid, touching = procedures.ask(end, heading)
     moving = executed & ~chosen.turning
-    accepted, refused = moving & valid, moving & ~valid
+    answered = executed if flight.turn == "obeyed" else moving
+    accepted, refused = moving & valid, answered & ~valid
     turn = np.where(refused, chosen.refused_turn, chosen.turn)
     state.at = _where(accepted, end, start)
-    state.heading = _turned(heading, np.where(refused, chosen.refused_turn, 0.0))
-    state.due = chosen.turning & (flight.turn == "executed")
+    undone = refused & chosen.turning
+    kept = np.where(undone, before[0], heading[0]), np.where(undone, before[1], heading[1])
+    state.heading = _turned(kept, np.where(refused, chosen.refused_turn, 0.0))
+    state.due = chosen.turning & ~refused & (flight.turn != "free")
     state.left = state.left - accepted
     state.idle = np.where(accepted, 0, state.idle + 1)
     return Moves(state.lane, start, end, before, turn, accepted, refused, vertical, chosen.turning, executed, touching)

@@ -78,7 +78,7 @@ class Ways:
         touching = np.flatnonzero(begun & ~clear)[: TOLD - len(self.contacts)]
         if len(touching):
             self.contacts += _contacts(craft, _of(start, touching), _of(end, touching), _headed(heading, touching))
-        refused = np.flatnonzero(moves.refused)
+        refused = np.flatnonzero(moves.refused & ~moves.turning)
         self._count("wrongly_refused", valid(craft, _of(moves.end, refused), _headed(moves.before, refused)))
         self._watch_turns(craft, moves)
 

@@ -15,6 +15,7 @@ SHOWN = 6
 
 _TURNS = {
     "executed": "a turn asks the procedure in place, ignores the answer, and a step ahead follows",
+    "obeyed": "a turn asks the procedure in place, is not made if the answer is no, and else a step ahead follows",
     "free": "a turn asks nothing",
 }
 

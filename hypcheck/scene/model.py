@@ -75,7 +75,7 @@ class Region:
     z: Span | None = None
 
 
-TURNS = ("executed", "free")
+TURNS = ("executed", "obeyed", "free")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +96,9 @@ class Flight:
 
     Each draw is straight with the chance `straight`, up or down (half each) with the chance `vertical`, else a turn
     uniform within ±`largest_turn` degrees. Straight is ahead, or half of the time back where `backward`. A turn that is
-    "executed" asks the procedure in place, ignores the answer and is followed by a step ahead; a "free" one only turns.
-    After a refusal it turns by `refused_turn` degrees, left or right alike.
+    "executed" asks the procedure in place, ignores the answer and is followed by a step ahead; one that is "obeyed"
+    does so too, but is refused like a movement if the answer is no; a "free" one only turns. After a refusal it turns
+    by `refused_turn` degrees, left or right alike.
     """
 
     distance: float

@@ -70,7 +70,7 @@ class Quadcopter:
                     count.redrawn += 1
                     continue
             else:
-                turning = True
+                turning, before = True, heading
                 heading += math.radians((2 * share - 1) * rules.largest_turn)
                 state[3] = heading
                 if rules.turn == "free":
@@ -78,9 +78,11 @@ class Quadcopter:
             valid, touching = self.asked(x, y, z, heading)
             count.executions += 1
             count.touching += touching
-            if turning:
+            if turning and not (rules.turn == "obeyed" and not valid):
                 due = True
                 continue
+            if turning:
+                heading = before
             if valid:
                 count.accepted += 1
                 count.vertical += z != state[2]

@@ -18,6 +18,7 @@ from hypcheck.scene.reading import read_scene
 from tests.paper.scalar_flight import Quadcopter
 
 SCENES = {name: read_scene(name) for name in ("tower", "tower-simplest")}
+SCENES["tower-obeyed"] = replace(SCENES["tower"], flight=replace(SCENES["tower"].flight, turn="obeyed"))
 
 
 def words_of(draw):

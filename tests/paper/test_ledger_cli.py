@@ -46,12 +46,13 @@ def test_parts_are_shown_in_their_order_whatever_the_order_of_the_options(capsys
         ("Equation 1", ["(1)"]),
         ("A.2b", ["A.2b"]),
         ("appendix A.2b", ["A.2b"]),
-        ("theorem 1", ["Theorem 1"]),
-        ("Proposition 5", ["Proposition 5.1", "Proposition 5.2"]),
+        ("theorem 1", ["Theorem 1", "Theorem 1, proof"]),
+        ("Proposition 5", ["Proposition 5.1", "Proposition 5.2", "Proposition 5, regime"]),
         ("prop 5.1", ["Proposition 5.1"]),
         ("Table 1", ["Table 1", "Table 1, caption"]),
         ("Table 4, caption", ["Table 4, caption"]),
-        ("Section 4", ["Section 4, regime", "Section 4, contact", "Section 4, cost"]),
+        ("Section 5", ["Section 5"]),
+        ("Table 2", ["Table 2, lines", "Table 2"]),
     ],
 )
 def test_a_claim_is_found_by_what_people_call_it(claim, numbers):

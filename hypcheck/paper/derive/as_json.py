@@ -19,7 +19,7 @@ from hypcheck.paper.ledger.entry import Entry, Evidence
 from hypcheck.paper.ledger.search import Witness
 from hypcheck.version import VERSION
 
-SCHEMA = "1.1.0"
+SCHEMA = "1.2.0"
 
 
 def lines(chosen: Chosen) -> Iterator[str]:
@@ -90,6 +90,7 @@ def _entry(entry: Entry) -> dict[str, Any]:
         "proved_by": list(entry.proved_by),
         "printed": entry.printed or None,
         "correction": entry.correction or None,
+        "harmless": entry.harmless or None,
         "follows": entry.follows,
         "evidence": [_evidence(evidence) for evidence in entry.evidence],
     }

@@ -9,7 +9,7 @@ from typing import Any
 PARTS = {
     "derivation": "from the two surfaces to the coefficients, step by step",
     "propositions": "the proofs of the paper's propositions as they hold, link by link",
-    "ledger": "every numbered statement of the paper, and what became of it",
+    "ledger": "every statement of the paper, and what became of it",
     "costs": "operations of each way to the answer, counted from its program",
 }
 """The parts by name, in their order, with what they are."""

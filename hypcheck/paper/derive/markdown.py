@@ -19,7 +19,9 @@ from hypcheck.paper.derive.words import (
     details,
     verdict,
 )
+from hypcheck.paper.ledger import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry
+from hypcheck.paper.ledger.sentences import coverage, sentences
 
 _INTRODUCTION = """# The paper, claim by claim
 
@@ -28,10 +30,13 @@ and not this page. `hypcheck derive --claim "Proposition 3"` shows one claim wit
 witnesses and their certificates; [mathematics.md](mathematics.md) has the proofs in words.
 
 **Proved** means that sympy found right − left = 0, or that every link of a chain of identities and signs was checked,
-and that no pair of a space of small rational numbers contradicts it. A **misprint** is put right by the derivation.
+and that no pair of a space of small rational numbers contradicts it; small claims are proved by counting.
+A **definition** cannot be true or false; the derivation uses the same one. A **misprint** is put right by the
+derivation, or by another place of the text. The text that was read is a transcription of the paper: a misprint may be
+the transcription's, and must be looked up on the printed page.
 **False** means that a search of that space found a pair which contradicts the statement, the simplest there is, and
-that an exact certificate proves the pair's position. a = α/b and c = γ/d are the semi-axes after Theorem 1, C is the
-centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a."""
+that an exact certificate proves the pair's position, or that a count contradicts it. a = α/b and c = γ/d are the
+semi-axes after Theorem 1, C is the centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a."""
 
 
 def lines(chosen: Chosen) -> Iterator[str]:
@@ -68,13 +73,15 @@ def _chain(chain: Chain) -> Iterator[str]:
 def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
     counts = Counter(entry.verdict for entry in entries)
     yield from ("", f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}.")
+    if entries == whole_ledger():
+        yield from ("", coverage())
     brief = [entry for entry in entries if entry.why == HOLDS and entry.confirmed]
     if brief:
         yield from ("", "Formulas that hold as printed, right − left = 0:", "")
-        yield from _row("number", "what it is", "what follows")
-        yield "| --- | --- | --- |"
+        yield from _row("number", "what it is", "verdict", "what follows")
+        yield "| --- | --- | --- | --- |"
         for entry in brief:
-            yield from _row(entry.number, entry.statement, entry.follows)
+            yield from _row(entry.number, entry.statement, entry.verdict, entry.follows)
     for entry in entries:
         if entry not in brief:
             yield from (
@@ -85,6 +92,17 @@ def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
                 "",
             )
             yield from (f"- *{title}*: {text}" for title, text in details(entry))
+    if entries == whole_ledger():
+        yield from _sentences()
+
+
+def _sentences() -> Iterator[str]:
+    """Which rows judge each sentence."""
+    yield from ("", "## Sentences: the paper's text in order, and what judges each", "")
+    yield from _row("section", "the sentence begins", "rows, or why it has none")
+    yield "| --- | --- | --- |"
+    for each in sentences():
+        yield from _row(each.section, each.words, "; ".join(each.rows) or f"*{each.reason}*")
 
 
 def _row(*cells: str) -> Iterator[str]:

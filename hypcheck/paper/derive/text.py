@@ -26,8 +26,9 @@ from hypcheck.paper.derive.words import (
     verdict,
 )
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry, Evidence, described
+from hypcheck.paper.ledger.sentences import coverage
 
-_NUMBER, _VERDICT, _TITLE = 28, 43, 8
+_NUMBER, _VERDICT, _TITLE = 34, 49, 10
 """Columns of the ledger: where the number and the verdict end, and how wide the titles of further lines are."""
 
 
@@ -101,6 +102,7 @@ def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
         "without a reason have right − left = 0. a = α/b, c = γ/d, C is the centre in the scaled space; A.n is the "
         "n-th display of Appendix A. `hypcheck derive --claim NUMBER` shows one with its proof."
     )
+    yield from paragraph(coverage())
     before = False
     for entry in entries:
         brief = entry.why == HOLDS and entry.confirmed

@@ -26,7 +26,7 @@ def verdict(entry: Entry) -> str:
 
 
 def details(entry: Entry, *, in_full: bool = False) -> Iterator[tuple[str, str]]:
-    """Why, what was found, what is right instead, and what follows, each with its title.
+    """Why, what was found, what is right instead, where it is harmless, and what follows, each with its title.
 
     `in_full`: a formula as it is printed too, and not what was found, which follows with its proof.
     """
@@ -42,6 +42,8 @@ def details(entry: Entry, *, in_full: bool = False) -> Iterator[tuple[str, str]]
             yield "found", evidence.text
     if entry.correction:
         yield "right", entry.correction
+    if entry.harmless:
+        yield "harmless", entry.harmless
     yield "so", entry.follows
 
 

@@ -8,8 +8,10 @@ from functools import cache
 from hypcheck.paper.ledger.costs import costs
 from hypcheck.paper.ledger.entry import Entry
 from hypcheck.paper.ledger.equations import equations, regime_of_section_4
+from hypcheck.paper.ledger.flights import flights
 from hypcheck.paper.ledger.procedures import procedures
 from hypcheck.paper.ledger.propositions import propositions
+from hypcheck.paper.ledger.wording import wording
 
 COQ = {
     "(11)": ("UnitBall.determinant_is_cubic", "Paper.equation_11_is_misprinted"),
@@ -45,6 +47,6 @@ COQ = {
 @cache
 def entries() -> tuple[Entry, ...]:
     """Every entry, in order."""
-    stated = (*propositions(), regime_of_section_4(), *procedures(), *costs())
+    stated = (*propositions(), regime_of_section_4(), *procedures(), *costs(), *flights(), *wording())
     ordered = (*equations(), *sorted(stated, key=lambda entry: entry.section))
     return tuple(replace(entry, coq=COQ.get(entry.number, ())) for entry in ordered)

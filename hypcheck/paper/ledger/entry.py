@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from hypcheck.derivation.chains.book import chains, proved
 from hypcheck.derivation.formulas import Formula
 from hypcheck.derivation.proofs import proofs_of
 from hypcheck.paper.ledger.facts import Facts
-from hypcheck.paper.ledger.search import Search, Statement, Witness, counterexample, witness
+from hypcheck.paper.ledger.search import Condition, Search, Statement, Witness, counterexample, witness
 from hypcheck.proofs.build import proves
 
-PROVED, MISPRINT, FALSE, NOT_CHECKABLE = VERDICTS = ("proved", "misprint", "false", "not checkable")
+PROVED, DEFINITION, MISPRINT, FALSE, NOT_CHECKABLE = VERDICTS = (
+    "proved",
+    "definition",
+    "misprint",
+    "false",
+    "not checkable",
+)
 
 HOLDS = "right − left = 0"
 """Why a displayed formula is proved."""
 
-KINDS = ("identity", "chain", "programs", "search", "count", "exhaustive", "coq")
+KINDS = ("identity", "chain", "programs", "search", "count", "exhaustive", "coq", "text")
 """What evidence can be: equal expressions, a chain of links, proved programs, a search of pairs, counted steps, all of
-finitely many cases, theorems of the Coq sources."""
+finitely many cases, theorems of the Coq sources, two places of the paper's text compared by reading."""
 
 _PROVED_BY = {"identity": "sympy", "chain": "sympy", "programs": "sympy", "exhaustive": "exhaustive", "coq": "Coq"}
 
@@ -44,6 +50,7 @@ class Entry:
     `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
     statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
     verdict rests on. `coq` names the theorems that say the same, "File.theorem" of hypcheck/proofs.
+    `harmless` says where a false statement does no harm.
     """
 
     number: str
@@ -56,6 +63,7 @@ class Entry:
     correction: str = ""
     printed: str = ""
     coq: tuple[str, ...] = ()
+    harmless: str = ""
 
     @cached_property
     def evidence(self) -> tuple[Evidence, ...]:
@@ -64,7 +72,12 @@ class Entry:
 
     @property
     def proved_by(self) -> tuple[str, ...]:
-        """By what the verdict is proved: Coq, sympy, exhaustive, witness. A search that finds nothing is no proof."""
+        """By what the verdict is proved: Coq, sympy, exhaustive, witness. A search that finds nothing is no proof.
+
+        A definition needs none.
+        """
+        if self.verdict == DEFINITION:
+            return ()
         found = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
         if any(evidence.witnesses for evidence in self.evidence):
             found.add("witness")
@@ -106,15 +119,16 @@ def without_counterexample(statement: Statement) -> Evidence:
     )
 
 
+def harmless_where(statement: Statement, where: Condition) -> Evidence:
+    """That no point at which `where` holds contradicts a statement that is false elsewhere."""
+    evidence = without_counterexample(replace(statement, where=lambda facts: statement.where(facts) and where(facts)))
+    return replace(evidence, text=f"harmless there: {evidence.text}")
+
+
 def with_counterexample(*statements: Statement) -> Evidence:
     """That each statement is false: the simplest point which contradicts it, its position certified."""
     searches = [(statement, counterexample(statement)) for statement in statements]
     return _found([(search, f"contradicts “{statement.text}”") for statement, search in searches])
-
-
-def with_examples(*searches: tuple[Search, str]) -> Evidence:
-    """That what was looked for was found each time, with a certified position; the text says what the point shows."""
-    return _found(list(searches))
 
 
 def _found(searches: list[tuple[Search, str]]) -> Evidence:

@@ -12,7 +12,7 @@ from hypcheck.derivation.plain_text import plain, read
 from hypcheck.derivation.printed import EquationCheck, check, check_equations
 from hypcheck.derivation.printed_equations import equality, printed_claims
 from hypcheck.pairs import Position
-from hypcheck.paper.ledger.entry import MISPRINT, PROVED, Entry, Evidence, with_counterexample
+from hypcheck.paper.ledger.entry import DEFINITION, MISPRINT, PROVED, Entry, Evidence, with_counterexample
 from hypcheck.paper.ledger.facts import Facts, Rational, rational, with_c2
 from hypcheck.paper.ledger.search import Statement
 from hypcheck.paper.ledger.statements import rule_of_all_sizes
@@ -54,6 +54,10 @@ _EQUATIONS = {
 }
 
 _EXPECTED_MISPRINTS = {"11", "12", "A.2b"}
+_DEFINITIONS = {"1", "3", "4", "6", "9", "15", "20", "22", "A.3", "A.6"}
+
+_ASSUMED = {"11": "if f(λ) = det(λH + S), which the text never says: "}
+"""What a finding assumes, where the text leaves something open."""
 
 
 def equations() -> tuple[Entry, ...]:
@@ -71,8 +75,8 @@ def equation(checked: EquationCheck) -> Entry:
         number=checked.number if checked.number.startswith("A") else f"({checked.number})",
         section=section,
         statement=statement,
-        verdict=MISPRINT if misprinted else PROVED,
-        why=checked.finding,
+        verdict=MISPRINT if misprinted else DEFINITION if checked.number in _DEFINITIONS else PROVED,
+        why=_ASSUMED.get(checked.number, "") + checked.finding,
         follows=follows,
         grounds=lambda: (found, _misled_by_12()) if checked.number == "12" else (found,),
         correction=checked.correction,

@@ -71,6 +71,34 @@ class Facts:
         return sum(one != other for one, other in pairwise(signs))
 
 
+@dataclass(frozen=True, slots=True)
+class Squares:
+    """A = (α/b)², B = (γ/d)², P and Q of a pair, whose lengths may be irrational; made of texts like "12/5"."""
+
+    A: Fraction
+    B: Fraction
+    P: Fraction
+    Q: Fraction
+
+    def __init__(self, *texts: str) -> None:
+        for name, text in zip(("A", "B", "P", "Q"), texts, strict=True):
+            object.__setattr__(self, name, Fraction(text))
+
+    def __str__(self) -> str:
+        return f"A = {self.A}, B = {self.B}, P = {self.P}, Q = {self.Q}"
+
+
+def coefficients(pair: Squares) -> tuple[Fraction, Fraction, Fraction]:
+    """c2, c1 and c0 of a pair's g, by the derivation's polynomials."""
+    c2, c1, c0 = (_polynomials()[name](pair.A, pair.B, pair.P, pair.Q) for name in ("c2", "c1", "c0"))
+    return c2, c1, c0
+
+
+def discriminant(pair: Squares) -> Fraction:
+    """Δ of a pair's g."""
+    return _polynomials()["delta"](*coefficients(pair))
+
+
 def facts(point: Point) -> Facts:
     """The facts of a point."""
     A, B, P, Q = point.a**2, point.c**2, point.r**2, point.z**2

@@ -20,6 +20,16 @@ def wide(facts: Facts) -> bool:
     return facts.point.a >= 1
 
 
+def very_tall(facts: Facts) -> bool:
+    """(γ/d)² > (α/b)² + 1, where c2 < 0 for every centre."""
+    return facts.B > facts.A + 1
+
+
+def off_the_waist(facts: Facts) -> bool:
+    """z0 ≠ 0, where there is no ring."""
+    return facts.Q != 0
+
+
 def exterior(facts: Facts) -> bool:
     """Whether the spheroid is exterior."""
     return facts.position is Position.EXTERIOR
