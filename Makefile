@@ -45,6 +45,10 @@ check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its c
 
 prove: $(VENV)/ready ## the machine-checked proofs, and the proved checker on the frozen vectors (needs coq; docs/proofs.md)
 	$(BIN)/python -m hypcheck.proofs
+	for scene in forest tower tower-simplest; do \
+		$(BIN)/hypcheck emit --scene $$scene --language c --output build/proofs/$$scene.c --proof build/proofs/$$scene.v || exit; \
+	done
+	$(BIN)/python -m hypcheck.proofs build/proofs/forest.v build/proofs/tower.v build/proofs/tower-simplest.v
 
 paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md

@@ -37,10 +37,16 @@ default names.
 @click.option(
     "--output", default="-", show_default=True, metavar="FILE", help="Where to write it; - is standard output."
 )
-def emit(scene: str, language: str, precision: str, question: str | None, prefix: str, output: str) -> None:
+@click.option(
+    "--proof", metavar="FILE", help="Write a proof of the discriminant's bound too, for Coq (docs/proofs.md)."
+)
+def emit(
+    scene: str, language: str, precision: str, question: str | None, prefix: str, output: str, proof: str | None
+) -> None:
     """Plan, and write."""
     from hypcheck.cli.plan import planned
     from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
+    from hypcheck.kernel.emission.proof import proof_of
     from hypcheck.tables.streams import writing
 
     require_prefix(prefix, language)
@@ -50,5 +56,9 @@ def emit(scene: str, language: str, precision: str, question: str | None, prefix
     command += [] if question is None else ["--question", question]
     command += [] if prefix == PREFIX else ["--prefix", prefix]
     text = emitted(plan, language, command, prefix)
+    proved = None if proof is None else proof_of(plan)
     with writing(output) as stream:
         stream.write(text.encode("utf-8"))
+    if proof is not None and proved is not None:
+        with writing(proof) as stream:
+            stream.write(proved.encode("utf-8"))

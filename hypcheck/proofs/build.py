@@ -10,6 +10,7 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from hypcheck.errors import Exit, HypcheckError, InputError
@@ -22,7 +23,13 @@ FROZEN = SOURCES.parents[1] / "cases"
 SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker")
 """What the checker's soundness rests on, in the order in which Coq needs it."""
 
-FILES = (*SOUNDNESS, "ExtractedChecker", "Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
+RULE = ("Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
+"""What the exact answers rest on."""
+
+ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "Region")
+"""What the constants of the kernel and the bounds of emitted kernels rest on."""
+
+FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *ROUNDING)
 """Every file, in the order in which Coq needs them; the name says what it proves."""
 
 AXIOMS = (
@@ -32,6 +39,9 @@ AXIOMS = (
 )
 """What the real numbers of Coq's standard library rest on. The proofs may assume this and nothing else."""
 
+OF_FLOCQ = "Classical_Prop.classic"
+"""The excluded middle, which Flocq uses: Floats.v, which links its rounding to Rounding.v, may assume it too."""
+
 PACKAGES = {
     "coqc": "coq",
     "ocamlfind": "ocaml-findlib",
@@ -39,8 +49,8 @@ PACKAGES = {
 }
 """The programs that a build needs, with the Debian package of each."""
 
-ZARITH = "libzarith-ocaml-dev"
-"""The package of the OCaml library that it needs besides."""
+LIBRARIES = {"zarith": "libzarith-ocaml-dev", "Flocq": "libcoq-flocq"}
+"""The OCaml library and the Coq library that it needs besides."""
 
 _THEOREM = re.compile(r"^\s*(Theorem|Lemma|Corollary)\s+(\w+)", re.MULTILINE)
 _UNPROVED = re.compile(r"\b(Admitted|admit|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort)\b")
@@ -66,8 +76,12 @@ class Compiled:
 def missing() -> list[str]:
     """The Debian packages that a build needs and this machine has not."""
     absent = [package for program, package in PACKAGES.items() if not shutil.which(program)]
-    if absent or _run(["ocamlfind", "query", "zarith"], Path()).returncode:
-        absent.append(ZARITH)
+    if absent:
+        return [*absent, *LIBRARIES.values()]
+    if _run(["ocamlfind", "query", "zarith"], Path()).returncode:
+        absent.append(LIBRARIES["zarith"])
+    if not (Path(_run(["coqc", "-where"], Path()).stdout.strip()) / "user-contrib" / "Flocq").is_dir():
+        absent.append(LIBRARIES["Flocq"])
     return absent
 
 
@@ -139,6 +153,41 @@ def assumptions(names: tuple[str, ...]) -> set[str]:
     if found.returncode or not found.stdout.startswith(("Axioms:", "Closed under the global context")):
         raise ProofError(f"Coq does not say what the proofs assume: {found.stderr.strip() or found.stdout[-200:]}")
     return set(re.findall(r"^(\w[\w.']*)(?=\s*:|$)", found.stdout.partition("Axioms:")[2], re.MULTILINE))
+
+
+def demand_known_axioms(names: tuple[str, ...]) -> set[str]:
+    """The axioms of these compiled files. Raises ProofError where one is not allowed."""
+    found = assumptions(tuple(name for name in names if name != "Floats"))
+    unknown = found - set(AXIOMS)
+    if "Floats" in names:
+        further = assumptions(("Floats",))
+        unknown |= further - {*AXIOMS, OF_FLOCQ}
+        found |= further
+    if unknown:
+        raise ProofError(f"the proofs assume {', '.join(sorted(unknown))}; that is not allowed")
+    return found
+
+
+def check_kernel(path: Path) -> float:
+    """Have Coq check a file of `hypcheck emit --proof`; the proofs have been compiled. Returns the seconds it took.
+
+    Raises InputError where the file cannot be read or the proofs are not compiled, ProofError where Coq refuses it.
+    """
+    if not (BUILT / "Region.vo").is_file():
+        raise InputError("the proofs are not compiled; `make prove` compiles them")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path} cannot be read: {error}") from None
+    with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
+        for compiled in BUILT.glob("*.vo"):
+            shutil.copy(compiled, folder)
+        (Path(folder) / "Emitted.v").write_text(text, encoding="utf-8")
+        start = perf_counter()
+        message = refusal(Path(folder), "Emitted")
+    if message:
+        raise ProofError(f"Coq refuses {path}:\n{message}")
+    return perf_counter() - start
 
 
 def build_checker() -> None:

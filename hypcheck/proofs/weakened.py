@@ -93,6 +93,18 @@ WEAKENED = (
         "",
         "a table without a row",
     ),
+    Weakened(
+        "Rounding", "S (max (count entry a) (count entry b))", "max (count entry a) (count entry b)", "exact sums"
+    ),
+    Weakened(
+        "Rounding",
+        "| Mul a b | Div a b => S (count entry a + count entry b) end%nat",
+        "| Mul a b | Div a b => S (max (count entry a) (count entry b)) end%nat",
+        "lost roundings",
+    ),
+    Weakened("Floats", "Definition unit_to_nearest := / 2 *", "Definition unit_to_nearest := / 4 *", "half the unit"),
+    Weakened("Kernel", "<= 8 * u * M0", "<= 4 * u * M0", "half of what c0 needs"),
+    Weakened("Region", "  division_free e && less", "  less", "a division by what may be 0"),
 )
 """Each must be refused."""
 

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from hypcheck.casebook import vectors
 from hypcheck.cli.main import main
+from hypcheck.cli.plan import planned
 from hypcheck.errors import InputError
+from hypcheck.kernel.emission.proof import proof_of
+from hypcheck.kernel.printing import coq
+from hypcheck.kernel.programs import certified, single
 from hypcheck.paper.ledger import propositions
 from hypcheck.paper.ledger.book import COQ
 from hypcheck.proofs import build
@@ -21,6 +27,20 @@ from hypcheck.proofs.weakened import CONTROL, WEAKENED, accepted
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots_patterns import PATTERNS
 from tests.proofs.agreement import disagreements
+
+ALWAYS_CLEAR = """
+name = "far away"
+[[hyperboloid]]
+alpha = 1.0
+gamma = 1.0
+[mover]
+b = 0.5
+d = 0.5
+[region]
+x = [50.0, 60.0]
+y = [0.0, 1.0]
+z = [0.0, 1.0]
+"""
 
 compiled = pytest.mark.skipif(
     not (build.CHECKER.is_file() and shutil.which("coqc")),
@@ -87,7 +107,7 @@ def test_prove_without_coq_names_the_packages_and_ends_2():
     assert done.stdout == ""
     assert done.stderr == (
         "proofs: error: the proofs need programs that are not here; on Debian: "
-        "apt-get install coq ocaml-findlib ocaml-nox libzarith-ocaml-dev\n"
+        "apt-get install coq ocaml-findlib ocaml-nox libzarith-ocaml-dev libcoq-flocq\n"
     )
 
 
@@ -96,6 +116,49 @@ def test_check_by_coq_says_what_to_do_where_the_checker_is_not_built(monkeypatch
     assert main(["cases", "check", "--checker", "coq"]) == 2
     said = f"the proved checker is not built: there is no {tmp_path}/check_cases; `make prove` builds it"
     assert capsys.readouterr().err == f"hypcheck: error: {said}\n"
+
+
+def test_stage_two_in_coq_is_printed_from_the_program_of_the_kernel():
+    assert (build.SOURCES / "StageTwo.v").read_text(encoding="utf-8") == coq.stage_two()
+
+
+def test_constants_proved_in_coq_are_those_of_the_kernel():
+    kernel = build.source("Kernel")
+    for step, units, constant in (("c0", 8, "u_8"), ("c1", 12, "u_12"), ("c2", 8, "u_8"), ("delta_3", 1536, "u_1536")):
+        assert re.search(rf"Theorem error_of_{step} .*?<= {units} \* u \*", kernel, re.DOTALL), step
+        unit = Fraction(single.CONSTANTS[constant]) / Fraction(certified.SLACK)
+        assert unit == units * Fraction(certified.U) == units * Fraction(1, 2**52)
+
+
+def test_emit_writes_the_proof_of_each_discriminant_beside_the_kernel(tmp_path):
+    kernel, proof = tmp_path / "kernel.c", tmp_path / "kernel.v"
+    words = ["emit", "--scene", "tower", "--language", "c", "--output", str(kernel), "--proof", str(proof)]
+    assert main(words) == 0
+    text = proof.read_text(encoding="utf-8")
+    assert kernel.read_text(encoding="utf-8").startswith("/*")
+    assert text.count("Theorem sign ") == 2
+    for stages in planned("tower", "float64", None).settings:
+        assert f"Definition bound : Q := ({Fraction(stages.discriminant.bound).numerator} #" in text
+
+
+def test_emit_with_proof_refuses_a_kernel_without_a_discriminant(tmp_path, capsys):
+    scene = tmp_path / "far.toml"
+    scene.write_text(ALWAYS_CLEAR, encoding="utf-8")
+    words = ["emit", "--scene", str(scene), "--language", "c", "--output", str(tmp_path / "kernel.c")]
+    assert main([*words, "--proof", str(tmp_path / "kernel.v")]) == 2
+    assert "this kernel decides without a discriminant" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == [scene]
+
+
+@compiled
+def test_coq_proves_the_bound_of_an_emitted_kernel_and_refuses_a_smaller_one(tmp_path):
+    text = proof_of(planned("tower-simplest", "float32", None))
+    proof, wrong = tmp_path / "kernel.v", tmp_path / "wrong.v"
+    proof.write_text(text, encoding="utf-8")
+    assert build.check_kernel(proof) > 0
+    wrong.write_text(re.sub(r"(bound : Q := \(\d+ # \d+)\)", r"\g<1>0)", text), encoding="utf-8")
+    with pytest.raises(build.ProofError, match="Coq refuses"):
+        build.check_kernel(wrong)
 
 
 @compiled

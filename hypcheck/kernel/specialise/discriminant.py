@@ -69,7 +69,8 @@ def discriminant(
     None where a constant or a magnitude leaves the format.
     """
     try:
-        constants = {name: form.rounded(value) for name, value in _constants(scaled).items()}
+        _, exact = exact_constants(scaled)
+        constants = {name: form.rounded(value) for name, value in exact.items()}
         program = program_of("discriminant", ("R", "zz", *constants), COEFFICIENTS, HESSIAN_DISCRIMINANT)
         fixed = {name: Fraction(value) for name, value in (*entry_constants.items(), *constants.items())}
         bound = form.rounded(
@@ -83,11 +84,12 @@ def discriminant(
     return Discriminant(program, constants, bound, widest, highest, clear)
 
 
-def _constants(scaled: Scaled) -> dict[str, Fraction]:
+def exact_constants(scaled: Scaled) -> tuple[Fraction, dict[str, Fraction]]:
+    """The power of two s, and the constants before they are rounded."""
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     s = power_of_two_near(A * B)
     s = Fraction(2) ** round((s.numerator.bit_length() - s.denominator.bit_length()) / 3)
-    return {
+    return s, {
         "V": (A - B - A * B) / s**2,
         "VR": B / (bb * s**2),
         "VZ": A / (dd * s**2),
