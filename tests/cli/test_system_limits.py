@@ -8,12 +8,12 @@ import subprocess
 import sys
 
 import pytest
-from hypcheck.record.writing import Recorder
 
 from hypcheck import processes
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError, SystemLimitError, limit_reached
 from hypcheck.methods.opening import open_implementation
+from hypcheck.record import Recorder
 from tests.miniatures import LIMITS, command, function, rows, truth
 
 LIMITED = """
@@ -92,10 +92,10 @@ def test_seconds_of_a_record_do_not_follow_a_clock_that_is_set(monkeypatch, tmp_
             cls.day -= 1
             return real(2026, 1, cls.day, tzinfo=zone)
 
-    from hypcheck.record import writing
+    from hypcheck.record import writer
 
-    real = writing.datetime
-    monkeypatch.setattr(writing, "datetime", Set)
+    real = writer.datetime
+    monkeypatch.setattr(writer, "datetime", Set)
     with (tmp_path / "record.jsonl").open("w") as stream:
         record = Recorder(stream, {}).close(0)
-    assert 0 <= record.footer["seconds"] < 60
+    assert 0 <= record.footer.seconds < 60
