@@ -73,10 +73,14 @@ def _flown(flights: dict[str, Any]) -> Iterator[str]:
     )
     for number, path in enumerate(paths, start=1):
         least, most = min(path["discriminant"]), max(path["discriminant"])
+        made = len(path["positions"]) - 1
         yield (
-            f"  {number}: {counted(path['executions'], 'execution')}, {path['touching']} with Δ ≤ 0, "
-            f"{counted(path['refused'], 'movement')} refused, {counted(path['outside_height'], 'draw')} "
-            f"outside the modelled height; Δ from {least:.3g} to {most:.3g}"
+            f"  {number}: {counted(path['executions'], 'execution')}, of which {made} moves made and "
+            f"{counted(path['refused'], 'attempt')} refused; Δ ≤ 0 in {path['touching']};"
+        )
+        yield (
+            f"     Δ at its positions from {least:.3g} to {most:.3g} (refused attempts lead to none); "
+            f"{counted(path['outside_height'], 'draw')} beyond the height"
         )
     if flights["ways"] is not None:
         yield from _ways(flights["ways"])

@@ -19,6 +19,7 @@ from hypcheck.paper.derive.choosing import Chosen
 from hypcheck.paper.derive.layout import WIDTH, broken, columns, paragraph
 from hypcheck.paper.derive.tex import UnknownCharacterError, formula, sentence
 from hypcheck.paper.ledger import entries
+from hypcheck.version import VERSION
 from tests.schemas import violations
 
 ALL = Chosen(tuple(PARTS))
@@ -183,3 +184,11 @@ def test_long_formulas_are_broken_before_outer_signs_first():
     lines = broken("f = (a + b + c)·x + (d − e)·y − z", 20)
     assert lines == ["f = (a + b + c)·x", "+ (d − e)·y − z"]
     assert broken("f = (aaaa + bbbb + cccc)·x", 12) == ["f", "= (aaaa", "+ bbbb", "+ cccc)·x"]
+
+
+def test_citation_and_readme_name_the_paper_as_the_ledger_does():
+    root = PAGE.parents[1]
+    title = "Algorithms for Determining Relative Position between Spheroids and Hyperboloids with One Sheet"
+    for name in ("CITATION.cff", "README.md", "docs/paper.md", "docs/mathematics.md", "docs/simulate.md"):
+        assert title in " ".join((root / name).read_text(encoding="utf-8").split()), name
+    assert f"version: {VERSION}" in (root / "CITATION.cff").read_text(encoding="utf-8")

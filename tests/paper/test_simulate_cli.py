@@ -54,6 +54,13 @@ def test_the_forests_json_is_what_its_schema_says(capsys, more):
     assert violations(json.loads(out), schema("forest"), closed=True) == []
 
 
+def test_a_flights_moves_and_refused_attempts_are_counted_apart_from_its_positions(capsys, tower):
+    """Δ ≤ 0 in 3 executions beside a least Δ above 0 would read as a contradiction."""
+    _, out, _ = run(capsys, *tower)
+    assert out.count("executions, of which 24 moves made and ") == 3
+    assert out.count("Δ at its positions from ") == out.count("(refused attempts lead to none)") == 3
+
+
 def test_the_towers_text_says_what_the_table_cannot_tell_and_all_that_is_assumed(capsys, tower):
     _, out, _ = run(capsys, *tower, "--table", "5", "--runs", "2", "--continuous")
     assert "The unstated parameters are not identified by the table" in out

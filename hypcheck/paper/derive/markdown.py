@@ -32,11 +32,15 @@ witnesses and their certificates; [mathematics.md](mathematics.md) has the proof
 **Proved** means that sympy found right − left = 0, or that every link of a chain of identities and signs was checked,
 and that no pair of a space of small rational numbers contradicts it; small claims are proved by counting.
 A **definition** cannot be true or false; the derivation uses the same one. A **misprint** is put right by the
-derivation, or by another place of the text. The text that was read is a transcription of the paper: a misprint may be
-the transcription's, and must be looked up on the printed page.
+derivation, or by another place of the text. A misprint may be the transcription's (see below).
 **False** means that a search of that space found a pair which contradicts the statement, the simplest there is, and
 that an exact certificate proves the pair's position, or that a count contradicts it. a = α/b and c = γ/d are the
-semi-axes after Theorem 1, C is the centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a."""
+semi-axes after Theorem 1, C is the centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a.
+
+**The paper** is “Algorithms for Determining Relative Position between Spheroids and Hyperboloids with One Sheet”. The
+text that was audited is a transcription. It names no authors, no journal, no year and no DOI, and it has neither the
+figures nor the list of references; the works [1] to [16] were not read. So every *misprint*, and every verdict about
+the wording or the figures of Table 5, must be looked up on the printed page before it is held against the authors."""
 
 
 def lines(chosen: Chosen) -> Iterator[str]:
