@@ -7,7 +7,7 @@ that very answer right (truth/flip.py), counted in units u of the precision that
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -97,17 +97,24 @@ def expected(positions: Positions, question: str) -> NDArray[np.int8]:
     return np.asarray(positions == Position[question.upper()], dtype=np.int8)
 
 
+def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> NDArray[np.bool_]:
+    """A mask (n,) of the wrong answers. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
+    return np.asarray((answers != expected(truth, question)) & (answers != CANNOT_SAY))
+
+
 def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criterion: Criterion) -> list[WrongCase]:
-    """Every wrong answer of a batch, judged. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
-    wrong = np.flatnonzero((answers != expected(truth, criterion.question)) & (answers != CANNOT_SAY))
-    cases: list[WrongCase] = []
+    """Every wrong answer of a batch, judged."""
+    return list(judged(rows, answers, np.flatnonzero(is_wrong(truth, answers, criterion.question)), criterion))
+
+
+def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
+    """The wrong answers at these places of a batch, judged one after the other."""
     guess = -10
     for index in wrong.tolist():
         case = _judged(index, rows[index].tolist(), int(answers[index]), criterion, guess)
-        cases.append(case)
+        yield case
         if math.isfinite(case.exponent):
             guess = int(case.exponent)  # neighbours in a family are wrong alike
-    return cases
 
 
 def measured(case: WrongCase, question: str) -> float:

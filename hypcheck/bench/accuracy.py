@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -18,13 +17,15 @@ from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.contenders.ways import Way
 from hypcheck.bench.plan import BenchPlan, chosen
 from hypcheck.bench.workloads import WORKLOADS, Workload
-from hypcheck.judge import Mistake
+from hypcheck.judge import Criterion, Mistake, Status
+from hypcheck.methods.asking import Answered
 from hypcheck.methods.method import Answers
-from hypcheck.pairs import Position
 from hypcheck.processes import perform
 from hypcheck.record.fields import Unsigned
-from hypcheck.record.measurements import Accuracy, Mistaken, Octave
-from hypcheck.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.record.measurements import Accuracy, Mistaken
+from hypcheck.rows import Positions, Rows
+from hypcheck.score import Score, score
+from hypcheck.tally import CODES, by_exponent
 from hypcheck.truth import batch
 
 Floats = NDArray[np.float64]
@@ -42,7 +43,7 @@ NEAREST = 2.0**-75
 
 
 @dataclass(frozen=True)
-class Known:
+class WorkloadTruth:
     """A workload's judged rows (n, 7) with their exact positions, int8 (n,), and flip octaves (n,)."""
 
     workload: Workload
@@ -52,7 +53,7 @@ class Known:
 
 
 @dataclass(frozen=True)
-class Answered:
+class MethodAnswers:
     """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed.
 
     `trouble` says why some went without an answer, where a program was at fault.
@@ -72,7 +73,7 @@ def chosen_workloads(plan: BenchPlan) -> list[Workload]:
     return [WORKLOADS[name] for name in chosen(list(WORKLOADS), plan.workloads, "workload")]
 
 
-def known(plan: BenchPlan, executor: Executor | None) -> Iterator[Known]:
+def known(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
     """What is true of each workload; the flip distances are found in pieces, on all processors."""
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, plan.amounts.judged)
@@ -80,20 +81,20 @@ def known(plan: BenchPlan, executor: Executor | None) -> Iterator[Known]:
         octaves = np.empty(len(rows))
         for (start, piece), found in perform(_octaves, pieces, executor):
             octaves[start : start + len(piece)] = found
-        yield Known(workload, rows, batch.positions(rows), octaves)
+        yield WorkloadTruth(workload, rows, batch.positions(rows), octaves)
 
 
 def _octaves(piece: tuple[int, Rows]) -> Floats:
     return judge.flip_octaves(piece[1])
 
 
-def asked(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[Answered]]:
+def asked(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[MethodAnswers]]:
     """The answers of each method, as they come."""
     for _, answered in perform(_ask, [(plan, name) for name in names], executor):
         yield answered
 
 
-def _ask(task: tuple[BenchPlan, str]) -> list[Answered]:
+def _ask(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
     plan, name = task
     contender = contenders(plan)[name]
     way = contender.load()
@@ -103,11 +104,11 @@ def _ask(task: tuple[BenchPlan, str]) -> list[Answered]:
         way.close()
 
 
-def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> Answered:
+def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> MethodAnswers:
     rows = _rows(workload.name, plan.seed, plan.amounts.judged)
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
-    return Answered(
+    return MethodAnswers(
         contender.name,
         workload.name,
         places,
@@ -143,51 +144,37 @@ def print_of(answers: Answers) -> str:
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
-def line(contender: Contender, answered: Answered, truth: Known) -> Accuracy:
-    """The record's line about one method and one workload; `answered` holds at least one answer."""
-    places, answers = answered.places, answered.answers
-    positions, octaves = truth.positions[places], truth.octaves[places]
-    said = answers != CANNOT_SAY
-    wrong = said & (answers != judge.expected(positions, contender.question))
-    mistakes = mistakes_of(positions[wrong], answers[wrong], contender.question)
+def line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> Accuracy:
+    """The record's line about one method and one workload; `given` holds at least one answer."""
+    places, criterion = given.places, Criterion(contender.question, contender.precision)
+    scored = score(truth.rows[places], truth.positions[places], Answered.of(given.answers), criterion)
+    octaves, mistakes = truth.octaves[places], scored.mistakes
     return Accuracy(
         method=contender.name,
-        workload=answered.workload,
+        workload=given.workload,
         asked=len(places),
-        wrong=int(wrong.sum()),
+        wrong=len(scored.wrong),
         false_clear=mistakes[Mistake.FALSE_CLEAR],
         false_contact=mistakes[Mistake.FALSE_CONTACT],
         wrong_side=mistakes[Mistake.WRONG_SIDE],
-        abstained=int((~said).sum()),
-        octaves=by_octave(octaves, wrong),
-        reliable_above=Unsigned(reliable_above(octaves, wrong | ~said)),
-        worst=_worst(contender, answered, truth, np.flatnonzero(wrong)),
+        abstained=int(np.count_nonzero(scored.status == CODES[Status.ABSTAINED])),
+        octaves=[
+            (
+                int(exponent) if math.isfinite(float(exponent)) else exponent,
+                sum(counts.values()),
+                counts.get("wrong", 0),
+            )
+            for exponent, counts in by_exponent(octaves, scored.status).items()
+        ],
+        reliable_above=Unsigned(reliable_above(octaves, scored.status != CODES[Status.RIGHT])),
+        worst=_worst(scored, octaves, given),
     )
-
-
-def mistakes_of(positions: Positions, answers: Answers, question: str) -> Counter[Mistake]:
-    """Wrong answers by what they mean."""
-    found: Counter[Mistake] = Counter()
-    for (position, answer), number in Counter(zip(positions.tolist(), answers.tolist(), strict=True)).items():
-        found[judge.mistake_of(Position(position), answer, question)] += number
-    return found
-
-
-def by_octave(octaves: Floats, wrong: NDArray[np.bool_]) -> list[Octave]:
-    """[exponent, asked, wrong] for each octave that occurs, from the lowest up; an exact tangency is "-inf"."""
-    found, octave_of = np.unique(octaves, return_inverse=True)
-    numbers = np.bincount(octave_of, minlength=len(found)).tolist()
-    errors = np.bincount(octave_of[wrong], minlength=len(found)).tolist()
-    return [
-        (int(octave) if math.isfinite(octave) else str(octave), number, error)
-        for octave, number, error in zip(found.tolist(), numbers, errors, strict=True)
-    ]
 
 
 def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
     """The lowest 2^k from which on, of the rows that flip at any 2^(k + j) or farther, at most TOLERABLE are wrong.
 
-    Missing answers are among the wrong: who never says anything would be reliable else. 0 where nothing is wrong,
+    Missing answers count as wrong: a method that never answers would be reliable otherwise. 0 where nothing is wrong,
     NEAREST where exact tangencies alone are, inf where even the farthest rows are wrong too often or there is no other.
     """
     edges = np.unique(octaves[np.isfinite(octaves)])
@@ -205,22 +192,18 @@ def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
     return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
-def _worst(contender: Contender, answered: Answered, truth: Known, wrong: NDArray[np.intp]) -> list[Mistaken]:
+def _worst(scored: Score, octaves: Floats, given: MethodAnswers) -> list[Mistaken]:
     """The wrong answers that are farthest from being right, of those whose rows flip farthest away."""
-    octaves = truth.octaves[answered.places[wrong]]
-    tried = wrong[np.argsort(-octaves, kind="stable")][:_WORST_TRIED].tolist()
-    cases = []
-    for index in tried:
-        place, answer = int(answered.places[index]), int(answered.answers[index])
-        row = truth.rows[place].tolist()
-        error = judge.error_of(row, answer, contender.question)
-        case = Mistaken(
-            case=f"{truth.workload.name}/{place}",
+    tried = scored.wrong[np.argsort(-octaves[scored.wrong], kind="stable")][:_WORST_TRIED].tolist()
+    cases = [
+        Mistaken(
+            case=f"{given.workload}/{int(given.places[index])}",
             row=tuple(value.hex() for value in row),
-            truth=int(truth.positions[place]),
+            truth=int(scored.truth[index]),
             answer=answer,
-            flip_distance=Unsigned(error),
+            flip_distance=Unsigned(judge.error_of(row, answer, scored.criterion.question)),
         )
-        cases.append((error, case))
-    cases.sort(key=lambda each: -each[0])
-    return [case for _, case in cases[:WORST_KEPT]]
+        for index in tried
+        for row, answer in [(scored.rows[index].tolist(), int(scored.answers[index]))]
+    ]
+    return sorted(cases, key=lambda case: -case.flip_distance)[:WORST_KEPT]

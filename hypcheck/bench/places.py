@@ -17,7 +17,7 @@ from hypcheck.methods.method import Answers
 from hypcheck.pairs import SIZES, Position
 from hypcheck.processes import perform
 from hypcheck.record.measurements import Places, Scenery
-from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.rows import Rows
 from hypcheck.truth import batch
 
 SCENE = NEAR_SCENES[0]
@@ -85,6 +85,6 @@ def drawn(answers: Answers, rows: Rows, question: str, columns: int) -> list[str
     """A text for each z from the lowest up, with a character for each r."""
     positions = batch.positions(rows)
     letters = np.full(len(rows), ".")
-    for place in np.flatnonzero((answers != judge.expected(positions, question)) & (answers != CANNOT_SAY)):
+    for place in np.flatnonzero(judge.is_wrong(positions, answers, question)):
         letters[place] = LETTERS[judge.mistake_of(Position(positions[place]), int(answers[place]), question)]
     return ["".join(line) for line in letters.reshape(-1, columns).tolist()]

@@ -20,7 +20,7 @@ from hypcheck.bench import (
     speed,
     stability,
 )
-from hypcheck.bench.accuracy import Answered, Known, chosen_workloads
+from hypcheck.bench.accuracy import MethodAnswers, WorkloadTruth, chosen_workloads
 from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.conditions import governor, load
 from hypcheck.bench.contenders import Contender, contenders
@@ -75,7 +75,7 @@ class _Run:
     recorder: Recorder
     outcome: BenchOutcome
     found: dict[str, Contender]
-    answers: list[Answered] = field(default_factory=list)
+    answers: list[MethodAnswers] = field(default_factory=list)
     baseline: Baseline | None = None
     speeds: list[Line] = field(default_factory=list)
 
@@ -179,7 +179,7 @@ def introduction(contender: Contender) -> Method:
 
 
 def _judge(run: _Run, advance: Advance) -> None:
-    truths: dict[str, Known] = {}
+    truths: dict[str, WorkloadTruth] = {}
     with processes(run.plan.workers) as executor:
         for truth in accuracy.known(run.plan, executor):
             truths[truth.workload.name] = truth

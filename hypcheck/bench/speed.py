@@ -8,7 +8,7 @@ from statistics import median
 from msgspec import UNSET
 
 from hypcheck.bench import session
-from hypcheck.bench.accuracy import Answered
+from hypcheck.bench.accuracy import MethodAnswers
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.session import AGAIN, COST, EMPTY_CALL, NOT_ANSWERED, Key, Measured, Session
 from hypcheck.bench.statistics import LEAST_NS, Estimate, estimate, ratios
@@ -23,7 +23,7 @@ Found = dict[Key, list[Measured]]
 """What each process measured, by method, workload and mode."""
 
 
-def expected(answers: list[Answered]) -> dict[Key, str]:
+def expected(answers: list[MethodAnswers]) -> dict[Key, str]:
     """The prints of the answers that were judged, by method, workload and mode."""
     found: dict[Key, str] = {}
     for each in answers:

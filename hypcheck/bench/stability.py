@@ -16,7 +16,7 @@ from hypcheck.casebook.draw import Draw
 from hypcheck.casebook.placing import sizes
 from hypcheck.processes import perform
 from hypcheck.record.measurements import Stability
-from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.rows import Rows
 from hypcheck.truth import batch
 
 FIRST, LAST = -4, 15
@@ -58,8 +58,7 @@ def _line(task: tuple[BenchPlan, str]) -> Stability:
         answers = way.answer(rows[places])
     finally:
         way.close()
-    right = judge.expected(batch.positions(rows[places]), contender.question)
-    wrong = (answers != right) & (answers != CANNOT_SAY)
+    wrong = judge.is_wrong(batch.positions(rows[places]), answers, contender.question)
     asked = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
     errors = np.bincount(cells[places][wrong], minlength=cells.max() + 1).tolist()
     side = LAST - FIRST + 1

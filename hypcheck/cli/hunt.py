@@ -20,9 +20,8 @@ from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.visible import counted, printable
 
 if TYPE_CHECKING:
-    from hypcheck.hunt.hunting import Hunt
+    from hypcheck.hunt.hunting import Hunt, Target
     from hypcheck.hunt.search import Progress
-    from hypcheck.hunt.target import Target
 
 SUBJECT = (
     click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
@@ -54,7 +53,7 @@ def opened(
     **limits: Any,  # noqa: ANN401 - of with_limits
 ) -> Iterator[Target]:
     """The implementation that SPEC names, running, and what the options say of it. Raises InputError, StartError."""
-    from hypcheck.hunt.target import target_of
+    from hypcheck.hunt.hunting import target_of
     from hypcheck.judge import DEFAULT_TOLERANCE
     from hypcheck.methods.description import parse_domain
     from hypcheck.methods.opening import open_implementation
@@ -163,10 +162,10 @@ def _tell(run: Hunt, show: int, out: Path | None) -> None:
 
 def _exit_code(run: Hunt) -> Exit:
     """Raises NothingJudgedError where no row was answered, for a reason that is no fault of the implementation."""
-    from hypcheck.methods.faults import Outcome
+    from hypcheck.judge import Status
 
-    broken = not run.answered and set(run.faults) - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
-    if not run.answered - run.abstained and not run.faults:
+    broken = not run.answered and set(run.faults) - {Status.NOT_RUN} == {Status.PROTOCOL}
+    if run.answered == run.counts[Status.ABSTAINED.value] and not run.faults:
         raise NothingJudgedError("no row was answered: the domain leaves nothing to ask, or every answer was abstained")
     wrong = bool(run.findings.worst_first() or run.faults)
     return first_that_applies([Exit.NOT_STARTED] * broken + [Exit.WRONG] * wrong)

@@ -19,16 +19,15 @@ from distributed import KilledWorker
 
 from hypcheck.errors import InputError
 from hypcheck.gate.cluster import CLOSE, CONNECT
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.patience import within
 from hypcheck.gate.results import Performed
-from hypcheck.gate.rules import Rules
 from hypcheck.gate.shipped import files_to_ship, module_sha256
 from hypcheck.gate.station import Job, Station, perform_at_station
-from hypcheck.gate.subject import Crashed
 from hypcheck.gate.work import Opening, Task, perform
 from hypcheck.gate.workers import AHEAD
-from hypcheck.methods.implementation import Implementation
+from hypcheck.methods.implementation import Crashed, Implementation
 from hypcheck.methods.runs import Allowance
 
 if TYPE_CHECKING:

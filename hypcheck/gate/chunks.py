@@ -17,8 +17,8 @@ from hypcheck.casebook import fixed_sizes, vectors
 from hypcheck.casebook.families import FAMILIES, case_id
 from hypcheck.casebook.family import BLOCK, Family
 from hypcheck.gate.frozen import frozen
-from hypcheck.groups import Place
 from hypcheck.rows import Positions, Rows
+from hypcheck.tally import Place
 from hypcheck.truth import batch
 
 SIZE = 64 * BLOCK

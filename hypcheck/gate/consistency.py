@@ -19,12 +19,10 @@ from hypcheck.casebook.families import select
 from hypcheck.casebook.frozen import refusals
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.chunks import OCTAVES_OF, Chunk, found_by_search, frozen_cases
+from hypcheck.gate.conformance import Invalid, Rules
 from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.refusing import Invalid
 from hypcheck.gate.results import Open, Result
-from hypcheck.gate.rules import Rules
 from hypcheck.gate.schedule import State, Step
-from hypcheck.groups import FAULTS_KEPT, WORST_KEPT, Tally, Worst
 from hypcheck.judge import Mistake, Status
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import Outcome
@@ -34,6 +32,7 @@ from hypcheck.methods.runs import HANGS
 from hypcheck.record.fields import Line
 from hypcheck.record.lines import Group, Implementation
 from hypcheck.rows import CANNOT_SAY
+from hypcheck.tally import FAULTS_KEPT, WORST_KEPT, Tally, Worst
 from hypcheck.truth import batch
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.EXCUSED)

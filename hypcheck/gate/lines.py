@@ -7,21 +7,21 @@ from dataclasses import asdict, dataclass, field, replace
 
 from msgspec import UNSET
 
-from hypcheck import groups
+from hypcheck import tally
 from hypcheck.casebook.frozen import refusals
 from hypcheck.errors import Exit
-from hypcheck.gate.again import as_they_are
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.known_failures import no_longer_failing
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.results import Result, merged
-from hypcheck.gate.rules import Rules
+from hypcheck.gate.retest import as_they_are
 from hypcheck.gate.schedule import State
-from hypcheck.groups import Tally
 from hypcheck.judge import Status
 from hypcheck.methods.description import Description
 from hypcheck.record import Line, Recorder, lines
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import Drift, Group, Implementation, NotStarted, Retest
+from hypcheck.tally import Tally
 
 FATAL = (Status.ERROR, Status.CRASH, Status.TIMEOUT, Status.PROTOCOL, Status.NONDETERMINISTIC, Status.NOT_RUN)
 
@@ -75,7 +75,7 @@ class Lines:
     def add(self, state: State, recorder: Recorder, *, finished: bool) -> None:
         """Record the state; where the run is not finished, open cases are judged as they were answered."""
         total = merged([replace(state.total, open=()), as_they_are(state.total.open, self.rules)])
-        found = [self._group(family, tally) for family, tally in total.tallies.items()]
+        found = [self._group(family, tallied) for family, tallied in total.tallies.items()]
         for line in found:
             recorder.add(line)
         if finished:
@@ -83,13 +83,13 @@ class Lines:
                 recorder.add(Drift(sentence=f"{self.used.name}: {sentence}"))
         self._conclude(state, total, found, recorder, finished=finished)
 
-    def _group(self, family: str, tally: Tally) -> Group:
-        wrong_fails = self.plan.fail_on == "wrong" or tally.dangerous > 0 or family == refusals.NAME
+    def _group(self, family: str, tallied: Tally) -> Group:
+        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family == refusals.NAME
         grave = (Status.WRONG, *FATAL) if wrong_fails else FATAL
-        failing = [status.value for status in grave if tally.counts.get(status.value)]
+        failing = [status.value for status in grave if tallied.counts.get(status.value)]
         name = self.used.name
-        return groups.line(
-            tally, family, self.rules.criterion, method=name, title=name, spec=self.spec, failing=failing
+        return tally.line(
+            tallied, family, self.rules.criterion, method=name, title=name, spec=self.spec, failing=failing
         )
 
     def _conclude(

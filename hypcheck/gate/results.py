@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck import groups
+from hypcheck import tally
 from hypcheck.gate.chunks import Chunk
-from hypcheck.groups import Tally
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.runs import Allowance
+from hypcheck.tally import Tally
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,10 +68,10 @@ def merged(results: Iterable[Result]) -> Result:
     parts = tuple(results)
     tallies: dict[str, list[Tally]] = {}
     for part in parts:
-        for family, tally in part.tallies.items():
-            tallies.setdefault(family, []).append(tally)
+        for family, each in part.tallies.items():
+            tallies.setdefault(family, []).append(each)
     return Result(
-        tallies={family: groups.merged(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
+        tallies={family: tally.merged(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
         open=tuple(each for part in parts for each in part.open),
         again=Again(*(sum(getattr(part.again, name) for part in parts) for name in Again.__slots__)),
         outcomes=frozenset().union(*(part.outcomes for part in parts)),

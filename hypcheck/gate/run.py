@@ -12,12 +12,12 @@ from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import NothingJudgedError
 from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.cluster import connected
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.consistency import planned, require_all_tallied
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import GateOutcome, Lines, as_recorded
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Keeper
-from hypcheck.gate.rules import Rules
 from hypcheck.gate.schedule import Crew, State, Step, states, steps
 from hypcheck.gate.work import Opening
 from hypcheck.gate.workers import Here, Workers, keep_memory

@@ -17,12 +17,12 @@ from hypcheck.bins import Bins
 from hypcheck.gate.chunks import Chunk
 from hypcheck.gate.results import Again, Open, Result
 from hypcheck.gate.schedule import State
-from hypcheck.groups import Fault, Tally, Worst
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.runs import Allowance
 from hypcheck.pairs import COLUMNS
 from hypcheck.record import plain
 from hypcheck.record.fields import FARTHEST
+from hypcheck.tally import Fault, Tally, Worst
 from hypcheck.visible import shortened
 
 Json = dict[str, Any]

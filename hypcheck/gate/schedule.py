@@ -13,10 +13,10 @@ from dataclasses import dataclass, field, replace
 from itertools import islice, takewhile
 from typing import Protocol
 
-from hypcheck.gate.again import Round
 from hypcheck.gate.chunks import SIZE, Chunk
-from hypcheck.gate.refusing import Invalid
+from hypcheck.gate.conformance import Invalid
 from hypcheck.gate.results import Open, Performed, Result, merged
+from hypcheck.gate.retest import RetestTask
 from hypcheck.gate.work import Task
 from hypcheck.methods.runs import Allowance
 
@@ -38,9 +38,9 @@ class Again:
     number: int
     part: int = 0
 
-    def of(self, some: tuple[Open, ...]) -> Round:
+    def of(self, some: tuple[Open, ...]) -> RetestTask:
         """Its task, where these are open."""
-        return Round(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
+        return RetestTask(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
 
 
 Step = Chunk | Again | Invalid

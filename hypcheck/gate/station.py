@@ -16,9 +16,9 @@ from distributed import Worker, WorkerPlugin, get_worker
 
 from hypcheck.errors import HypcheckError, InputError, system_reason
 from hypcheck.gate.cluster import OTHER_FILES
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
-from hypcheck.gate.rules import Rules
 from hypcheck.gate.shipped import Shipped, module_sha256, require_same, spec_there
 from hypcheck.gate.work import Opening, Task, perform
 from hypcheck.gate.workers import keep_memory, require_same_description

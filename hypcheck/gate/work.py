@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hypcheck.gate.again import Round, ask_again
 from hypcheck.gate.chunks import Chunk
-from hypcheck.gate.refusing import Invalid, ask_invalid
+from hypcheck.gate.conformance import Invalid, Rules, ask_chunk, ask_invalid
 from hypcheck.gate.results import Performed, Result
-from hypcheck.gate.rules import Rules
-from hypcheck.gate.subject import Subject
-from hypcheck.gate.trial import ask
+from hypcheck.gate.retest import RetestTask, retest
 from hypcheck.methods.domain import Domain
-from hypcheck.methods.implementation import Implementation
+from hypcheck.methods.implementation import Crashed, Implementation
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.opening import open_implementation
 from hypcheck.methods.runs import Allowance
 
-Task = Chunk | Round | Invalid
+Task = Chunk | RetestTask | Invalid
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,16 +34,16 @@ class Opening:
         )
 
 
-def perform(task: Task, implementation: Subject, rules: Rules, allowance: Allowance) -> Performed:
+def perform(task: Task, implementation: Implementation | Crashed, rules: Rules, allowance: Allowance) -> Performed:
     """Do it; the result depends on nothing but these, as far as the implementation's answers do not."""
     implementation.allow(allowance)
     result = _result(task, implementation, rules)
     return Performed(result, allowance, implementation.allowance)
 
 
-def _result(task: Task, implementation: Subject, rules: Rules) -> Result:
+def _result(task: Task, implementation: Implementation | Crashed, rules: Rules) -> Result:
     if isinstance(task, Chunk):
-        return ask(task, implementation, rules)
-    if isinstance(task, Round):
-        return ask_again(task, implementation, rules)
-    return ask_invalid(implementation)
+        return ask_chunk(task, implementation, rules)
+    if isinstance(task, RetestTask):
+        return retest(task, implementation, rules)
+    return ask_invalid(task, implementation)

@@ -20,15 +20,14 @@ from multiprocessing.context import SpawnProcess
 import numpy as np
 
 from hypcheck.errors import Exit, HypcheckError, limit_reached
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.frozen import read_here, take
 from hypcheck.gate.ourselves import own_sha256
 from hypcheck.gate.results import Performed
-from hypcheck.gate.rules import Rules
-from hypcheck.gate.subject import Crashed
 from hypcheck.gate.work import Opening, Task, perform
 from hypcheck.methods.description import Description
 from hypcheck.methods.faults import StartError
-from hypcheck.methods.implementation import Implementation
+from hypcheck.methods.implementation import Crashed, Implementation
 from hypcheck.methods.runs import Allowance
 from hypcheck.processes import end_with_parent, interrupts_held
 

@@ -1,23 +1,26 @@
-"""One hunt as it goes on: its budget, what it asks and judges, and what it keeps."""
+"""A hunt: what is hunted and for how long, how rows are asked, and which wrong answers were found."""
 
 from __future__ import annotations
 
 import math
 import time
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck import judge
 from hypcheck.casebook.draw import Integers
-from hypcheck.hunt.findings import Findings
-from hypcheck.hunt.target import Target
-from hypcheck.judge import WrongCase
-from hypcheck.methods.asking import Answered
-from hypcheck.methods.faults import Outcome
-from hypcheck.methods.method import Answers
-from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.hunt.place import Place, place_of
+from hypcheck.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
+from hypcheck.methods.domain import Domain, claimed
+from hypcheck.methods.implementation import Implementation
+from hypcheck.pairs import Pair, Position
+from hypcheck.rows import Rows
+from hypcheck.score import Indices, Score, score
+from hypcheck.tally import STATUSES, Fault, counts_of
 from hypcheck.truth import batch
 
 PIECE = 4096
@@ -25,6 +28,8 @@ PIECE = 4096
 
 PIECE_SECONDS = 0.5
 """The seconds that a piece may take before the next ones are made smaller."""
+
+_ANSWERED = (Status.RIGHT, Status.WRONG, Status.ABSTAINED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,36 +41,146 @@ class Plan:
     seed: int = 1
 
 
-@dataclass(slots=True)
-class Fault:
-    """Rows that ended without an answer in one way: the first of them, the reason, and how many they were."""
+@dataclass(frozen=True, slots=True)
+class Target:
+    """An implementation with its SPEC, the criterion by which it is judged, and the domain in which it is asked.
 
-    row: tuple[float, ...]
-    reason: str
-    count: int = 0
+    `options` are the command line's, as name and value, that stand for what it declares: reports repeat them.
+    `extreme`: it is asked at the ends of the float formats too, where it has not declared otherwise.
+    """
+
+    spec: str
+    implementation: Implementation
+    criterion: Criterion
+    domain: Domain
+    options: tuple[tuple[str, str], ...] = ()
+    extreme: bool = False
+
+    def claimed(self, rows: Rows) -> Indices:
+        """The places of the rows that the implementation claims to answer."""
+        return claimed(rows, self.domain, self.criterion.precision, extreme=self.extreme)
+
+    def ask(self, rows: Rows) -> Score:
+        """The score of rows, which are asked now."""
+        answered = self.implementation.classify(rows)
+        return score(rows, batch.positions(rows), answered, self.criterion)
+
+
+def target_of(
+    spec: str,
+    implementation: Implementation,
+    *,
+    regimes: tuple[str, ...] | None = None,
+    tolerance: Fraction = DEFAULT_TOLERANCE,
+    options: tuple[tuple[str, str], ...] = (),
+) -> Target:
+    """The implementation as it describes itself; `regimes`, where given, stand for those it declares.
+
+    Raises InputError where a regime is unknown or the tolerance negative.
+    """
+    said = implementation.description
+    domain = said.domain if regimes is None else replace(said.domain, regimes=regimes)
+    return Target(spec, implementation, Criterion(said.question, said.precision, tolerance), domain, options)
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A wrong answer, how far off it is (`error`, and in units u), where it stands, and what came upon it."""
+
+    case: WrongCase
+    error: float
+    error_u: float
+    place: Place
+    source: str
+
+
+@dataclass(slots=True)
+class Cluster:
+    """Wrong answers of one kind: how many were met, beyond tolerance and within it, and the worst."""
+
+    worst: Finding
+    beyond: int = 0
+    tolerated: int = 0
+
+
+Key = tuple[Mistake, Position, str]
+"""What tells kinds of wrong answers apart: the mistake, the truth, and the kind of place."""
+
+
+@dataclass(slots=True)
+class Findings:
+    """All clusters of a hunt."""
+
+    criterion: Criterion
+    clusters: dict[Key, Cluster] = field(default_factory=dict)
+
+    def add(self, cases: Iterable[WrongCase], source: str) -> None:
+        """Take in judged cases that one stratum or one search came upon."""
+        for case in cases:
+            place = place_of(Pair.from_row(case.row))
+            key = (case.mistake, case.truth, place.kind)
+            cluster = self.clusters.get(key)
+            if cluster is None or _may_be_worse(case, cluster.worst.case):
+                finding = measured(case, self.criterion, place, source)
+                if cluster is None:
+                    cluster = self.clusters[key] = Cluster(finding)
+                elif rank(finding) > rank(cluster.worst):
+                    cluster.worst = finding
+            if case.status is Status.WRONG:
+                cluster.beyond += 1
+            else:
+                cluster.tolerated += 1
+
+    def worst_first(self) -> list[Cluster]:
+        """The clusters with an answer beyond tolerance, the worst first."""
+        beyond = [cluster for cluster in self.clusters.values() if cluster.beyond]
+        return sorted(beyond, key=lambda cluster: rank(cluster.worst), reverse=True)
+
+
+def measured(case: WrongCase, criterion: Criterion, place: Place, source: str) -> Finding:
+    """The finding of a judged case."""
+    error = judge.measured(case, criterion.question)
+    return Finding(case, error, judge.in_units(error, criterion.unit), place, source)
+
+
+def rank(finding: Finding) -> tuple[bool, float]:
+    """What makes one finding worse than another: beyond tolerance, then the backward error."""
+    return finding.case.status is Status.WRONG, finding.error
+
+
+def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
+    return (case.status is Status.WRONG, case.exponent) >= (worst.status is Status.WRONG, worst.exponent)
 
 
 @dataclass
 class Hunt:
-    """A hunt as it goes on: what was found, how many rows were asked, and what became of those without an answer.
+    """A hunt as it goes on: what was found, how the rows that were asked ended, and the first fault of each status.
 
-    `piece` is how many rows are asked next; `barren` says that a whole round of strata had no row that is claimed.
+    A tolerated answer counts as wrong. `piece` is how many rows are asked next; `barren` says that a whole round of
+    strata had no row that is claimed.
     """
 
     target: Target
     plan: Plan
     findings: Findings = field(init=False)
     started: float = field(default_factory=time.monotonic)
-    asked: int = 0
-    answered: int = 0
-    abstained: int = 0
-    wrong: int = 0
-    faults: dict[Outcome, Fault] = field(default_factory=dict)
+    counts: Counter[str] = field(default_factory=Counter)
+    faults: dict[Status, Fault] = field(default_factory=dict)
     piece: int = math.isqrt(PIECE)
     barren: bool = False
 
     def __post_init__(self) -> None:
         self.findings = Findings(self.target.criterion)
+
+    @property
+    def asked(self) -> int:
+        """Rows asked so far."""
+        return self.counts.total()
+
+    @property
+    def answered(self) -> int:
+        """Rows with an answer, "cannot say" among them."""
+        return sum(self.counts[status.value] for status in _ANSWERED)
 
     @property
     def seconds(self) -> float:
@@ -82,7 +197,7 @@ class Hunt:
     @property
     def over(self) -> bool:
         """Whether the budget is spent, there is nothing to ask, or the implementation cannot be asked any more."""
-        return self.spent >= 1 or self.barren or Outcome.NOT_RUN in self.faults
+        return self.spent >= 1 or self.barren or Status.NOT_RUN in self.faults
 
 
 def ask(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
@@ -90,41 +205,34 @@ def ask(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCas
 
     With `ladders`, (n,) numbers, only the last wrong one of each number is judged and given back.
     """
-    places = np.flatnonzero(run.target.claimed(rows))
+    places = run.target.claimed(rows)
     if run.plan.queries is not None:
         places = places[: run.plan.queries - run.asked]
-    answers = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+    pieces = list(_pieces(run, rows, places))
+    wrong = [part[scored.wrong] for part, scored in pieces]
+    if ladders is not None:
+        last = {int(ladders[place]): place for some in wrong for place in some.tolist()}
+        wrong = [some[np.isin(some, list(last.values()))] for some in wrong]
+    return [
+        replace(case, index=int(part[case.index]))
+        for (part, scored), some in zip(pieces, wrong, strict=True)
+        for case in scored.judged(np.searchsorted(part, some))
+    ]
+
+
+def _pieces(run: Hunt, rows: Rows, places: Indices) -> Iterator[tuple[Indices, Score]]:
+    """Ask the rows at these places, some at a time, until the budget is spent."""
     start = 0
     while start < len(places) and not run.over:
         part = places[start : start + run.piece]
         start += len(part)
         began = time.monotonic()
-        given = run.target.implementation.classify(rows[part])
+        scored = run.target.ask(rows[part])
         run.piece = max(1, run.piece // 2) if time.monotonic() - began > PIECE_SECONDS else min(PIECE, 2 * run.piece)
-        _note(run, rows[part], given)
-        answers[part] = given.answers
-    return _judged(run, rows, answers, places[:start], ladders)
-
-
-def _judged(
-    run: Hunt, rows: Rows, answers: Answers, places: NDArray[np.intp], ladders: Integers | None
-) -> list[WrongCase]:
-    truth = batch.positions(rows[places])
-    right = judge.expected(truth, run.target.criterion.question)
-    wrong = np.flatnonzero((answers[places] != right) & (answers[places] != CANNOT_SAY))
-    run.wrong += len(wrong)
-    if ladders is not None:
-        last = dict(zip(ladders[places[wrong]].tolist(), wrong.tolist(), strict=True))
-        wrong = np.array(sorted(last.values()), dtype=np.intp)
-    chosen = places[wrong]
-    cases = judge.wrong_cases(rows[chosen], truth[wrong], answers[chosen], run.target.criterion)
-    return [replace(case, index=int(chosen[case.index])) for case in cases]
-
-
-def _note(run: Hunt, rows: Rows, given: Answered) -> None:
-    run.asked += len(rows)
-    run.answered += int(given.answered.sum())
-    run.abstained += int(((given.answers == CANNOT_SAY) & given.answered).sum())
-    for index, reason in given.reasons.items():
-        fault = run.faults.setdefault(Outcome(int(given.status[index])), Fault(tuple(rows[index].tolist()), reason))
-        fault.count += 1
+        for index, reason in scored.reasons.items():
+            status = STATUSES[scored.status[index]]
+            if status not in run.faults:
+                row = tuple(scored.rows[index].tolist())
+                run.faults[status] = Fault((1, run.asked + index), "", row, status.value, reason)
+        run.counts.update(counts_of(scored.status))
+        yield part, scored

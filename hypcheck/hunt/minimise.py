@@ -7,19 +7,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hypcheck import judge
 from hypcheck.errors import InputError
 from hypcheck.hunt import shrink
-from hypcheck.hunt.findings import Finding, measured
+from hypcheck.hunt.hunting import Finding, Target, measured
 from hypcheck.hunt.place import Place, place_of
 from hypcheck.hunt.simple import Complexity, Row, complexity, simpler_than, simplest_below
-from hypcheck.hunt.target import Target
 from hypcheck.judge import Status, WrongCase
-from hypcheck.methods.asking import Answered
-from hypcheck.methods.faults import Outcome
 from hypcheck.pairs import Pair
 from hypcheck.rows import Rows
-from hypcheck.truth import batch
+from hypcheck.score import Score
+from hypcheck.tally import STATUSES
 
 PIECE = 2048
 """Rows a question."""
@@ -65,19 +62,18 @@ def minimise(target: Target, pair: Pair) -> Minimised:
 
 def _start(run: Minimised, pair: Pair) -> Finding:
     rows = np.array([pair.row])
-    if not run.target.claimed(rows)[0]:
+    if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it all the same")
-    given = _ask(run, rows)
-    for index, reason in given.reasons.items():
-        raise InputError(
-            f"the implementation gives no answer to this row: {Outcome(int(given.status[index])).label}: {reason}"
-        )
-    cases = _wrong(run, rows, given)
-    if not cases:
+    scored = _ask(run, rows)
+    for index, reason in scored.reasons.items():
+        status = STATUSES[scored.status[index]]
+        raise InputError(f"the implementation gives no answer to this row: {status.value}: {reason}")
+    case = next(scored.judged(), None)
+    if case is None:
         raise InputError("the implementation's answer to this row is not wrong; there is nothing to simplify")
-    if cases[0].status is not Status.WRONG:
+    if case.status is not Status.WRONG:
         raise InputError("the implementation's answer to this row is wrong within tolerance; see --tolerance")
-    return measured(cases[0], run.target.criterion, place_of(pair), "given")
+    return measured(case, run.target.criterion, place_of(pair), "given")
 
 
 def _improve(run: Minimised, ways: Ways) -> bool:
@@ -87,7 +83,7 @@ def _improve(run: Minimised, ways: Ways) -> bool:
     for start in range(0, len(candidates), PIECE):
         rows = candidates[start : start + PIECE]
         rows = rows[run.target.claimed(rows)]
-        for case in _wrong(run, rows, _ask(run, rows)):
+        for case in _ask(run, rows).judged():
             place = place_of(Pair.from_row(case.row))
             if _alike(case, place, run.first):
                 run.steps.append(measured(case, run.target.criterion, place, f"step {len(run.steps)}"))
@@ -100,13 +96,9 @@ def _alike(case: WrongCase, place: Place, first: Finding) -> bool:
     return case.status is Status.WRONG and same_words and place.cause == first.place.cause
 
 
-def _ask(run: Minimised, rows: Rows) -> Answered:
+def _ask(run: Minimised, rows: Rows) -> Score:
     run.asked += len(rows)
-    return run.target.implementation.classify(rows)
-
-
-def _wrong(run: Minimised, rows: Rows, given: Answered) -> list[WrongCase]:
-    return judge.wrong_cases(rows, batch.positions(rows), given.answers, run.target.criterion)
+    return run.target.ask(rows)
 
 
 def _next_to(around: Callable[[Row], Iterable[Row]]) -> Ways:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 
 from hypcheck.casebook.draw import Draw
 from hypcheck.hunt.climb import Climber, neighbours
-from hypcheck.hunt.findings import Findings, Key, rank
-from hypcheck.hunt.hunting import Hunt, ask
+from hypcheck.hunt.hunting import Findings, Hunt, Key, ask, rank
 from hypcheck.hunt.strata import strata
 from hypcheck.rows import Rows
 

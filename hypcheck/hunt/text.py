@@ -7,12 +7,9 @@ import shlex
 from collections.abc import Iterator, Sequence
 
 from hypcheck.casebook.frozen.texts import hex_of
-from hypcheck.hunt.findings import Cluster, Finding
-from hypcheck.hunt.hunting import Hunt
+from hypcheck.hunt.hunting import Cluster, Finding, Hunt, Target
 from hypcheck.hunt.minimise import Minimised
-from hypcheck.hunt.target import Target
-from hypcheck.judge import in_words
-from hypcheck.methods.faults import Outcome
+from hypcheck.judge import Status, in_words
 from hypcheck.pairs import COLUMNS, Pair
 from hypcheck.visible import counted
 
@@ -23,14 +20,15 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
     beyond = sum(cluster.beyond for cluster in found)
     tolerated = sum(cluster.tolerated for cluster in run.findings.clusters.values())
     tolerance = float(run.target.criterion.tolerance)
+    wrong, abstained = run.counts[Status.WRONG.value], run.counts[Status.ABSTAINED.value]
     yield f"{_name(run.target)}: {counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
     judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
     if run.answered:
-        yield f"{_answers(run.wrong)} wrong{judged if run.wrong else ''}"
+        yield f"{_answers(wrong)} wrong{judged if wrong else ''}"
     else:
         yield "no row was answered, so no answer was judged"
-    if run.abstained:
-        yield f'{_answers(run.abstained)} "cannot say"'
+    if abstained:
+        yield f'{_answers(abstained)} "cannot say"'
     if found:
         yield f"kinds of wrong answers: {len(found)}, the worst first"
     for number, cluster in enumerate(found[:most], start=1):
@@ -77,10 +75,10 @@ def _finding(finding: Finding, target: Target) -> Iterator[str]:
 
 
 def _faults(run: Hunt) -> Iterator[str]:
-    for outcome, fault in run.faults.items():
+    for status, fault in run.faults.items():
         yield ""
-        yield f"{outcome.label}: {counted(fault.count, 'row')}; the first: {fault.reason}"
-        if outcome is not Outcome.NOT_RUN:
+        yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
+        if status is not Status.NOT_RUN:
             yield _titled("row", f"{decimals(fault.row)}  ({', '.join(COLUMNS)})")
 
 

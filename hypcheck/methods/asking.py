@@ -35,6 +35,11 @@ class Answered:
     status: NDArray[np.int8]
     reasons: dict[int, str]
 
+    @classmethod
+    def of(cls, answers: NDArray[np.int8]) -> Answered:
+        """Where every row has an answer."""
+        return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {})
+
     @property
     def answered(self) -> NDArray[np.bool_]:
         """A mask (n,) of the rows that have an answer."""

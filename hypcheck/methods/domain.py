@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,9 @@ NORMAL_RANGE: dict[str, Range] = {
 """The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
 
 Mask = NDArray[np.bool_]
+
+_CORNERS = np.array([(*sizes, center, center, center) for *sizes, center in product((0, 1), repeat=5)])
+"""Least or greatest, of four sizes and of the centre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,3 +95,29 @@ def representable(rows: Rows, precision: str) -> Mask:
         return np.ones(len(rows), dtype=bool)
     lengths = np.abs(rows)
     return np.asarray((((lengths >= limits[0]) & (lengths <= limits[1])) | (rows == 0)).all(axis=1))
+
+
+def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False) -> NDArray[np.intp]:
+    """The places of the rows that lie in the domain and can be written in the declared precision, ascending.
+
+    `extreme` is as in Domain.holds.
+    """
+    with np.errstate(all="ignore"):
+        if not domain.settings:
+            corners = _corners(rows)
+            if (domain.holds(corners, extreme=extreme) & representable(corners, precision)).all():
+                return np.arange(len(rows))
+        return np.flatnonzero(domain.holds(rows, extreme=extreme) & representable(rows, precision))
+
+
+def _corners(rows: Rows) -> Rows:
+    """Rows (32, 7) of the extremes of |rows|: all combinations of sizes, with the least and the greatest centre.
+
+    Each condition of a domain, its settings apart, is monotone in each length, and so is what a precision can write,
+    a zero apart, which it always can: what holds of these rows holds of all.
+    """
+    lengths = np.abs(rows.T)
+    least, greatest = lengths.min(axis=1, initial=np.inf), lengths.max(axis=1, initial=0.0)
+    for index in np.flatnonzero(least == 0):
+        least[index] = lengths[index][lengths[index] > 0].min(initial=greatest[index])
+    return np.asarray(np.stack([least, greatest])[_CORNERS, np.arange(7)])

@@ -11,13 +11,13 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.methods.asking import Answered, Asking, Vocabulary
 from hypcheck.methods.description import Description
-from hypcheck.methods.faults import FaultError, TimingError
+from hypcheck.methods.faults import FaultError, Outcome, TimingError
 from hypcheck.methods.frames import LARGEST
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance, OverError, Runs
 from hypcheck.methods.session import Session
 from hypcheck.methods.spec import Spec
-from hypcheck.rows import Rows, as_rows
+from hypcheck.rows import CANNOT_SAY, Rows, as_rows
 from hypcheck.visible import counted
 
 FAULTS = 1 << 14
@@ -203,3 +203,30 @@ class Implementation:
             raise InputError(f"{self.spec} cannot be asked by scene")
         if by_scene and len(rows) and (rows[:, :4] != rows[0, :4]).any():
             raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")
+
+
+class Crashed:
+    """Stands for an implementation where asking it keeps ending our own processes: each row ends as CRASH.
+
+    Of it a run uses what is here. It costs nothing of the allowance: no process of its own was lost that we know of.
+    """
+
+    stands = 1
+
+    def __init__(self, most: int | None, reason: str, allowance: Allowance) -> None:
+        self.most = most
+        self.allowance = allowance
+        self._reason = reason
+
+    def allow(self, allowance: Allowance) -> None:
+        """From here on it may cost so much."""
+        self.allowance = allowance
+
+    def fresh(self) -> None:
+        """There is no process to begin afresh."""
+
+    def classify(self, rows: Rows, *, batch: int | None = None) -> Answered:  # noqa: ARG002 - however it is asked
+        """No row has an answer."""
+        n = len(rows)
+        status = np.full(n, Outcome.CRASH, dtype=np.int8)
+        return Answered(np.full(n, CANNOT_SAY, dtype=np.int8), status, dict.fromkeys(range(n), self._reason))

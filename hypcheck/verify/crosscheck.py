@@ -100,7 +100,7 @@ def perform(todo: Sequence[Task], executor: Executor | None) -> Iterator[tuple[T
 def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> Tally:
     """The opinions against the exact decisions."""
     disagreements = tuple(
-        Disagreement(task.oracle, batch.case_id(task.start + index), tuple(task.rows[index].tolist()), *words)
+        Disagreement(task.oracle, batch.name(task.start + index), tuple(task.rows[index].tolist()), *words)
         for index, opinion in enumerate(opinions)
         if (words := _difference(batch, task.start + index, opinion)) is not None
     )

@@ -2,64 +2,51 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck import groups, judge
+from hypcheck import judge, tally
 from hypcheck.derivation.exact_arithmetic import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answers
-from hypcheck.judge import Criterion, Status
-from hypcheck.methods.domain import EVERYWHERE, representable
+from hypcheck.judge import Criterion
+from hypcheck.methods.asking import Answered
+from hypcheck.methods.domain import EVERYWHERE, claimed
 from hypcheck.methods.method import Method
 from hypcheck.pairs import COLUMNS, Pair
-from hypcheck.record.lines import Group
-from hypcheck.rows import CANNOT_SAY
+from hypcheck.record.lines import Finding, Group
+from hypcheck.score import score
 from hypcheck.truth.exact import cubic
 from hypcheck.truth.kinds import Kind
 from hypcheck.verify.plan import Batch, Plan
 
 
-@dataclass(frozen=True, slots=True)
-class Mathematical:
-    """A formula's wrong answers about one family in exact arithmetic, for one cause.
+def mathematical(formula: Formula, batch: Batch, plan: Plan) -> list[Finding]:
+    """What the formula gets wrong in exact rationals on the first rows of a family, by side of its regimes and cause.
 
-    `inside`: whether they lie inside the regimes in which the formula is stated. `asked` counts the cases on that side.
+    No reason is given yet. `asked` counts the rows on that side.
     """
-
-    formula: str
-    family: str
-    inside: bool
-    cause: str
-    asked: int
-    wrong: int
-    first_case: str
-    first_row: tuple[float, ...]
-
-
-def mathematical(formula: Formula, batch: Batch, plan: Plan) -> list[Mathematical]:
-    """The formula in exact rationals on the first rows of a family: what it gets wrong, by side and cause."""
-    rows = batch.rows[: plan.exact_formulas]
-    claimed = replace(EVERYWHERE, regimes=formula.regimes).holds(rows)
-    right = judge.expected(batch.positions, formula.question)
+    head = batch.head(plan.exact_formulas)
+    given = [int(answers(formula, EXACT, dict(zip(COLUMNS, row, strict=True)))) for row in head.rows.tolist()]
+    inside = replace(EVERYWHERE, regimes=formula.regimes).holds(head.rows)
     wrong: dict[tuple[bool, str], list[int]] = {}
-    for place, row in enumerate(rows.tolist()):
-        if int(answers(formula, EXACT, dict(zip(COLUMNS, row, strict=True)))) != right[place]:
-            wrong.setdefault((bool(claimed[place]), cause(batch, place)), []).append(place)
+    for place in np.flatnonzero(judge.is_wrong(head.positions, np.array(given), formula.question)).tolist():
+        wrong.setdefault((bool(inside[place]), cause(batch, place)), []).append(place)
     return [
-        Mathematical(
-            formula.name,
-            batch.family.name,
-            inside,
-            why,
-            int((claimed == inside).sum()),
-            len(places),
-            batch.case_id(places[0]),
-            tuple(rows[places[0]].tolist()),
+        Finding(
+            formula=formula.name,
+            family=batch.family.name,
+            inside=side,
+            cause=why,
+            asked=int((inside == side).sum()),
+            wrong=len(places),
+            first_case=batch.name(places[0]),
+            first_row=tuple(value.hex() for value in batch.rows[places[0]].tolist()),
+            reason=None,
         )
-        for (inside, why), places in sorted(wrong.items())
+        for (side, why), places in sorted(wrong.items())
     ]
 
 
@@ -78,28 +65,13 @@ def exact_formulas() -> list[Formula]:
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
-def group(method: Method, batch: Batch, octaves: NDArray[np.float64], plan: Plan) -> Group:
-    """The record's line about one method and one family; `octaves` as in groups.line, of all the batch's rows."""
+def group(method: Method, batch: Batch, exponents: NDArray[np.float64], plan: Plan) -> Group:
+    """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
-    asked = method.domain.holds(batch.rows, extreme=batch.family.extreme) & representable(batch.rows, method.precision)
-    places = np.flatnonzero(asked)[: method.most]
+    inside = claimed(batch.rows, method.domain, method.precision, extreme=batch.family.extreme)
+    places = inside[: method.most]
     rows = batch.rows[places]
-    given = method.answer(rows)
-    wrong = judge.wrong_cases(rows, batch.positions[places], given, criterion)
-    status = np.where(given == CANNOT_SAY, groups.CODES[Status.ABSTAINED], groups.CODES[Status.RIGHT]).astype(np.int8)
-    for case in wrong:
-        status[case.index] = groups.CODES[case.status]
-    ended = groups.Ended(
-        rows=rows,
-        status=status,
-        wrong=wrong,
-        octaves=octaves[places],
-        name=lambda index: batch.case_id(int(places[index])),
-        place=lambda index: (1, int(places[index])),
-        skipped=int((~asked).sum()),
-    )
-    tallied = groups.tally(ended, criterion)
-    return groups.line(
-        tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
-    )
+    scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
+    tallied = scored.tally(batch, places, exponents[places], skipped=len(batch.rows) - len(inside))
+    return tally.line(tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact)

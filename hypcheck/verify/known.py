@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from importlib import resources
 
 from hypcheck import toml
-from hypcheck.verify.findings import Mathematical
+from hypcheck.record.lines import Finding
 
 FILE = "known_findings.toml"
 
@@ -33,7 +33,7 @@ def known_findings() -> tuple[Known, ...]:
     return tuple(Known(each["formula"], each["cause"], tuple(each["families"]), each["reason"]) for each in entries)
 
 
-def reason_for(finding: Mathematical, known: Iterable[Known]) -> str | None:
+def reason_for(finding: Finding, known: Iterable[Known]) -> str | None:
     """The listed reason of a finding; None for an unknown one, and where the formula claims nothing."""
     if not finding.inside:
         return None
@@ -41,7 +41,7 @@ def reason_for(finding: Mathematical, known: Iterable[Known]) -> str | None:
     return next(matching, None)
 
 
-def drift(found: Sequence[Mathematical], known: Sequence[Known], *, complete: bool) -> list[str]:
+def drift(found: Sequence[Finding], known: Sequence[Known], *, complete: bool) -> list[str]:
     """How the findings differ from the known ones, a sentence each.
 
     Errors inside the stated regimes whose cause is not listed; and, in a complete run, listed ones that did not occur.

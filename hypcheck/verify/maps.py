@@ -49,7 +49,7 @@ def draw(panel: Panel, method: Method) -> Map:
     """The record's line about one panel: a text line of letters for each z, from the lowest up."""
     rows = _grid(panel)
     truth = batch.positions(rows)
-    wrong = method.answer(rows) != judge.expected(truth, method.question)
+    wrong = judge.is_wrong(truth, method.answer(rows), method.question)
     letters = np.array([LETTERS[position] for position in truth.tolist()])
     letters[wrong] = np.char.upper(letters[wrong])
     return Map(

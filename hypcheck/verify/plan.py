@@ -13,6 +13,7 @@ from hypcheck.casebook.family import Family
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.pairs import Pair
 from hypcheck.rows import Positions, Rows
+from hypcheck.tally import Place
 from hypcheck.truth import exact
 from hypcheck.truth.exact import Decision
 
@@ -62,9 +63,13 @@ class Batch:
         """The first `count` cases."""
         return replace(self, rows=self.rows[:count], decisions=self.decisions[:count], positions=self.positions[:count])
 
-    def case_id(self, index: int) -> str:
-        """The name by which a case can be asked for again."""
+    def name(self, index: int) -> str:
+        """The id by which a case can be asked for again."""
         return case_id(self.family, self.seed, index)
+
+    def place(self, index: int) -> Place:
+        """Where a case stands in the family."""
+        return 1, index
 
 
 def chosen_families(plan: Plan) -> tuple[Family, ...]:

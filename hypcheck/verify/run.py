@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+import msgspec
+
 from hypcheck import judge
 from hypcheck.bench.rounds import measure
 from hypcheck.derivation.printed import check_equations
@@ -144,9 +146,7 @@ def _exact_findings(
         for formula in findings.exact_formulas():
             for finding in findings.mathematical(formula, batch, plan):
                 found.append(finding)
-                row = tuple(value.hex() for value in finding.first_row)
-                fields = {**asdict(finding), "first_row": row}
-                recorder.add(lines.Finding(**fields, reason=known.reason_for(finding, listed)))
+                recorder.add(msgspec.structs.replace(finding, reason=known.reason_for(finding, listed)))
             advance(1)
     for sentence in known.drift(found, listed, complete=plan.complete):
         recorder.add(lines.Drift(sentence=sentence))

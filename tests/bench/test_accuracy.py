@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from hypcheck import judge
-from hypcheck.bench.accuracy import NEAREST, Answered, Known, by_octave, line, mistakes_of, reliable_above
+from hypcheck.bench.accuracy import NEAREST, MethodAnswers, WorkloadTruth, line, reliable_above
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.judge import Mistake
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.truth import batch
 
@@ -24,7 +23,7 @@ INF = math.inf
 def truth():
     workload = WORKLOADS["near-contact"]
     rows = workload.rows(5, 120)
-    return Known(workload, rows, batch.positions(rows), judge.flip_octaves(rows))
+    return WorkloadTruth(workload, rows, batch.positions(rows), judge.flip_octaves(rows))
 
 
 @pytest.fixture(scope="module")
@@ -33,27 +32,27 @@ def contender():
 
 
 def answered(truth, answers):
-    return Answered("fast-numpy", truth.workload.name, np.arange(len(truth.rows)), answers, "", "")
+    return MethodAnswers("fast-numpy", truth.workload.name, np.arange(len(truth.rows)), answers, "", "")
 
 
 def test_right_answers_make_no_error(contender, truth):
     found = line(contender, answered(truth, truth.positions), truth)
-    assert (found["asked"], found["wrong"], found["abstained"]) == (120, 0, 0)
-    assert (found["reliable_above"], found["worst"]) == (0.0, [])
-    assert sum(number for _, number, _ in found["octaves"]) == 120
+    assert (found.asked, found.wrong, found.abstained) == (120, 0, 0)
+    assert (found.reliable_above, found.worst) == (0.0, [])
+    assert sum(number for _, number, _ in found.octaves) == 120
 
 
 def test_what_is_not_said_is_not_wrong(contender, truth):
     answers = truth.positions.copy()
     answers[:7] = CANNOT_SAY
     found = line(contender, answered(truth, answers), truth)
-    assert (found["wrong"], found["abstained"]) == (0, 7)
-    assert found["reliable_above"] > 0
+    assert (found.wrong, found.abstained) == (0, 7)
+    assert found.reliable_above > 0
 
 
 def test_who_never_says_anything_is_reliable_nowhere(contender, truth):
     found = line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
-    assert (found["wrong"], found["reliable_above"]) == (0, INF)
+    assert (found.wrong, found.reliable_above) == (0, INF)
 
 
 def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender, truth):
@@ -61,34 +60,22 @@ def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender
     answers = truth.positions.copy()
     answers[place] = 0
     found = line(contender, answered(truth, answers), truth)
-    assert (found["wrong"], found["false_contact"], found["false_clear"], found["wrong_side"]) == (1, 1, 0, 0)
-    assert [octave for octave, _, wrong in found["octaves"] if wrong] == [int(truth.octaves[place])]
-    (worst,) = found["worst"]
-    assert [float.fromhex(value) for value in worst["row"]] == truth.rows[place].tolist()
-    assert (worst["truth"], worst["answer"], worst["case"]) == (1, 0, f"near-contact/{place}")
-    assert 2.0 ** truth.octaves[place] <= worst["flip_distance"] <= 2.0 ** (truth.octaves[place] + 1)
+    assert (found.wrong, found.false_contact, found.false_clear, found.wrong_side) == (1, 1, 0, 0)
+    assert [octave for octave, _, wrong in found.octaves if wrong] == [int(truth.octaves[place])]
+    (worst,) = found.worst
+    assert [float.fromhex(value) for value in worst.row] == truth.rows[place].tolist()
+    assert (worst.truth, worst.answer, worst.case) == (1, 0, f"near-contact/{place}")
+    assert 2.0 ** truth.octaves[place] <= worst.flip_distance <= 2.0 ** (truth.octaves[place] + 1)
 
 
 def test_a_one_sided_question_is_judged_as_such(contender, truth):
     one_sided = replace(contender, question="exterior")
     answers = (truth.positions == 1).astype(np.int8)
-    assert line(one_sided, answered(truth, answers), truth)["wrong"] == 0
+    assert line(one_sided, answered(truth, answers), truth).wrong == 0
     found = line(one_sided, answered(truth, 1 - answers), truth)
-    assert found["wrong"] == 120
-    assert found["false_clear"] == np.count_nonzero(truth.positions == 0)
-    assert found["wrong_side"] == np.count_nonzero(truth.positions == -1)
-
-
-def test_mistakes_by_what_they_mean():
-    positions = np.array([0, 0, 1, 1, -1], dtype=np.int8)
-    found = mistakes_of(positions, np.array([1, -1, 0, -1, 0], dtype=np.int8), "position")
-    assert found == {Mistake.FALSE_CLEAR: 2, Mistake.FALSE_CONTACT: 2, Mistake.WRONG_SIDE: 1}
-
-
-def test_octaves_ascend_from_tangencies():
-    octaves = np.array([-3.0, -INF, -3.0, -40.0])
-    wrong = np.array([True, True, False, False])
-    assert by_octave(octaves, wrong) == [["-inf", 1, 1], [-40, 1, 0], [-3, 2, 1]]
+    assert found.wrong == 120
+    assert found.false_clear == np.count_nonzero(truth.positions == 0)
+    assert found.wrong_side == np.count_nonzero(truth.positions == -1)
 
 
 @pytest.mark.parametrize(

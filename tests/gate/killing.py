@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.gate import chunks
-from hypcheck.gate.rules import Rules
+from hypcheck.gate.conformance import Rules
 from hypcheck.gate.saved import saved_result
 from hypcheck.gate.schedule import State, states, steps
 from hypcheck.gate.work import Opening

@@ -20,12 +20,12 @@ from hypcheck.gate.progress import Progress
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State, states
 from hypcheck.gate.workers import Here
-from hypcheck.groups import Tally
 from hypcheck.methods.description import Description
 from hypcheck.methods.limits import Limits
 from hypcheck.record import lines, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE
+from hypcheck.tally import Tally
 from tests.records import resealed
 
 KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("axis/1/1/300", None, 9.0, "near"))

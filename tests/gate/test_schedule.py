@@ -9,7 +9,7 @@ from itertools import accumulate
 import numpy as np
 import pytest
 
-from hypcheck import groups
+from hypcheck import tally
 from hypcheck.gate import chunks, results, schedule
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.results import Performed, Result, merged
@@ -113,7 +113,7 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
         rules = rules_of(it)
         begun = State(it.allowance)
         expected = last(states(some, Here(it, rules), begun))
-        counts = {family: tally.counts for family, tally in expected.total.tallies.items()}
+        counts = {family: each.counts for family, each in expected.total.tallies.items()}
         assert counts["tower-body"]["right"] > 1000
         assert counts["axis"]["crash"] == 3
         assert set(counts["tower-rotors"]) == {"not-run"}
@@ -138,8 +138,8 @@ def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
 
 def _but_for_bins(state):
     """Of which there are so many that a run of this size has not seen them all."""
-    for tally in state["total"]["tallies"].values():
-        del tally["size_bins"], tally["place_bins"]
+    for each in state["total"]["tallies"].values():
+        del each["size_bins"], each["place_bins"]
     return state
 
 
@@ -213,20 +213,20 @@ def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp
         with Workers(2, hangs, rules_of(it), it) as crew:
             found = last(states(some, crew, begun))
     assert saved(found) == saved(expected)
-    (tally,) = found.total.tallies.values()
-    assert {name: count for name, count in tally.counts.items() if count} == {"timeout": 2, "not-run": tally.asked - 2}
+    (only,) = found.total.tallies.values()
+    assert {name: count for name, count in only.counts.items() if count} == {"timeout": 2, "not-run": only.asked - 2}
 
 
 def test_a_result_comes_back_from_json():
-    fault = groups.Fault(
+    fault = tally.Fault(
         (0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0, 1.0, 1.0, 1.0, 1.0), "wrong", "said \ud83d"
     )
-    worst = groups.Worst(
+    worst = tally.Worst(
         (1, 2), "a/1/1/2", (1.5, 5e-324, 1.0, 1.0, 0.1, -0.0, 7e9), 0, 1, "false-clear", "wrong", float("inf")
     )
     left = results.Open(chunks.Chunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8))
     result = Result(
-        tallies={"some": groups.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
+        tallies={"some": tally.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
         open=(left,),
         again=results.Again(9, 2, 1),
         outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),

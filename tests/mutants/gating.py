@@ -16,7 +16,7 @@ import pytest
 
 from hypcheck import judge
 from hypcheck.cli.main import main
-from hypcheck.gate import trial
+from hypcheck.gate import conformance
 from hypcheck.judge import Criterion
 from hypcheck.record import read
 from hypcheck.record.lines import Group
@@ -115,7 +115,7 @@ def _judged_before(index: int, row: list[float], answer: int, criterion: Criteri
 _KEPT = (
     (judge, "flip_octaves", _remembered),
     (judge, "_judged", _judged_before),
-    (trial, "cases", lru_cache(maxsize=256)(trial.cases)),
+    (conformance, "cases", lru_cache(maxsize=256)(conformance.cases)),
 )
 """What costs most of a run and does not depend on the implementation: where it stands, and what stands in for it."""
 

@@ -16,9 +16,9 @@ import click
 
 from hypcheck.cli.main import main as hypcheck
 from hypcheck.cli.whole import Whole
-from hypcheck.gate.arranging import PARTS
 from hypcheck.gate.lines import GateOutcome
 from hypcheck.gate.plan import GatePlan
+from hypcheck.gate.retest import PARTS
 from hypcheck.gate.run import run, size
 from hypcheck.record import Recorder
 

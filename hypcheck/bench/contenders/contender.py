@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.contenders.ways import InPython, Way
-from hypcheck.methods.domain import Domain, representable
+from hypcheck.methods.domain import Domain, claimed
 from hypcheck.methods.formula import ByScene
 from hypcheck.methods.method import Method
 from hypcheck.rows import Rows
@@ -52,7 +52,7 @@ class Contender:
         """The places of the rows it is asked to be right about: inside its domain, and numbers of its format."""
         if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
             return np.empty(0, dtype=np.intp)
-        return np.flatnonzero(self.domain.holds(rows) & representable(rows, self.precision))[: self.judged]
+        return claimed(rows, self.domain, self.precision)[: self.judged]
 
 
 def of_method(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.gate.arranging import FULL
+from hypcheck.gate.retest import FULL
 from hypcheck.record import read
 from hypcheck.record.lines import Group, Implementation
 

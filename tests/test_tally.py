@@ -10,9 +10,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hypcheck import bins, groups, judge
-from hypcheck.groups import CODES, Ended, Fault
-from hypcheck.judge import Criterion, Status
+from hypcheck import bins, judge, tally
+from hypcheck.judge import Criterion
+from hypcheck.methods.asking import Answered
+from hypcheck.methods.faults import Outcome
+from hypcheck.rows import CANNOT_SAY
+from hypcheck.score import score
+from hypcheck.tally import Fault
 from hypcheck.truth import batch
 
 CRITERION = Criterion(tolerance=Fraction(0))
@@ -25,31 +29,36 @@ def rows_near_contact(n):
     return rows
 
 
-def ended(rows, start=0, stop=None):
-    """Every third of the rows answered otherwise than is right; some octaves known, some cases without an answer."""
-    chosen = slice(start, stop)
-    part, truth = rows[chosen], batch.positions(rows)[chosen]
-    numbers = np.arange(len(rows))[chosen]
+class Numbered:
+    """Cases that are named and placed by their numbers."""
+
+    def name(self, index):
+        """The id of a case."""
+        return f"case-{index}"
+
+    def place(self, index):
+        """Where it stands."""
+        return 1, index
+
+
+def answered(rows, numbers):
+    """Every third of the rows answered otherwise than is right, some without an answer."""
+    truth = batch.positions(rows)
     answers = np.where(numbers % 3 == 0, np.where(truth == 0, 1, 0), truth).astype(np.int8)
-    wrong = judge.wrong_cases(part, truth, answers, CRITERION)
-    status = np.full(len(part), CODES[Status.RIGHT], dtype=np.int8)
-    for case in wrong:
-        status[case.index] = CODES[case.status]
-    lost = {"crash": numbers % 7 == 1, "timeout": numbers % 49 == 2}
-    faults = []
-    for name, places in lost.items():
-        status[places] = CODES[Status(name)]
-        faults += [Fault((1, int(n)), f"case-{n}", tuple(rows[n]), name, "why") for n in numbers[places]]
-    return Ended(
-        rows=part,
-        status=status,
-        wrong=[case for case in wrong if status[case.index] == CODES[case.status]],
-        octaves=np.floor(numbers[numbers < 50] / 9.0),
-        name=lambda index: f"case-{numbers[index]}",
-        place=lambda index: (1, int(numbers[index])),
-        skipped=3,
-        faults=tuple(faults),
-    )
+    status = np.full(len(rows), Outcome.ANSWERED, dtype=np.int8)
+    status[numbers % 7 == 1], status[numbers % 49 == 2] = Outcome.CRASH, Outcome.TIMEOUT
+    lost = np.flatnonzero(status != Outcome.ANSWERED)
+    answers[lost] = CANNOT_SAY
+    return Answered(answers, status, dict.fromkeys(lost.tolist(), "why"))
+
+
+def tallied(rows, start=0, stop=None):
+    """The tally of a stretch of the rows; some exponents are known."""
+    numbers = np.arange(len(rows))[start:stop]
+    part = rows[start:stop]
+    exponents = np.floor(numbers[numbers < 50] / 9.0)
+    scored = score(part, batch.positions(part), answered(part, numbers), CRITERION)
+    return scored.tally(Numbered(), numbers, exponents, skipped=3)
 
 
 def test_bins_count_what_a_plain_loop_counts():
@@ -89,36 +98,38 @@ def test_many_bins_are_counted_as_few_are():
 
 def line_of(tallied):
     """The line about an implementation under test."""
-    return groups.line(tallied, "family", CRITERION, method="mine", title="mine", spec="python:mine:f", failing=[])
+    return tally.line(tallied, "family", CRITERION, method="mine", title="mine", spec="python:mine:f", failing=[])
 
 
 def test_parts_add_up_to_the_whole_in_any_order():
     rows = rows_near_contact(300)
-    whole = groups.tally(ended(rows), CRITERION)
+    whole = tallied(rows)
     cuts = [0, 1, 90, 91, 200, 300]
-    parts = [groups.tally(ended(rows, *cut), CRITERION) for cut in pairwise(cuts)]
+    parts = [tallied(rows, *cut) for cut in pairwise(cuts)]
     rng = np.random.default_rng(6)
     expected = line_of(whole)
     expected.counts["skipped"] *= len(parts)
     assert expected.counts["wrong"] > 50
     for _ in range(5):
         order = rng.permutation(len(parts))
-        first = groups.merged(parts[i] for i in order[:2])
-        total = groups.merged([groups.merged(parts[i] for i in order[2:]), first])
+        first = tally.merged(parts[i] for i in order[:2])
+        total = tally.merged([tally.merged(parts[i] for i in order[2:]), first])
         assert line_of(total) == expected
-    assert groups.merged([]) == groups.Tally()
+    assert tally.merged([]) == tally.Tally()
 
 
 def test_the_worst_cases_are_those_with_the_largest_errors():
     rows = rows_near_contact(120)
-    cases = ended(rows)
-    errors = sorted((judge.measured(case, "position") for case in cases.wrong), reverse=True)
-    assert [case.error for case in groups.tally(cases, CRITERION).worst] == errors[:3]
+    answers = answered(rows, np.arange(120)).answers
+    wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != batch.positions(rows)))
+    assert len(wrong) > 20
+    errors = sorted((judge.error_of(rows[n].tolist(), int(answers[n]), "position") for n in wrong), reverse=True)
+    assert [case.error for case in tallied(rows).worst] == errors[:3]
 
 
 def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
     faults = [Fault((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
     faults += [Fault((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why") for n, name in enumerate(("crash", "timeout"))]
-    tallied = groups.merged([groups.Tally(faults=(fault,)) for fault in reversed(faults)])
+    tallied = tally.merged([tally.Tally(faults=(fault,)) for fault in reversed(faults)])
     shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 
 from hypcheck import bins, judge
 from hypcheck.bins import Bins
-from hypcheck.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.judge import Criterion, Status
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned
 from hypcheck.record.lines import Group
-from hypcheck.rows import Rows
 
 WORST_KEPT = 3
 """Worst cases a group keeps with their rows; its counts are always exact."""
@@ -88,41 +87,6 @@ class Tally:
     faults: tuple[Fault, ...] = ()
 
 
-@dataclass(frozen=True)
-class Ended:
-    """Cases of one family as one implementation ended them.
-
-    `rows` (n, 7) were asked and `status` (n,) says how each ended, in CODES; `wrong` are those that were wrong or
-    tolerated, with their indices into `rows`; `octaves` are the distances of the first rows to the nearest other
-    position; `skipped` counts rows outside the implementation's domain. `name` and `place` tell who an index is.
-    """
-
-    rows: Rows
-    status: Codes
-    wrong: Sequence[WrongCase]
-    octaves: NDArray[np.float64]
-    name: Callable[[int], str]
-    place: Callable[[int], Place]
-    skipped: int = 0
-    faults: tuple[Fault, ...] = ()
-
-
-def tally(ended: Ended, criterion: Criterion) -> Tally:
-    """The tally of these cases."""
-    amiss = ended.status != CODES[Status.RIGHT]
-    return Tally(
-        asked=len(ended.rows),
-        counts=_counts(ended.status) | ({Status.SKIPPED.value: ended.skipped} if ended.skipped else {}),
-        mistakes=Counter(case.mistake.value for case in ended.wrong),
-        dangerous=sum(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in ended.wrong),
-        octaves=_by_octave(ended.octaves, ended.status[: len(ended.octaves)]),
-        size_bins=bins.by_size(ended.rows, amiss),
-        place_bins=bins.by_place(ended.rows, amiss),
-        worst=_worst(ended, criterion),
-        faults=_kept(ended.faults),
-    )
-
-
 def merged(tallies: Iterable[Tally]) -> Tally:
     """The tally of all cases of these tallies, in whatever order they come."""
     parts = tuple(tallies)
@@ -139,7 +103,7 @@ def merged(tallies: Iterable[Tally]) -> Tally:
         size_bins=bins.added(part.size_bins for part in parts),
         place_bins=bins.added(part.place_bins for part in parts),
         worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
-        faults=_kept(fault for part in parts for fault in part.faults),
+        faults=kept(fault for part in parts for fault in part.faults),
     )
 
 
@@ -193,22 +157,24 @@ def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
     return dict(total)
 
 
-def _counts(status: Codes) -> dict[str, int]:
+def counts_of(status: Codes) -> dict[str, int]:
+    """How many cases ended in each way."""
     other = status[status != CODES[Status.RIGHT]]  # few, as a rule
     numbers = np.bincount(other, minlength=len(STATUSES)).tolist()
     numbers[CODES[Status.RIGHT]] = len(status) - len(other)
     return {name.value: number for name, number in zip(STATUSES, numbers, strict=True) if number}
 
 
-def _by_octave(octaves: NDArray[np.float64], status: Codes) -> dict[str, dict[str, int]]:
+def by_exponent(exponents: NDArray[np.float64], status: Codes) -> dict[str, dict[str, int]]:
+    """How many cases ended in each way, by floor(log2) of their distance to the nearest other position, ascending."""
     table = {}
-    for octave in sorted(set(octaves.tolist())):  # np.unique would load numpy.ma
-        key = str(int(octave)) if math.isfinite(octave) else str(octave)
-        table[key] = _counts(status[octaves == octave])
+    for exponent in sorted(set(exponents.tolist())):  # np.unique would load numpy.ma
+        key = str(int(exponent)) if math.isfinite(exponent) else str(exponent)
+        table[key] = counts_of(status[exponents == exponent])
     return table
 
 
-def _kept(faults: Iterable[Fault]) -> tuple[Fault, ...]:
+def kept(faults: Iterable[Fault]) -> tuple[Fault, ...]:
     """The first of each status, as many as a line can show of it."""
     kept: list[Fault] = []
     seen: Counter[str] = Counter()
@@ -217,32 +183,6 @@ def _kept(faults: Iterable[Fault]) -> tuple[Fault, ...]:
         if seen[fault.status] <= FAULTS_KEPT:
             kept.append(fault)
     return tuple(kept)
-
-
-def _worst(ended: Ended, criterion: Criterion) -> tuple[Worst, ...]:
-    def octave_first(case: WrongCase) -> tuple[bool, float]:
-        return case.status is not Status.WRONG, -case.exponent
-
-    ranked = sorted(ended.wrong, key=lambda case: (octave_first(case), case.index))
-    kept = ranked[:WORST_KEPT]
-    if kept and math.isfinite(kept[-1].exponent):
-        # Inside the last octave that is kept only the numbers themselves tell which cases are the worst.
-        last = octave_first(kept[-1])
-        kept += [case for case in ranked[WORST_KEPT:] if octave_first(case) == last]
-    measured = (
-        Worst(
-            place=ended.place(case.index),
-            case=ended.name(case.index),
-            row=case.row,
-            truth=int(case.truth),
-            answer=case.answer,
-            mistake=case.mistake.value,
-            status=case.status.value,
-            error=judge.measured(case, criterion.question),
-        )
-        for case in kept
-    )
-    return tuple(sorted(measured, key=lambda case: case.rank)[:WORST_KEPT])
 
 
 def _worst_line(case: Worst, criterion: Criterion) -> lines.WrongAnswer:

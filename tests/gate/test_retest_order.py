@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.gate import arranging
-from hypcheck.gate.arranging import ALONE, FULL, LARGE, LENGTHS, MANY, questions
+from hypcheck.gate import retest
+from hypcheck.gate.retest import ALONE, FULL, LARGE, LENGTHS, MANY, questions
 
 N = 1100
 TRUTH = np.resize(np.array([1, 0, -1, 1], dtype=np.int8), N)
@@ -35,12 +35,12 @@ def test_two_parts_of_a_round_share_the_small_questions_and_leave_the_many_to_an
 
 
 def test_who_is_slow_is_asked_hardly_more_than_once():
-    once = N + 4 * arranging.TWINS
+    once = N + 4 * retest.TWINS
     assert sum(len(places) for places, _ in asked(LARGE - 1)) == once
 
 
 def test_the_rounds_after_the_first_cost_little():
-    once = N + 4 * arranging.TWINS
+    once = N + 4 * retest.TWINS
     assert sum(len(places) for places, _ in asked(LONGEST, number=1)) < once + FULL
 
 
@@ -54,7 +54,7 @@ def test_each_place_of_full_and_of_longest_questions_has_each_position():
 
 
 def test_who_takes_long_over_full_questions_is_not_asked_the_longest(monkeypatch):
-    monkeypatch.setattr(arranging, "SOON", 0.0)
+    monkeypatch.setattr(retest, "SOON", 0.0)
     assert max(len(places) for places, _ in asked(LONGEST)) == FULL
 
 
@@ -67,7 +67,7 @@ def test_small_questions_leave_every_rest_of_a_vector():
 
 @pytest.mark.parametrize(("limit", "count"), [(1.0, [ALONE, MANY]), (0.0, [ALONE])])
 def test_who_is_quick_over_a_question_is_asked_many_lone_ones(monkeypatch, limit, count):
-    monkeypatch.setattr(arranging, "QUICK", limit)
+    monkeypatch.setattr(retest, "QUICK", limit)
     assert [len(places) for places, batch in asked(LONGEST) if batch == 1] == count
 
 
