@@ -44,6 +44,17 @@ class Status(str, Enum):
     NOT_RUN = "not-run"
 
 
+UNANSWERED = (
+    Status.ERROR,
+    Status.CRASH,
+    Status.TIMEOUT,
+    Status.PROTOCOL,
+    Status.NONDETERMINISTIC,
+    Status.NOT_RUN,
+)
+"""How a case ends that has no answer that counts; each fails a run."""
+
+
 class Mistake(str, Enum):
     """What a wrong answer means to whoever relies on it."""
 

@@ -6,6 +6,7 @@ import hashlib
 import math
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cache
 
@@ -97,11 +98,8 @@ def asked(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> I
 def _ask(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
     plan, name = task
     contender = contenders(plan)[name]
-    way = contender.load()
-    try:
+    with closing(contender.load()) as way:
         return [_answered(plan, contender, way, workload) for workload in chosen_workloads(plan)]
-    finally:
-        way.close()
 
 
 def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> MethodAnswers:

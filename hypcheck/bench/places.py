@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 
 import numpy as np
 
@@ -54,8 +55,7 @@ def lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> I
 def _lines(task: tuple[BenchPlan, str]) -> list[Places]:
     plan, name = task
     contender = contenders(plan)[name]
-    way = contender.load()
-    try:
+    with closing(contender.load()) as way:
         return [
             Places(
                 method=name,
@@ -68,8 +68,6 @@ def _lines(task: tuple[BenchPlan, str]) -> list[Places]:
             for region, (r, z) in regions(plan).items()
             for rows in [grid(r, z)]
         ]
-    finally:
-        way.close()
 
 
 def grid(r: Span, z: Span) -> Rows:

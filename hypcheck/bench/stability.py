@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,11 +54,8 @@ def _line(task: tuple[BenchPlan, str]) -> Stability:
     contender = contenders(plan)[name]
     rows, cells = _rows(plan)
     places = contender.asked(rows)
-    way = contender.load()
-    try:
+    with closing(contender.load()) as way:
         answers = way.answer(rows[places])
-    finally:
-        way.close()
     wrong = judge.is_wrong(batch.positions(rows[places]), answers, contender.question)
     asked = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
     errors = np.bincount(cells[places][wrong], minlength=cells.max() + 1).tolist()

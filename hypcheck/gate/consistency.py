@@ -23,7 +23,7 @@ from hypcheck.gate.conformance import Invalid, Rules
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.results import Open, Result
 from hypcheck.gate.schedule import State, Step
-from hypcheck.judge import Mistake, Status
+from hypcheck.judge import UNANSWERED, Mistake, Status
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import FAULTS
@@ -37,8 +37,7 @@ from hypcheck.truth import batch
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.EXCUSED)
 _ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
-_UNANSWERED: frozenset[str] = frozenset({Status.NONDETERMINISTIC.value, *(outcome.label for outcome in _ENDED_AS)})
-"""The statuses of cases without an answer that counts."""
+_UNANSWERED = frozenset(status.value for status in UNANSWERED)
 
 
 class MissingCasesError(HypcheckError):

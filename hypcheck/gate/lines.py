@@ -16,14 +16,12 @@ from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.results import Result, merged
 from hypcheck.gate.retest import as_they_are
 from hypcheck.gate.schedule import State
-from hypcheck.judge import Status
+from hypcheck.judge import UNANSWERED, Status
 from hypcheck.methods.description import Description
 from hypcheck.record import Line, Recorder, lines
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import Drift, Group, Implementation, NotStarted, Retest
 from hypcheck.tally import Tally
-
-FATAL = (Status.ERROR, Status.CRASH, Status.TIMEOUT, Status.PROTOCOL, Status.NONDETERMINISTIC, Status.NOT_RUN)
 
 
 def as_recorded(description: Description) -> lines.Description:
@@ -85,7 +83,7 @@ class Lines:
 
     def _group(self, family: str, tallied: Tally) -> Group:
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family == refusals.NAME
-        grave = (Status.WRONG, *FATAL) if wrong_fails else FATAL
+        grave = (Status.WRONG, *UNANSWERED) if wrong_fails else UNANSWERED
         failing = [status.value for status in grave if tallied.counts.get(status.value)]
         name = self.used.name
         return tally.line(

@@ -10,7 +10,7 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.hunt import shrink
 from hypcheck.hunt.hunting import Finding, Target, measured
-from hypcheck.hunt.place import Place, place_of
+from hypcheck.hunt.place import place_of
 from hypcheck.hunt.simple import Complexity, Row, complexity, simpler_than, simplest_below
 from hypcheck.judge import Status, WrongCase
 from hypcheck.pairs import Pair
@@ -84,16 +84,15 @@ def _improve(run: Minimised, ways: Ways) -> bool:
         rows = candidates[start : start + PIECE]
         rows = rows[run.target.claimed(rows)]
         for case in _ask(run, rows).judged():
-            place = place_of(Pair.from_row(case.row))
-            if _alike(case, place, run.first):
+            place = place_of(Pair.from_row(case.row)) if _alike(case, run.first.case) else None
+            if place is not None and place.cause == run.first.place.cause:
                 run.steps.append(measured(case, run.target.criterion, place, f"step {len(run.steps)}"))
                 return True
     return False
 
 
-def _alike(case: WrongCase, place: Place, first: Finding) -> bool:
-    same_words = (case.truth, case.answer) == (first.case.truth, first.case.answer)
-    return case.status is Status.WRONG and same_words and place.cause == first.place.cause
+def _alike(case: WrongCase, first: WrongCase) -> bool:
+    return case.status is Status.WRONG and (case.truth, case.answer) == (first.truth, first.answer)
 
 
 def _ask(run: Minimised, rows: Rows) -> Score:

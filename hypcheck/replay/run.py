@@ -14,12 +14,13 @@ from hypcheck.errors import InputError
 from hypcheck.judge import Criterion, Mistake, Status
 from hypcheck.methods.description import Description
 from hypcheck.methods.domain import representable
-from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import Implementation
 from hypcheck.pairs import REFUSED, Pair, Position
 from hypcheck.replay.case import Case
 from hypcheck.replay.choosing import Choice, Subject, choose
 from hypcheck.rows import CANNOT_SAY, Rows
+from hypcheck.score import Score, ended, score
+from hypcheck.tally import STATUSES
 from hypcheck.truth import exact, flip
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
@@ -116,10 +117,11 @@ def _usable(answer: int | None) -> int | None:
 
 def _judged(implementation: Implementation, rows: Rows, truth: Truth, criterion: Criterion) -> Judgement:
     """The answer to the row alone, judged; another answer to the row asked many times at once is a fault of its own."""
-    answer, outcome, reason = _asked(implementation, rows)
-    if outcome is not Outcome.ANSWERED:
-        return Judgement(Status(outcome.label), None, reason)
-    alone = _worth(answer, rows, truth, criterion)
+    positions = np.array([truth.decision.position], dtype=np.int8)
+    scored = score(rows, positions, implementation.classify(rows, batch=1), criterion)
+    alone, answer = _alone(scored), int(scored.answers[0])
+    if alone.answer is None:
+        return alone
     again = implementation.classify(np.repeat(rows, TOGETHER, axis=0), batch=TOGETHER)
     changed = np.flatnonzero(~again.answered | (again.answers != answer))
     if not len(changed):
@@ -130,27 +132,23 @@ def _judged(implementation: Implementation, rows: Rows, truth: Truth, criterion:
     return Judgement(Status.NONDETERMINISTIC, answer, reason, alone.mistake, alone.error, alone.error_u)
 
 
-def _asked(implementation: Implementation, rows: Rows) -> tuple[int, Outcome, str]:
-    answered = implementation.classify(rows, batch=1)
-    return int(answered.answers[0]), Outcome(int(answered.status[0])), answered.reasons.get(0, "")
-
-
-def _worth(answer: int, rows: Rows, truth: Truth, criterion: Criterion) -> Judgement:
-    if answer == CANNOT_SAY:
-        return Judgement(Status.ABSTAINED, answer)
-    positions = np.array([truth.decision.position], dtype=np.int8)
-    wrong = judge.wrong_cases(rows, positions, np.array([answer], dtype=np.int8), criterion)
-    if not wrong:
-        return Judgement(Status.RIGHT, answer)
-    error = judge.measured(wrong[0], criterion.question)
-    in_units = judge.in_units(error, criterion.unit)
-    return Judgement(wrong[0].status, answer, mistake=wrong[0].mistake, error=error, error_u=in_units)
+def _alone(scored: Score) -> Judgement:
+    """The judgement of the one row of a score."""
+    status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
+    if not scored.answered[0]:
+        return Judgement(status, None, scored.reasons.get(0, ""))
+    for case in scored.judged():
+        error = judge.measured(case, scored.criterion.question)
+        in_units = judge.in_units(error, scored.criterion.unit)
+        return Judgement(case.status, answer, mistake=case.mistake, error=error, error_u=in_units)
+    return Judgement(status, answer)
 
 
 def _refused(implementation: Implementation, rows: Rows) -> Judgement:
-    answer, outcome, reason = _asked(implementation, rows)
-    if outcome is not Outcome.ANSWERED:
-        return Judgement(Status(outcome.label), None, reason)
+    answered = implementation.classify(rows, batch=1)
+    status, answer = STATUSES[ended(answered)[0]], int(answered.answers[0])
+    if not answered.answered[0]:
+        return Judgement(status, None, answered.reasons.get(0, ""))
     if answer == REFUSED:
         return Judgement(Status.REFUSED, answer)
     return Judgement(Status.WRONG, answer, f"a row that is no pair must be refused with {REFUSED}")

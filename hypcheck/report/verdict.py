@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 
-from hypcheck.judge import in_words
+from hypcheck.judge import UNANSWERED, in_words
 from hypcheck.pairs import Position
 from hypcheck.record import Record
 from hypcheck.record.lines import Disagreement, Drift, Group, NotStarted, Oracle, Proof
@@ -54,9 +54,6 @@ INCONCLUSIVE = 4
 
 HARMLESS = ("right", "skipped")
 """How a case may end under a method that promises to be exact."""
-
-FATAL = ("error", "crash", "timeout", "protocol", "nondeterministic", "not-run")
-"""How no case may end under any method: it gave no answer that could be judged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +128,7 @@ def _implementations(record: Record) -> Iterator[Failure]:
 
 def _breaks_promise(line: Group, status: str) -> bool:
     """Whether a status fails a method of the project itself; of a gated one the record says what fails it."""
-    return status not in HARMLESS if line.exact else status in FATAL
+    return status not in HARMLESS if line.exact else status in UNANSWERED
 
 
 def _broken(name: str, line: Group, status: str, number: int, replays: Replays) -> Failure:
