@@ -34,7 +34,8 @@ check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): be
 quick: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow'
 
-test: lint check-cases ## lint, format, strict types, import layers and every test
+test: $(VENV)/ready-dev ## lint, format, strict types, import layers and every test
+	$(MAKE) --no-print-directory --jobs 2 lint check-cases
 	$(BIN)/python -m pytest -n auto --dist worksteal
 
 cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
