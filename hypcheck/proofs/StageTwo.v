@@ -1,5 +1,9 @@
-(** The coefficients of g and 3 delta as the kernel computes them, printed from the kernel's own program
-    by `python -m hypcheck.kernel.printing.coq`; do not edit. Kernel.v has what is proved of it. *)
+(** What the kernel's floats compute, printed from the kernel's own programs by
+
+        python -m hypcheck.kernel.printing.coq
+
+    First c0, c1, c2 and 3 delta from a row; then, in modules, what leads from the coefficients to h1, h2, h3, from
+    these to 3 delta, and from computed numbers to the running bound E. Kernel.v and RunningBound.v have the proofs. *)
 
 Require Import ZArith.
 From Hypcheck Require Import Rounding.
@@ -51,3 +55,99 @@ Definition h1h3 := Mul h1 h3.
 Definition h1h3_4 := Scale 2 h1h3.
 Definition h2_squared := Mul h2 h2.
 Definition delta_3 := Sub h1h3_4 h2_squared.
+
+Module Parts.
+Definition c0 := Input 0.
+Definition c1 := Input 1.
+Definition c2 := Input 2.
+Definition c2_squared := Mul c2 c2.
+Definition three_c1 := Mul (Whole (3)%Z) c1.
+Definition h1 := Sub c2_squared three_c1.
+Definition c2c1 := Mul c2 c1.
+Definition nine_c0 := Mul (Whole (9)%Z) c0.
+Definition h2 := Sub c2c1 nine_c0.
+Definition c1_squared := Mul c1 c1.
+Definition c2c0 := Mul c2 c0.
+Definition three_c2c0 := Mul (Whole (3)%Z) c2c0.
+Definition h3 := Sub c1_squared three_c2c0.
+End Parts.
+
+Module Last.
+Definition h1 := Input 0.
+Definition h2 := Input 1.
+Definition h3 := Input 2.
+Definition h1h3 := Mul h1 h3.
+Definition h1h3_4 := Scale 2 h1h3.
+Definition h2_squared := Mul h2 h2.
+Definition delta_3 := Sub h1h3_4 h2_squared.
+End Last.
+
+Module Bound.
+Definition A := Input 0.
+Definition B := Input 1.
+Definition AB := Input 2.
+Definition BP := Input 3.
+Definition AQ := Input 4.
+Definition P := Input 5.
+Definition Q := Input 6.
+Definition size_c1 := Input 7.
+Definition size_c2 := Input 8.
+Definition size_h1 := Input 9.
+Definition size_h2 := Input 10.
+Definition size_h3 := Input 11.
+Definition u_4 := Input 12.
+Definition u_8 := Input 13.
+Definition u_12 := Input 14.
+Definition slack := Input 15.
+Definition P_plus_Q := Add P Q.
+Definition A_plus_B := Add A B.
+Definition sizes_1 := Add A_plus_B AB.
+Definition BP_plus_AQ := Add BP AQ.
+Definition terms_1 := Add sizes_1 BP_plus_AQ.
+Definition sizes_2 := Add A_plus_B (Whole (1)%Z).
+Definition terms_2 := Add sizes_2 P_plus_Q.
+Definition e1 := Mul u_12 terms_1.
+Definition e2 := Mul u_8 terms_2.
+Definition e0 := Mul u_8 AB.
+Definition m0 := Add AB e0.
+Definition m1 := Add size_c1 e1.
+Definition m2 := Add size_c2 e2.
+Definition u_m0 := Mul u_4 m0.
+Definition f0 := Add e0 u_m0.
+Definition u_m1 := Mul u_4 m1.
+Definition f1 := Add e1 u_m1.
+Definition u_m2 := Mul u_4 m2.
+Definition twice_e2 := Scale 1 e2.
+Definition f2 := Add twice_e2 u_m2.
+Definition m2_f2 := Mul m2 f2.
+Definition thrice_f1 := Mul (Whole (3)%Z) f1.
+Definition E1 := Add m2_f2 thrice_f1.
+Definition m2_f1 := Mul m2 f1.
+Definition m1_e2 := Mul m1 e2.
+Definition cross_21 := Add m2_f1 m1_e2.
+Definition ninefold_f0 := Mul (Whole (9)%Z) f0.
+Definition E2 := Add cross_21 ninefold_f0.
+Definition twice_e1 := Scale 1 e1.
+Definition f3 := Add twice_e1 u_m1.
+Definition m1_f3 := Mul m1 f3.
+Definition m2_f0 := Mul m2 f0.
+Definition m0_e2 := Mul m0 e2.
+Definition cross_20 := Add m2_f0 m0_e2.
+Definition thrice_cross_20 := Mul (Whole (3)%Z) cross_20.
+Definition E3 := Add m1_f3 thrice_cross_20.
+Definition a1 := Add size_h1 E1.
+Definition a2 := Add size_h2 E2.
+Definition a3 := Add size_h3 E3.
+Definition u_a3 := Mul u_4 a3.
+Definition F3 := Add E3 u_a3.
+Definition a1_F3 := Mul a1 F3.
+Definition a3_E1 := Mul a3 E1.
+Definition cross_13 := Add a1_F3 a3_E1.
+Definition fourfold_cross_13 := Scale 2 cross_13.
+Definition u_a2 := Mul u_4 a2.
+Definition twice_E2 := Scale 1 E2.
+Definition F2 := Add twice_E2 u_a2.
+Definition a2_F2 := Mul a2 F2.
+Definition E_sum := Add fourfold_cross_13 a2_F2.
+Definition E := Mul slack E_sum.
+End Bound.

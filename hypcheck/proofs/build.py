@@ -26,7 +26,7 @@ SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker")
 RULE = ("Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
 """What the exact answers rest on."""
 
-ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "Region")
+ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "RunningBound", "Region")
 """What the constants of the kernel and the bounds of emitted kernels rest on."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *ROUNDING)

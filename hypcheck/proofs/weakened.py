@@ -104,6 +104,7 @@ WEAKENED = (
     ),
     Weakened("Floats", "Definition unit_to_nearest := / 2 *", "Definition unit_to_nearest := / 4 *", "half the unit"),
     Weakened("Kernel", "<= 8 * u * M0", "<= 4 * u * M0", "half of what c0 needs"),
+    Weakened("RunningBound", "4 * unit * slack; 8 *", "unit * slack; 8 *", "a quarter of what h1, h2, h3 need"),
     Weakened("Region", "  division_free e && less", "  less", "a division by what may be 0"),
 )
 """Each must be refused."""

@@ -128,6 +128,12 @@ def test_constants_proved_in_coq_are_those_of_the_kernel():
         assert re.search(rf"Theorem error_of_{step} .*?<= {units} \* u \*", kernel, re.DOTALL), step
         unit = Fraction(single.CONSTANTS[constant]) / Fraction(certified.SLACK)
         assert unit == units * Fraction(certified.U) == units * Fraction(1, 2**52)
+    bound = build.source("RunningBound")
+    assert "Definition unit := / 2 ^ 52.\nDefinition slack := 1 + / 2 ^ 20.\n" in bound
+    assert "4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack] 0." in bound
+    assert Fraction(certified.SLACK) == 1 + Fraction(1, 2**20)
+    for units in (4, 8, 12):
+        assert Fraction(certified.CONSTANTS[f"u_{units}"]) == units * Fraction(1, 2**52) * Fraction(certified.SLACK)
 
 
 def test_emit_writes_the_proof_of_each_discriminant_beside_the_kernel(tmp_path):

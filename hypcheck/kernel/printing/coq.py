@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import Argument, Program, Step, needed
+from hypcheck.derivation.program import Argument, Program, Step, cut, needed
+from hypcheck.kernel.programs.certified import CERTIFIED
 from hypcheck.kernel.programs.single import SINGLE
 
 _WORDS = {"add": "Add", "sub": "Sub", "mul": "Mul", "div": "Div", "neg": "Neg"}
@@ -36,19 +37,30 @@ def _argument(argument: Argument) -> str:
 
 def stage_two() -> str:
     """The text of STAGE_TWO."""
-    lines = definitions(SINGLE, ("c0", "c1", "c2", "delta_3"))
-    return "\n".join(
-        (
-            "(** The coefficients of g and 3 delta as the kernel computes them, printed from the kernel's own program",
-            "    by `python -m hypcheck.kernel.printing.coq`; do not edit. Kernel.v has what is proved of it. *)",
-            "",
-            "Require Import ZArith.",
-            "From Hypcheck Require Import Rounding.",
-            "",
-            *lines,
-            "",
-        )
+    modules = (
+        ("Parts", cut(CERTIFIED, ("c0", "c1", "c2"), ("h1", "h2", "h3")), ("h1", "h2", "h3")),
+        ("Last", cut(CERTIFIED, ("h1", "h2", "h3"), ("delta_3",)), ("delta_3",)),
+        ("Bound", cut(CERTIFIED, _KNOWN, ("E",)), ("e0", "e1", "e2", "E")),
     )
+    lines = definitions(SINGLE, ("c0", "c1", "c2", "delta_3"))
+    for name, program, wanted in modules:
+        lines += ["", f"Module {name}.", *definitions(program, wanted), f"End {name}."]
+    return "\n".join((_HEAD, "Require Import ZArith.", "From Hypcheck Require Import Rounding.", "", *lines, ""))
+
+
+_HEAD = """(** What the kernel's floats compute, printed from the kernel's own programs by
+
+        python -m hypcheck.kernel.printing.coq
+
+    First c0, c1, c2 and 3 delta from a row; then, in modules, what leads from the coefficients to h1, h2, h3, from
+    these to 3 delta, and from computed numbers to the running bound E. Kernel.v and RunningBound.v have the proofs. *)
+"""
+
+_KNOWN = (
+    *("A", "B", "AB", "BP", "AQ", "P", "Q", "size_c1", "size_c2", "size_h1", "size_h2", "size_h3"),
+    *("u_4", "u_8", "u_12", "slack"),
+)
+"""The numbers from which the bound is computed, in this order the inputs of the module Bound."""
 
 
 if __name__ == "__main__":
