@@ -238,7 +238,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
 
 WITHOUT_A_COMPILER = {
     "plan tower --measure": (2, "does not compile"),
-    "bench --scene tower --out scene": (0, "left out"),
+    "bench --scene tower --out scene": (2, "no scene was measured"),
 }
 
 

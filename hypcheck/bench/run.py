@@ -27,11 +27,11 @@ from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.needs import met, prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
-from hypcheck.errors import Exit, first_that_applies
+from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Line, Recorder
-from hypcheck.record.measurements import Conditions, Forest, Kernel, Method, Refused, Workload
+from hypcheck.record.measurements import Absent, Conditions, Forest, Kernel, Method, Refused, Scene, Workload
 from hypcheck.scene.reading import shipped_scenes
 
 Advance = Callable[[int], object]
@@ -139,6 +139,9 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Stage
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: BenchOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         outcome.wrong.extend(scenes.run(plans, recorder, advance, plan.folder, quick=plan.quick))
+        if plan.scenes and not any(isinstance(line, Scene) for line in recorder.lines):
+            reasons = [line.reason for line in recorder.lines if isinstance(line, Absent)]
+            raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 
     plans = scenes.plans_of(names)
     return Stage("scenes", len(plans), measure)

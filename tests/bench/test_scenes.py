@@ -15,7 +15,7 @@ from hypcheck.bench import scene_kernel, scenes
 from hypcheck.bench.forest import contenders, growth, stepping
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.cli.bench import bench
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
@@ -162,3 +162,10 @@ def test_what_is_measured_alone_goes_with_nothing(options, sentence):
 def test_a_scene_that_is_none_is_refused_before_anything_is_measured():
     with pytest.raises(InputError, match="there is no such file"):
         scenes.plans_of(("nowhere.toml",))
+
+
+def test_a_scene_that_cannot_be_measured_without_a_compiler_is_no_pass(tmp_path, monkeypatch):
+    monkeypatch.setenv("CC", "false")
+    with pytest.raises(NothingJudgedError, match=r"no scene was measured: .*false does not compile"):
+        ended(tmp_path, "--scene", "tower")
+    assert list(tmp_path.iterdir()) == []
