@@ -9,6 +9,7 @@ from hypcheck.derivation.counting import Operations, count
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.hoisting import hoist
 from hypcheck.derivation.program import Program, cut
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.derivation.root_formulas import ROOTS_TRIGONOMETRIC, SWEEP
 from hypcheck.derivation.rotor_listings import ROTORS
 
@@ -38,7 +39,7 @@ def costs() -> tuple[Cost, ...]:
     sweep = _cost(
         SWEEP, "a sweep of a general root finder (Weierstrass, complex); it takes several", "mpmath's polyroots"
     )
-    return (*map(cost_of, FORMULAS.values()), cost_of(ROOTS_TRIGONOMETRIC), sweep)
+    return (*map(cost_of, (*FORMULAS.values(), *REPAIRED.values())), cost_of(ROOTS_TRIGONOMETRIC), sweep)
 
 
 def cost_of(formula: Formula) -> Cost:

@@ -155,6 +155,17 @@ def proposition_5(suffix: str = "") -> str:
 """
 
 
+def not_all_positive(suffix: str = "") -> str:
+    """`some_negative`: not (c2 < 0 and c1 > 0), which Proposition 5 put right asks for beside Δ > 0."""
+    end = suffix
+    return f"""
+    c2_negative{end} = c2{end} < 0
+    c1_positive{end} = c1{end} > 0
+    all_positive{end} = c2_negative{end} and c1_positive{end}
+    some_negative{end} = not all_positive{end}
+"""
+
+
 # "if Δ ≤ 0 then non-valid, else …": as printed, so a Δ that is NaN goes to the else branch.
 ONE_SPHEROID = (
     """

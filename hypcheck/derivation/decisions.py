@@ -46,15 +46,31 @@ def _one_spheroid(delta: int, c1: int, c2: int) -> int:
     return int(not delta <= 0 and _inside(c1, c2))
 
 
-def _four_rotors(*signs: int) -> int:
+def _four_rotors(*signs: int, inside: Callable[[int, int], bool] = _inside) -> int:
     rotors = tuple(zip(signs[0::3], signs[1::3], signs[2::3], strict=True))
     if any(delta <= 0 for delta, _, _ in rotors):
         return 0
-    return int(all(_inside(c1, c2) for _, c1, c2 in rotors))
+    return int(all(inside(c1, c2) for _, c1, c2 in rotors))
 
 
 def _hull_then_rotors(delta: int, c1: int, c2: int, *rotors: int) -> int:
     return _four_rotors(*rotors) if delta <= 0 else int(_inside(c1, c2))
+
+
+def _some_negative(c1: int, c2: int) -> bool:
+    return not (c2 < 0 and c1 > 0)
+
+
+def _four_rotors_repaired(*signs: int) -> int:
+    return _four_rotors(*signs, inside=_some_negative)
+
+
+def _hull_then_rotors_repaired(delta: int, c1: int, c2: int, *rotors: int) -> int:
+    return int((delta > 0 and _some_negative(c1, c2)) or _four_rotors_repaired(*rotors))
+
+
+def _procedure_1_repaired(delta: int, c1: int, c2: int, Q: int, E: int, A: int) -> int:
+    return int(E > 0 and E * E > 4 * A) if Q == 0 else _proposition_3(delta, c1, c2)
 
 
 def _all_regimes(delta: int, c1: int, c2: int, A: int, B: int, Q: int, slope_at_B: int, slope_at_minus_A: int) -> int:
@@ -111,6 +127,25 @@ _HULL_THEN_ROTORS = Decision(
     tuple(hull + rotors for hull, rotors in product(_PATTERNS, _rotor_cases())),
     _hull_then_rotors,
     f"as Procedure 2.a where Δ ≤ 0; else valid ⟺ {_INTERIOR_RULE}",
+)
+_REPAIRED_RULE = "Δ > 0 and not (c2 < 0 and c1 > 0)"
+_FOUR_ROTORS_REPAIRED = Decision(
+    "valid", _ROTOR_LETTERS, _FOUR_ROTORS.cases, _four_rotors_repaired, f"valid ⟺ {_REPAIRED_RULE} for each rotor"
+)
+_HULL_THEN_ROTORS_REPAIRED = Decision(
+    "valid",
+    _HULL_THEN_ROTORS.letters,
+    _HULL_THEN_ROTORS.cases,
+    _hull_then_rotors_repaired,
+    f"valid ⟺ {_REPAIRED_RULE} for the bounding spheroid, or for each rotor",
+)
+_PROCEDURE_1_REPAIRED = Decision(
+    "answer",
+    (*_ONE, "Q", "E", "A"),
+    # E below, at and above 0 and ±2a, for A = 1 and 4; 4·A < E² < 5·A for A = 6
+    tuple(pattern + rest for pattern in _PATTERNS for rest in product(SIGNS, range(-5, 6), (1, 4, 6))),
+    _procedure_1_repaired,
+    "valid ⟺ Q = 0, E > 0 and E² > 4A, or Q ≠ 0, Δ > 0, c2 < 0 and c1 > 0",
 )
 _SIZES_TRIED = ((1, 1), (1, 2), (2, 1))  # A = B², A < B² and A > B²
 
@@ -178,4 +213,7 @@ _DECISIONS = {
     "local-maximum": (_LOCAL_MAXIMUM, _CHOICE),
     "dual": (_DUAL,),
     "roots-trigonometric": (_ALL_POSITIVE,),
+    "procedure-1-repaired": (_PROCEDURE_1_REPAIRED,),
+    "procedure-2a-repaired": (_FOUR_ROTORS_REPAIRED,),
+    "procedure-2b-repaired": (_HULL_THEN_ROTORS_REPAIRED,),
 }

@@ -140,4 +140,7 @@ _OBLIGATIONS = {
     "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
     "dual": _all(_dual),
     "roots-trigonometric": _all(_coefficients, _trigonometric),
+    "procedure-1-repaired": _all(_coefficients, _discriminant, _scaled_sizes, _shared),
+    "procedure-2a-repaired": _all(_four_rotors),
+    "procedure-2b-repaired": _all(_coefficients, _discriminant, _four_rotors),
 }

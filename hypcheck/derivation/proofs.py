@@ -22,6 +22,7 @@ from hypcheck.derivation.identities import identities, vanishes
 from hypcheck.derivation.obligations import INPUTS, Obligation, letter, obligations
 from hypcheck.derivation.plain_text import plain
 from hypcheck.derivation.program import Program, cut
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.derivation.rotor_listings import ROTORS
 from hypcheck.derivation.symbolic import SYMBOLIC
 
@@ -30,8 +31,8 @@ from hypcheck.derivation.symbolic import SYMBOLIC
 class Proof:
     """One thing that was to be shown about a formula, and whether it holds.
 
-    `formula` is a name in FORMULAS, or "derivation" for the identities that the rules rest on; `quantity` is the step
-    in question; `statement` says what was compared with what.
+    `formula` is a name in FORMULAS or REPAIRED, or "derivation" for the identities that the rules rest on; `quantity`
+    is the step in question; `statement` says what was compared with what.
     """
 
     formula: str
@@ -44,7 +45,7 @@ class Proof:
 def prove_formulas() -> tuple[Proof, ...]:
     """Every proof: the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
     found = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities()]
-    for formula in FORMULAS.values():
+    for formula in (*FORMULAS.values(), *REPAIRED.values()):
         found.extend(proofs_of(formula))
     found.extend(_prove_one_rotor())
     return tuple(found)

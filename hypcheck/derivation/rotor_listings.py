@@ -7,6 +7,8 @@ T1 = cos g1 − sin g1 and T2 = cos g1 + sin g1 the pairs (T1(g_i), T2(g_i)) of 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from hypcheck.derivation.coefficient_listings import SIZES, equation_13
 from hypcheck.derivation.decision_listings import proposition_5
 
@@ -64,13 +66,16 @@ def equation_21(rotor: int) -> str:
 """
 
 
-def rotors_decided(answer: str) -> str:
-    """Procedure 2.a: `answer` is true unless Δ(g_i) ≤ 0 for some rotor, or a rotor is not inside."""
+def rotors_decided(answer: str, test: Callable[[str], str] = proposition_5, inside: str = "inside") -> str:
+    """Procedure 2.a: `answer` is true unless Δ(g_i) ≤ 0 for some rotor, or a rotor is not inside.
+
+    `test` lists for a suffix the steps that decide the step called `inside`; as printed those of Proposition 5.
+    """
     coefficients = "".join(
         equation_21(rotor) + equation_13(c0="c0_s", suffix=f"_g{rotor}") + f"touching_g{rotor} = delta_g{rotor} <= 0\n"
         for rotor in ROTORS
     )
-    tests = "".join(proposition_5(f"_g{rotor}") for rotor in ROTORS)
+    tests = "".join(test(f"_g{rotor}") for rotor in ROTORS)
     return (
         SHARED_BY_ROTORS
         + coefficients
@@ -80,9 +85,9 @@ def rotors_decided(answer: str) -> str:
     touching_123 = touching_g12 or touching_g3
     some_touching = touching_123 or touching_g4
     none_touching = not some_touching
-    inside_12 = inside_g1 and inside_g2
-    inside_123 = inside_12 and inside_g3
-    all_inside = inside_123 and inside_g4
+    inside_12 = {inside}_g1 and {inside}_g2
+    inside_123 = inside_12 and {inside}_g3
+    all_inside = inside_123 and {inside}_g4
     {answer} = none_touching and all_inside
 """
     )

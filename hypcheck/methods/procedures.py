@@ -2,14 +2,15 @@
 
 Each is asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a asks
 all four rotors; 2.b the bounding spheroid first, and the rotors only where Δ ≤ 0; ours the bounding spheroid by the
-certified path, and the rotors where it is in contact. Their answers differ: 2.a never asks whether the body fits.
+certified path, and the rotors where it is in contact. Their answers differ: 2.a never asks whether the body fits. Both
+procedures of the paper are here as printed and put right.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from types import MappingProxyType
 
 import numpy as np
@@ -20,6 +21,7 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.hoisting import split
 from hypcheck.derivation.program import Program
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.kernel import numpy_path
 from hypcheck.methods.formula import Floats, in_chunks
 from hypcheck.methods.method import Answers
@@ -54,29 +56,42 @@ class Flight:
         return {name: getattr(self, name) for name in MOVING}
 
 
-@cache
-def hull_programs() -> tuple[Program, Program]:
-    """Of Procedure 2.b what is asked of every position: `touching` and `inside`, before the flight and in it."""
-    return split(FORMULAS["procedure-2b"].program, ("touching", "inside"), CRAFT)
+PRINTED, PUT_RIGHT = False, True
+"""Whether a procedure is as printed, or put right (derivation/repaired_formulas.py)."""
 
 
 @cache
-def rotor_programs() -> tuple[Program, Program]:
+def hull_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
+    """Of Procedure 2.b what is asked of every position, `hull_steps`, before the flight and in it."""
+    formula = REPAIRED["procedure-2b-repaired"] if repaired else FORMULAS["procedure-2b"]
+    return split(formula.program, hull_steps(repaired), CRAFT)
+
+
+def hull_steps(repaired: bool = PRINTED) -> tuple[str, str]:
+    """The steps that tell whether the rotors have to be asked, and the answer where they have not."""
+    return ("unclear" if repaired else "touching"), "inside"
+
+
+@cache
+def rotor_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
     """Procedure 2.a, before the flight and in it."""
-    fixed = tuple(name for name in CRAFT if name in FORMULAS["procedure-2a"].program.inputs)
-    return split(FORMULAS["procedure-2a"].program, ("valid",), fixed)
+    formula = REPAIRED["procedure-2a-repaired"] if repaired else FORMULAS["procedure-2a"]
+    fixed = tuple(name for name in CRAFT if name in formula.program.inputs)
+    return split(formula.program, ("valid",), fixed)
 
 
-def procedure_2a(flight: Flight) -> Answers:
+def procedure_2a(flight: Flight, repaired: bool = PRINTED) -> Answers:
     """1 where the procedure calls the movement valid, else 0; int8 (n,)."""
-    rotors = _rotors(flight)
+    rotors = _rotors(flight, repaired)
     return in_chunks(len(flight), lambda part: rotors(flight.part(part).columns)[0])
 
 
-def procedure_2b(flight: Flight, told: Callable[[Flight], object] = lambda _: None) -> Answers:
+def procedure_2b(
+    flight: Flight, told: Callable[[Flight], object] = lambda _: None, repaired: bool = PRINTED
+) -> Answers:
     """The same by Procedure 2.b; the rotors are asked about those positions alone that need it, and `told` is told."""
-    hull = _loop_body(hull_programs(), ("touching", "inside"), flight)
-    rotors = _rotors(flight)
+    hull = _loop_body(hull_programs(repaired), hull_steps(repaired), flight)
+    rotors = _rotors(flight, repaired)
 
     def chunk(part: slice) -> Answers:
         here = flight.part(part)
@@ -114,8 +129,8 @@ def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Fl
     return [(along, across), (-across, along), (-along, -across), (across, -along)]
 
 
-def _rotors(flight: Flight) -> Evaluator:
-    return _loop_body(rotor_programs(), ("valid",), flight)
+def _rotors(flight: Flight, repaired: bool) -> Evaluator:
+    return _loop_body(rotor_programs(repaired), ("valid",), flight)
 
 
 def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], flight: Flight) -> Evaluator:
@@ -127,6 +142,12 @@ def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], fligh
 
 
 PROCEDURES: Mapping[str, Callable[[Flight], Answers]] = MappingProxyType(
-    {"procedure-2a": procedure_2a, "procedure-2b": procedure_2b, "certified": certified}
+    {
+        "procedure-2a": procedure_2a,
+        "procedure-2b": procedure_2b,
+        "certified": certified,
+        "procedure-2a-repaired": partial(procedure_2a, repaired=PUT_RIGHT),
+        "procedure-2b-repaired": partial(procedure_2b, repaired=PUT_RIGHT),
+    }
 )
 """By name, in numpy."""

@@ -16,6 +16,7 @@ from hypcheck.casebook.draw import Floats
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.hoisting import loop_body
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.errors import InputError
 from hypcheck.paper.flights_circle import Direction, any_angle, turned
 from hypcheck.scene.model import Hyperboloid, Part, Scene, Span
@@ -67,17 +68,18 @@ class Craft:
 
 
 class Procedures:
-    """Procedures 2.a and 2.b as printed, in float64, with what depends on the sizes taken out of the loop."""
+    """Procedures 2.a and 2.b in float64, as printed or `repaired`, with what the sizes decide taken out of the loop."""
 
-    def __init__(self, craft: Craft) -> None:
+    def __init__(self, craft: Craft, *, repaired: bool = False) -> None:
         arithmetic = float_arithmetic(_FORMAT)
         alpha, gamma, b, d = craft.sizes
         _, _, small_b, small_d = craft.rotor
         body = {"alpha": alpha, "gamma": gamma, "b": b, "d": d}
         rotor = {"alpha": alpha, "gamma": gamma, "b_s": small_b, "d_s": small_d, "l": craft.arm}
-        hull, small = FORMULAS["procedure-2b"].program, FORMULAS["procedure-2a"].program
+        known, end = (REPAIRED, "-repaired") if repaired else (FORMULAS, "")
+        hull, small = known[f"procedure-2b{end}"].program, known[f"procedure-2a{end}"].program
         self._offset = craft.offset
-        self._body = loop_body(hull, arithmetic, body, ("delta", "touching", "inside"))
+        self._body = loop_body(hull, arithmetic, body, ("delta", "unclear" if repaired else "touching", "inside"))
         self._rotors = loop_body(small, arithmetic, rotor, ("valid",))
 
     def discriminant(self, at: Point) -> Floats:
@@ -85,14 +87,19 @@ class Procedures:
         return np.asarray(self._body(dict(zip("xyz", at, strict=True)))[0])
 
     def ask(self, at: Point, heading: Direction) -> tuple[Mask, Mask]:
-        """Procedure 2.b: whether a position is a valid one, and whether Δ ≤ 0, so that the rotors were asked."""
-        _, touching, valid = self._body(dict(zip("xyz", at, strict=True)))
-        if touching.any():
-            some = np.flatnonzero(touching)
-            cosine, sine = turned((heading[0][some], heading[1][some]), self._offset)
-            centre = {name: column[some] for name, column in zip("xyz", at, strict=True)}
-            valid[some] = self._rotors({**centre, "cosine": cosine, "sine": sine})[0]
-        return valid, touching
+        """Procedure 2.b: whether a position is a valid one, and whether the rotors were asked, as printed for Δ ≤ 0."""
+        _, asked, valid = self._body(dict(zip("xyz", at, strict=True)))
+        if asked.any():
+            some = np.flatnonzero(asked)
+            x, y, z = (column[some] for column in at)
+            valid[some] = self.ask_rotors((x, y, z), (heading[0][some], heading[1][some]))
+        return valid, asked
+
+    def ask_rotors(self, at: Point, heading: Direction) -> Mask:
+        """Procedure 2.a: whether all four rotors are found to be interior."""
+        cosine, sine = turned(heading, self._offset)
+        (valid,) = self._rotors({**dict(zip("xyz", at, strict=True)), "cosine": cosine, "sine": sine})
+        return np.asarray(valid)
 
 
 def craft_of(scene: Scene) -> Craft:

@@ -15,7 +15,7 @@ from hypcheck.kernel.classify import classify_scene
 from hypcheck.pairs import Position
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.flights_circle import Direction
-from hypcheck.paper.flights_craft import ROTORS, Craft, Mask, Point
+from hypcheck.paper.flights_craft import ROTORS, Craft, Mask, Point, Procedures
 from hypcheck.paper.motion import always, always_turning, first_contact
 
 TOLD = 12
@@ -42,8 +42,10 @@ class Ways:
 
     Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact somewhere on the way, `…_begun` of these
     at its very beginning (after a turn in place whose answer was ignored), `wrongly_accepted` of all at their end.
-    `wrongly_refused` moves end in a valid position. Of the `turns` in place `turns_touching` sweep a rotor through
-    contact. The `contacts` of moves that begin in a valid position are told, TOLD of them at most.
+    `wrongly_refused` moves end in a valid position. Of the moves that were `asked` about, Procedure 2.a as printed
+    decides `procedure_2a_differs` otherwise than 2.b as printed; `repaired_2a_differs` and `repaired_2b_differs` are
+    those that the procedures put right decide otherwise than as printed. Of the `turns` in place `turns_touching` sweep
+    a rotor through contact. The `contacts` of moves that begin in a valid position are told, TOLD of them at most.
     """
 
     vertical: int = 0
@@ -54,6 +56,10 @@ class Ways:
     horizontal_begun: int = 0
     wrongly_accepted: int = 0
     wrongly_refused: int = 0
+    asked: int = 0
+    procedure_2a_differs: int = 0
+    repaired_2a_differs: int = 0
+    repaired_2b_differs: int = 0
     turns: int = 0
     turns_touching: int = 0
     contacts: tuple[Contact, ...] = ()
@@ -80,7 +86,19 @@ class Ways:
             self.contacts += _contacts(craft, _of(start, touching), _of(end, touching), _headed(heading, touching))
         refused = np.flatnonzero(moves.refused & ~moves.turning)
         self._count("wrongly_refused", valid(craft, _of(moves.end, refused), _headed(moves.before, refused)))
+        self._compare(craft, moves)
         self._watch_turns(craft, moves)
+
+    def _compare(self, craft: Craft, moves: Moves) -> None:
+        """What Procedure 2.a, and both procedures put right, say of the moves that Procedure 2.b was asked about."""
+        some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning)
+        at, heading, answer = _of(moves.end, some), _headed(moves.before, some), moves.accepted[some]
+        printed, repaired = Procedures(craft), Procedures(craft, repaired=True)
+        second = printed.ask_rotors(at, heading)
+        self.asked += len(some)
+        self._count("procedure_2a_differs", second != answer)
+        self._count("repaired_2a_differs", repaired.ask_rotors(at, heading) != second)
+        self._count("repaired_2b_differs", repaired.ask(at, heading)[0] != answer)
 
     def _watch_turns(self, craft: Craft, moves: Moves) -> None:
         some = np.flatnonzero(moves.turn)

@@ -17,7 +17,7 @@ from hypcheck.paper.forest_ways import ways
 from hypcheck.scene.model import Scene, Walk
 from hypcheck.version import VERSION
 
-SCHEMA = "1.0.0"
+SCHEMA = "1.1.0"
 
 MOST_STEPS = 1_000_000
 
@@ -51,7 +51,7 @@ class ForestPlan:
 
 
 def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda _: None) -> dict[str, Any]:
-    """The result, as schemas/simulate-forest-1.0.0.json has it; advanced by tried steps. Raises InputError."""
+    """The result, as schemas/simulate-forest-1.1.0.json has it; advanced by tried steps. Raises InputError."""
     require_ordinary(plan.scene)
     trees = Trees(plan.scene)
     steps = walk(trees, plan.rules, plan.scene.region, plan.count, plan.seed, advance)
@@ -74,6 +74,7 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         "steps": _steps(steps, phantom, free),
         "questions": _questions(verdicts),
         "phantoms": _phantoms(verdicts, free),
+        "repaired": _repaired(verdicts),
         "ways": ways(trees, steps) if plan.continuous else None,
         "path": [list(plan.rules.start), *steps.end[steps.made].tolist()],
         "stops": stops,
@@ -125,6 +126,20 @@ def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
             ("float32", verdicts.single),
             ("float64", verdicts.double),
             ("float32_after_line", verdicts.single | verdicts.line),
+            ("float32_repaired", verdicts.repaired_single),
+            ("float64_repaired", verdicts.repaired_double),
+        )
+    }
+
+
+def _repaired(verdicts: Verdicts) -> dict[str, int]:
+    """Tried steps that Procedure 1 put right decides otherwise than Table 2, in each precision; all trees together."""
+    ignored = ~verdicts.asked
+    return {
+        name: _count((put_right | ignored).all(axis=1) != (printed | ignored).all(axis=1))
+        for name, printed, put_right in (
+            ("float32_differs", verdicts.single, verdicts.repaired_single),
+            ("float64_differs", verdicts.double, verdicts.repaired_double),
         )
     }
 

@@ -36,6 +36,11 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
         f"phantoms, contact with nothing: {phantoms['float32']:,} in float32, {phantoms['float64']:,} in float64, "
         f"{phantoms['float32_after_line']:,} in float32 where the line is asked first"
     )
+    yield (
+        f"  Procedure 1 put right: {phantoms['float32_repaired']:,} in float32, {phantoms['float64_repaired']:,} in "
+        f"float64; it decides {result['repaired']['float32_differs']:,} and "
+        f"{result['repaired']['float64_differs']:,} steps otherwise"
+    )
     yield from _stops(result["stops"])
     if result["ways"] is not None:
         ways = result["ways"]

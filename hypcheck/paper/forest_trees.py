@@ -18,6 +18,7 @@ from hypcheck.casebook.draw import Floats
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.hoisting import loop_body
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.kernel.world import offsets
 from hypcheck.pairs import Position
 from hypcheck.scene.model import Scene
@@ -113,12 +114,13 @@ class Trees:
 
 
 class Procedure1:
-    """Table 2 as printed, in one format, with the sizes of all trees taken out of the loop."""
+    """Table 2 as printed, or Procedure 1 put right, in one format, with the trees' sizes taken out of the loop."""
 
-    def __init__(self, trees: Trees, precision: str) -> None:
+    def __init__(self, trees: Trees, precision: str, *, repaired: bool = False) -> None:
         columns = dict(zip(("alpha", "gamma", "b", "d"), trees.sizes.T, strict=True))
         self._trees = trees
-        self._body = loop_body(FORMULAS["table-2"].program, float_arithmetic(precision), columns, ("valid",))
+        formula = REPAIRED["procedure-1-repaired"] if repaired else FORMULAS["table-2"]
+        self._body = loop_body(formula.program, float_arithmetic(precision), columns, (formula.answer,))
 
     def valid(self, at: Places) -> Mask:
         """Which trees allow the movement, (n, m): whether the walker is taken to be exterior to each."""

@@ -47,7 +47,8 @@ class Verdicts:
     """What is true of the tried steps within the region, for each of them and each tree, (n, m).
 
     `asked`: the tree stands at that height, so its answer counts; `exterior`: exactly so; `line`: one line proves it;
-    `single` and `double`: Table 2 in float32 and float64 allows the step.
+    `single` and `double`: Table 2 in float32 and float64 allows the step; `repaired_single`, `repaired_double`:
+    Procedure 1 put right does.
     """
 
     asked: Mask
@@ -55,6 +56,8 @@ class Verdicts:
     line: Mask
     single: Mask
     double: Mask
+    repaired_single: Mask
+    repaired_double: Mask
 
 
 def walk(
@@ -87,14 +90,18 @@ def walk(
 
 def judged(trees: Trees, at: Places) -> Verdicts:
     """What is true of a walker at these places."""
-    single, double = (Procedure1(trees, precision) for precision in ("float32", "float64"))
+    procedures = (
+        Procedure1(trees, precision, repaired=repaired).valid
+        for repaired in (False, True)
+        for precision in ("float32", "float64")
+    )
     parts = [at[place : place + CHUNK] for place in range(0, len(at), CHUNK)]
     none = np.empty((0, len(trees.sizes)), dtype=np.bool_)
 
     def of_all(ask: Callable[[Places], Mask]) -> Mask:
         return np.concatenate([none, *(ask(part) for part in parts)])
 
-    return Verdicts(*map(of_all, (trees.modelled, trees.exterior, trees.proved_by_line, single.valid, double.valid)))
+    return Verdicts(*map(of_all, (trees.modelled, trees.exterior, trees.proved_by_line, *procedures)))
 
 
 def _inside(region: Region, at: Places) -> Mask:

@@ -15,7 +15,7 @@ from hypcheck.paper.tower_table import STATEMENT, Advance, Block
 from hypcheck.scene.model import Flight, Scene
 from hypcheck.version import VERSION
 
-SCHEMA = "1.0.0"
+SCHEMA = "1.1.0"
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ def _require_room(scene: Scene, flight: Flight) -> None:
 
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
-    """The result, as schemas/simulate-tower-1.0.0.json has it. Raises InputError."""
+    """The result, as schemas/simulate-tower-1.1.0.json has it. Raises InputError."""
     craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
     tracks, ways = paths(craft, flight, step, plan.seed)
     blocks = plan.blocks()

@@ -153,6 +153,14 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
         "  at the ends of moves the procedure was wrong "
         + counted(ways["wrongly_accepted"] + ways["wrongly_refused"], "time")
     )
+    yield (
+        f"  of {counted(ways['asked'], 'move')} asked about, Procedure 2.b put right decides "
+        f"{ways['repaired_2b_differs']:,} otherwise than as printed,"
+    )
+    yield (
+        f"  Procedure 2.a put right {ways['repaired_2a_differs']:,}; 2.a as printed decides "
+        f"{ways['procedure_2a_differs']:,} otherwise than 2.b as printed"
+    )
 
 
 def _contacts(contacts: list[dict[str, Any]]) -> Iterator[str]:

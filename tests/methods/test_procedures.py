@@ -9,6 +9,7 @@ from hypcheck.bench.claims import flight_of
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.methods.procedures import PROCEDURES, rotors_at
 
 
@@ -17,10 +18,10 @@ def flight():
     return flight_of(3, 3000)
 
 
-@pytest.mark.parametrize("name", ["procedure-2a", "procedure-2b"])
+@pytest.mark.parametrize("name", ["procedure-2a", "procedure-2b", "procedure-2a-repaired", "procedure-2b-repaired"])
 def test_a_procedure_is_the_program_that_is_listed(name, flight):
     inputs = {**flight.craft, **flight.columns}
-    (right,) = outputs(FORMULAS[name].program, float_arithmetic("float64"), inputs, ("valid",))
+    (right,) = outputs({**FORMULAS, **REPAIRED}[name].program, float_arithmetic("float64"), inputs, ("valid",))
     assert (PROCEDURES[name](flight) == right).all()
     assert 0 < right.sum() < len(right)
 

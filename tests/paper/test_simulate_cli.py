@@ -20,7 +20,7 @@ FOREST = ("simulate", "forest", "--seed", "3")
 
 
 def schema(name):
-    file = resources.files("hypcheck.paper").joinpath("schemas", f"simulate-{name}-1.0.0.json")
+    file = resources.files("hypcheck.paper").joinpath("schemas", f"simulate-{name}-1.1.0.json")
     return json.loads(file.read_text(encoding="utf-8"))
 
 

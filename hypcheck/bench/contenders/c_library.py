@@ -21,6 +21,7 @@ from hypcheck.bench.contenders.ways import Empty, Prepared
 from hypcheck.bench.rounds import Clocked
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.errors import UnavailableError
 from hypcheck.kernel import core
 from hypcheck.methods.method import Answers
@@ -56,6 +57,7 @@ def bodies() -> tuple[Body | Ready, ...]:
     listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
     others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
+    others.append(of_formula(REPAIRED["procedure-1-repaired"], "float64"))
     duals = [dual(format_name) for format_name in FORMATS]
     return (FAST, *listed, *others, *roots, *duals)
 

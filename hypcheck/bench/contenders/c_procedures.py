@@ -2,27 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from hypcheck.derivation.program import Program
 from hypcheck.kernel.printing.c import c_statements
-from hypcheck.methods.procedures import CRAFT, MOVING, hull_programs, rotor_programs
+from hypcheck.methods.procedures import (
+    CRAFT,
+    MOVING,
+    PRINTED,
+    PUT_RIGHT,
+    hull_programs,
+    hull_steps,
+    rotor_programs,
+)
 
-NAMES = ("nothing", "procedure-2a", "procedure-2b", "certified")
+NAMES = ("nothing", "procedure-2a", "procedure-2b", "certified", "procedure-2a-repaired", "procedure-2b-repaired")
 """By their places in the driver's table; the first does nothing."""
 
 
 def procedures_source() -> str:
     """The functions and their driver; hypcheck.h and math.h are included before."""
-    hull_before, hull = hull_programs()
-    rotor_before, rotors = rotor_programs()
-    return "".join(
-        (
-            _before("hull", hull_before),
-            _before("rotors", rotor_before),
-            _asked("rotors", rotor_before, rotors, ("valid",), "return valid;"),
-            _asked("hull", hull_before, hull, ("touching", "inside"), "return touching ? 2 : inside;"),
-            _REST,
-        )
-    )
+    return _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0]) + "".join(_both()) + _REST
+
+
+def _both() -> Iterator[str]:
+    """The procedures as printed and put right, which keep the same numbers of a craft."""
+    for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
+        asked, inside = hull_steps(repaired)
+        (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
+        yield _asked(f"{prefix}rotors", rotor_before, rotors, ("valid",), "return valid;")
+        yield _asked(f"{prefix}hull", hull_before, hull, (asked, inside), f"return {asked} ? 2 : {inside};")
+        yield _PROCEDURES.replace("{prefix}", prefix)
 
 
 def _before(name: str, program: Program) -> str:
@@ -54,6 +64,22 @@ def _craft(read: set[str] | None = None) -> str:
     return taken + "".join(f"\n    (void){each};" for _, each in named)
 
 
+_PROCEDURES = """
+static int {prefix}procedure_2a(const double *craft, const double *hull, const double *rotors, double x, double y,
+                                double z, double cosine, double sine)
+{
+    (void)hull;
+    return {prefix}rotors_asked(craft, rotors, x, y, z, cosine, sine);
+}
+
+static int {prefix}procedure_2b(const double *craft, const double *hull, const double *rotors, double x, double y,
+                                double z, double cosine, double sine)
+{
+    const int answer = {prefix}hull_asked(craft, hull, x, y, z, cosine, sine);
+    return answer == 2 ? {prefix}rotors_asked(craft, rotors, x, y, z, cosine, sine) : answer;
+}
+"""
+
 _REST = """
 typedef int body_function(const double *, const double *, const double *, double, double, double, double, double);
 
@@ -62,20 +88,6 @@ static int no_body(const double *craft, const double *hull, const double *rotors
 {
     (void)craft, (void)hull, (void)rotors, (void)x, (void)y, (void)z, (void)cosine, (void)sine;
     return 0;
-}
-
-static int procedure_2a(const double *craft, const double *hull, const double *rotors, double x, double y, double z,
-                        double cosine, double sine)
-{
-    (void)hull;
-    return rotors_asked(craft, rotors, x, y, z, cosine, sine);
-}
-
-static int procedure_2b(const double *craft, const double *hull, const double *rotors, double x, double y, double z,
-                        double cosine, double sine)
-{
-    const int answer = hull_asked(craft, hull, x, y, z, cosine, sine);
-    return answer == 2 ? rotors_asked(craft, rotors, x, y, z, cosine, sine) : answer;
 }
 
 static int certified_body(const double *craft, const double *hull, const double *rotors, double x, double y, double z,
@@ -93,7 +105,8 @@ static int certified_body(const double *craft, const double *hull, const double 
     return 1;
 }
 
-static body_function *volatile of_bodies[] = {no_body, procedure_2a, procedure_2b, certified_body};
+static body_function *volatile of_bodies[] = {no_body, procedure_2a, procedure_2b, certified_body,
+                                            repaired_procedure_2a, repaired_procedure_2b};
 
 void bench_bodies(size_t which, size_t repeat, const double *craft, size_t n, const double *x, const double *y,
                   const double *z, const double *cosine, const double *sine, int8_t *out)

@@ -7,6 +7,7 @@ from functools import cache
 from hypcheck.derivation.chains.all_sizes import all_sizes
 from hypcheck.derivation.chains.local_maximum import local_maximum
 from hypcheck.derivation.chains.positions import positions
+from hypcheck.derivation.chains.procedure_1 import procedure_1
 from hypcheck.derivation.chains.proposition_3 import proposition_3
 from hypcheck.derivation.chains.proposition_5 import proposition_5
 from hypcheck.derivation.chains.roots import roots
@@ -14,7 +15,7 @@ from hypcheck.derivation.chains.rule import rule
 from hypcheck.derivation.chains.theorem_1 import theorem_1
 from hypcheck.derivation.links import Chain
 
-MAKERS = (theorem_1, rule, roots, positions, proposition_3, proposition_5, all_sizes, local_maximum)
+MAKERS = (theorem_1, rule, roots, positions, proposition_3, procedure_1, proposition_5, all_sizes, local_maximum)
 
 
 @cache

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypcheck.derivation.exact_arithmetic import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.derivation.repaired_formulas import REPAIRED
 from hypcheck.pairs import COLUMNS
 from hypcheck.paper.ledger import statements as say
 from hypcheck.paper.ledger.entry import (
@@ -72,8 +73,12 @@ def _table_1() -> Entry:
         FALSE,
         "what it calls valid is exterior; on the ring it refuses a movement that is clear",
         _PHANTOM,
-        lambda: (*_errs("procedure-1", _exterior(say.tall, "by Procedure 1")), by_chain("Proposition 3, repaired")),
-        "valid ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring",
+        lambda: (
+            *_errs("procedure-1", _exterior(say.tall, "by Procedure 1")),
+            by_chain("Procedure 1, repaired"),
+            by_programs(REPAIRED["procedure-1-repaired"]),
+        ),
+        "valid ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring; in floats ask r > a + 1 where z0 = 0 instead",
         harmless=OFF_THE_WAIST,
     )
 
@@ -143,6 +148,7 @@ def _table_3() -> Entry:
             with_counterexample(PROCEDURE_2A),
             by_programs(FORMULAS["procedure-2a"]),
             by_chain("Proposition 5, repaired"),
+            by_programs(REPAIRED["procedure-2a-repaired"]),
             harmless_where(PROCEDURE_2A, say.very_tall),
         ),
         "valid ⟺ Δ(g_i) > 0 and not (c2(g_i) < 0 and c1(g_i) > 0) for all i",
@@ -194,6 +200,7 @@ def _table_4() -> Entry:
             refusal(lambda hull: say.wide(hull) and say.tall(hull), "interior, and refused for a zero coefficient"),
             by_programs(FORMULAS["procedure-2b"]),
             by_chain("Proposition 5, repaired"),
+            by_programs(REPAIRED["procedure-2b-repaired"]),
             harmless_where(say.PROPOSITION_5_1, say.very_tall),
         ),
         "valid ⟺ the hull has Δ > 0 and not (c2 < 0 and c1 > 0), or else each rotor has",
