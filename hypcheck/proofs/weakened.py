@@ -1,4 +1,4 @@
-"""Weakened constants and comparisons that Coq must refuse: each makes a definition or a statement false.
+"""Weakened constants and comparisons that Coq must refuse: each makes a statement false, or takes a proof's reserve.
 
 A proof that went through in spite of one would prove less than it says. Every change is made in a copy of the
 compiled proofs, and Coq is asked about the changed file alone.
