@@ -69,8 +69,8 @@ def _hull_then_rotors_repaired(delta: int, c1: int, c2: int, *rotors: int) -> in
     return int((delta > 0 and _some_negative(c1, c2)) or _four_rotors_repaired(*rotors))
 
 
-def _procedure_1_repaired(delta: int, c1: int, c2: int, Q: int, E: int, A: int) -> int:
-    return int(E > 0 and E * E > 4 * A) if Q == 0 else _proposition_3(delta, c1, c2)
+def _procedure_1_repaired(delta: int, c1: int, c2: int, Q: int, E: int, EE: int, four_A: int) -> int:
+    return int(E > 0 and EE > four_A) if Q == 0 else _proposition_3(delta, c1, c2)
 
 
 def _all_regimes(delta: int, c1: int, c2: int, A: int, B: int, Q: int, slope_at_B: int, slope_at_minus_A: int) -> int:
@@ -141,9 +141,8 @@ _HULL_THEN_ROTORS_REPAIRED = Decision(
 )
 _PROCEDURE_1_REPAIRED = Decision(
     "answer",
-    (*_ONE, "Q", "E", "A"),
-    # E below, at and above 0 and ±2a, for A = 1 and 4; 4·A < E² < 5·A for A = 6
-    tuple(pattern + rest for pattern in _PATTERNS for rest in product(SIGNS, range(-5, 6), (1, 4, 6))),
+    (*_ONE, "Q", "E", "EE", "four_A"),
+    tuple(pattern + rest for pattern in _PATTERNS for rest in product(SIGNS, repeat=4)),
     _procedure_1_repaired,
     "valid ⟺ Q = 0, E > 0 and E² > 4A, or Q ≠ 0, Δ > 0, c2 < 0 and c1 > 0",
 )

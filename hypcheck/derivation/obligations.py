@@ -82,6 +82,11 @@ def _shared() -> Iterable[Obligation]:
     yield Obligation("E", (P - A - 1).subs(IN_SEVEN))
 
 
+def _in_the_plane() -> Iterable[Obligation]:
+    yield Obligation("EE", symbol("E") ** 2, ("E",))
+    yield Obligation("four_A", 4 * A, ("A",))
+
+
 def _local_maximum() -> Iterable[Obligation]:
     h1 = hessian_coefficients()[0]
     yield Obligation("h1", h1, ("c1", "c2"))
@@ -140,7 +145,7 @@ _OBLIGATIONS = {
     "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
     "dual": _all(_dual),
     "roots-trigonometric": _all(_coefficients, _trigonometric),
-    "procedure-1-repaired": _all(_coefficients, _discriminant, _scaled_sizes, _shared),
+    "procedure-1-repaired": _all(_coefficients, _discriminant, _scaled_sizes, _shared, _in_the_plane),
     "procedure-2a-repaired": _all(_four_rotors),
     "procedure-2b-repaired": _all(_coefficients, _discriminant, _four_rotors),
 }
