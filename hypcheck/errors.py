@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+from collections import defaultdict
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from hypcheck.visible import sentence
@@ -63,6 +65,18 @@ PRECEDENCE = (
 def first_that_applies(reasons: Iterable[int]) -> Exit:
     """The one exit code of a run that may have several: HELD where there is no reason for another."""
     return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
+
+
+@dataclass
+class RunOutcome:
+    """What decides how a run ends: sentences by the exit code that they are reasons for."""
+
+    because: defaultdict[Exit, list[str]] = field(default_factory=lambda: defaultdict(list))
+
+    @property
+    def exit_code(self) -> Exit:
+        """The first that applies, HELD where there is no reason for another."""
+        return first_that_applies(code for code, reasons in self.because.items() if reasons)
 
 
 class HypcheckError(Exception):

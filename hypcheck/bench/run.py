@@ -27,7 +27,7 @@ from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.needs import met, prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import scene_of
-from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
+from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
 from hypcheck.methods.engines import FCL
 from hypcheck.processes import processes, usable_processors
 from hypcheck.record import Line, Recorder
@@ -35,27 +35,6 @@ from hypcheck.record.measurements import Absent, Conditions, Forest, Kernel, Met
 from hypcheck.scene.reading import shipped_scenes
 
 Advance = Callable[[int], object]
-
-
-@dataclass
-class BenchOutcome:
-    """What decides how the run ends: sentences for the exit codes 5, 1, 3 and 4."""
-
-    not_started: list[str] = field(default_factory=list)
-    wrong: list[str] = field(default_factory=list)
-    slower: list[str] = field(default_factory=list)
-    inconclusive: list[str] = field(default_factory=list)
-
-    @property
-    def exit_code(self) -> Exit:
-        """The first that applies of NOT_STARTED, WRONG, SLOWER and INCONCLUSIVE; else HELD."""
-        reasons = {
-            Exit.NOT_STARTED: self.not_started,
-            Exit.WRONG: self.wrong,
-            Exit.SLOWER: self.slower,
-            Exit.INCONCLUSIVE: self.inconclusive,
-        }
-        return first_that_applies(code for code, found in reasons.items() if found)
 
 
 @dataclass(frozen=True)
@@ -73,7 +52,7 @@ class _Run:
 
     plan: BenchPlan
     recorder: Recorder
-    outcome: BenchOutcome
+    outcome: RunOutcome
     found: dict[str, Contender]
     answers: list[MethodAnswers] = field(default_factory=list)
     baseline: Baseline | None = None
@@ -95,7 +74,7 @@ class _Run:
         return any(each.kind == "bounding" for each in self.found.values())
 
 
-def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequence[Stage]:
+def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
     if plan.kernel:
         return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
@@ -105,7 +84,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
-    plan = met(prepared(plan, recorder), recorder, outcome.not_started)
+    plan = met(prepared(plan, recorder), recorder, outcome.because[Exit.NOT_STARTED])
     if before is not None:
         plan = replace(plan, foreign=alike(before, plan.foreign))
     run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
@@ -125,20 +104,22 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Sequen
     )
 
 
-def _forest(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome) -> Stage:
+def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
         for line in recorder.lines:
             if isinstance(line, Forest) and line.exact and line.wrong:
-                outcome.wrong.append(f"{line.method} promises to be exact and is not, among {line.trees:,} trees")
+                outcome.because[Exit.WRONG].append(
+                    f"{line.method} promises to be exact and is not, among {line.trees:,} trees"
+                )
 
     sizes = forest.sizes(plan)
     return Stage("forest", len(sizes), measure)
 
 
-def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: BenchOutcome) -> Stage:
+def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
-        outcome.wrong.extend(scenes.run(plans, recorder, advance, plan.folder, quick=plan.quick))
+        outcome.because[Exit.WRONG].extend(scenes.run(plans, recorder, advance, plan.folder, quick=plan.quick))
         if plan.scenes and not any(isinstance(line, Scene) for line in recorder.lines):
             reasons = [line.reason for line in recorder.lines if isinstance(line, Absent)]
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
@@ -147,12 +128,12 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
     return Stage("scenes", len(plans), measure)
 
 
-def _kernel(plan: BenchPlan, recorder: Recorder, outcome: BenchOutcome, advance: Advance) -> None:
+def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
     kernel.run(recorder, advance, plan.quick)
     for line in recorder.lines:
         if isinstance(line, Kernel) and not line.met:
             low, high = line.ci95 or (line.measured, line.measured)
-            reasons = outcome.inconclusive if low <= line.wanted <= high else outcome.slower
+            reasons = outcome.because[Exit.INCONCLUSIVE] if low <= line.wanted <= high else outcome.because[Exit.SLOWER]
             reasons.append(f"{line.name}: {line.says}")
 
 
@@ -196,13 +177,13 @@ def _judge(run: _Run, advance: Advance) -> None:
     for each in run.answers:
         if each.trouble:
             run.recorder.add(Refused(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
-            run.outcome.wrong.append(f"{each.method}: {each.trouble}")
+            run.outcome.because[Exit.WRONG].append(f"{each.method}: {each.trouble}")
         if not len(each.places):
             continue
         line = accuracy.line(run.found[each.method], each, truths[each.workload])
         run.recorder.add(line)
         if run.found[each.method].exact and (line.wrong or line.abstained):
-            run.outcome.wrong.append(f"{each.method} promises to be exact and is not, on {each.workload}")
+            run.outcome.because[Exit.WRONG].append(f"{each.method} promises to be exact and is not, on {each.workload}")
 
 
 def _map(run: _Run, advance: Advance) -> None:
@@ -234,7 +215,7 @@ def _measure(run: _Run, advance: Advance) -> None:
         run.recorder.add(line)
         run.speeds.append(line)
         if isinstance(line, Refused):
-            run.outcome.wrong.append(f"{line.method}: {line.reason}")
+            run.outcome.because[Exit.WRONG].append(f"{line.method}: {line.reason}")
     for claim in costs.lines(run.plan, found):
         run.recorder.add(claim)
 
@@ -247,11 +228,13 @@ def _compare(run: _Run, advance: Advance) -> None:
             compared |= line.gates
             where = f"{line.method} on {line.workload}, {line.mode}"
             if line.gates and line.verdict == "slower":
-                run.outcome.slower.append(f"{where}: {line.change:.2f} times as slow as the baseline")
+                run.outcome.because[Exit.SLOWER].append(f"{where}: {line.change:.2f} times as slow as the baseline")
             if line.gates and line.verdict == "inconclusive":
-                run.outcome.inconclusive.append(f"{where}: {line.change:.2f} times as slow, give or take the noise")
+                run.outcome.because[Exit.INCONCLUSIVE].append(
+                    f"{where}: {line.change:.2f} times as slow, give or take the noise"
+                )
         if not compared:
-            run.outcome.inconclusive.append("nothing that both runs timed is held to the baseline")
+            run.outcome.because[Exit.INCONCLUSIVE].append("nothing that both runs timed is held to the baseline")
         advance(1)
 
 

@@ -11,7 +11,7 @@ from hypcheck.cli.options import Number, Place, names_in
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
-from hypcheck.errors import Exit, InputError
+from hypcheck.errors import Exit, InputError, RunOutcome
 
 if TYPE_CHECKING:
     from hypcheck.record import Recorder
@@ -78,7 +78,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         scenes=options["scene"],
     )
     _refuse_replacing(options["baseline"], options["out"])
-    outcome = run.BenchOutcome()
+    outcome = RunOutcome()
     files = fingerprints(specs) if specs else None
     import_all()
     unchanged = Unchanged(files) if files is not None else None
@@ -86,7 +86,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     def parts(recorder: Recorder) -> list[Part]:
         found = [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)]
         if unchanged is not None:
-            found.append(Part("files", 0, lambda _: outcome.wrong.extend(unchanged.record_changes(recorder))))
+            found.append(
+                Part("files", 0, lambda _: outcome.because[Exit.WRONG].extend(unchanged.record_changes(recorder)))
+            )
         return found
 
     with TemporaryDirectory(prefix="hypcheck-bench-") as folder:

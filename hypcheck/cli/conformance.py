@@ -13,7 +13,7 @@ import click
 from hypcheck.cli.options import limits_of, names_in
 from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.cli.resuming import resumed
-from hypcheck.errors import Exit, InputError
+from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.visible import printable
 
 if TYPE_CHECKING:
@@ -93,7 +93,6 @@ def _run(
     from hypcheck.gate import run
     from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.known_failures import update
-    from hypcheck.gate.lines import GateOutcome
     from hypcheck.gate.ourselves import Unchanged
     from hypcheck.gate.resuming import Resumed
     from hypcheck.report.write import import_all
@@ -104,7 +103,7 @@ def _run(
     begun = Resumed() if resume is None else resumed(resume, out, plan, shown, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, state, done = GateOutcome(), begun.state, begun.done(cases)
+    outcome, state, done = RunOutcome(), begun.state, begun.done(cases)
 
     def code() -> Exit:
         return Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code

@@ -9,7 +9,7 @@ from typing import Any
 
 from hypcheck.cli.options import names_in
 from hypcheck.cli.recording import Part, record_and_report
-from hypcheck.errors import Exit, InputError
+from hypcheck.errors import Exit, InputError, RunOutcome
 
 
 def self_check(
@@ -43,7 +43,7 @@ def self_check(
         workers=workers or usable_processors(),
         tolerance=Fraction(tolerance),
     )
-    outcome = run.Outcome()
+    outcome = RunOutcome()
     record_and_report(
         out,
         run.options(plan),

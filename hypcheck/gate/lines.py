@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 
 from msgspec import UNSET
 
 from hypcheck import tally
 from hypcheck.casebook.frozen import refusals
-from hypcheck.errors import Exit
+from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
 from hypcheck.gate.conformance import Rules
 from hypcheck.gate.known_failures import no_longer_failing
 from hypcheck.gate.plan import GatePlan
@@ -29,35 +29,29 @@ def as_recorded(description: Description) -> lines.Description:
     return decoded(asdict(description), lines.Description)
 
 
-@dataclass
-class GateOutcome:
-    """What decides how a run ends: reasons for the exit codes 5 and 1, and how many cases were judged at all."""
+def outcome_of(recorded: Iterable[Line], outcome: RunOutcome) -> None:
+    """Add the reasons that the lines of a run tell, which are all that there are.
 
-    not_started: list[str] = field(default_factory=list)
-    failed: list[str] = field(default_factory=list)
-    judged: int = 0
-
-    def take(self, recorded: Iterable[Line]) -> None:
-        """Learn it from the lines of the run, which say all of it."""
-        for line in recorded:
-            if isinstance(line, Group):
-                self.judged += line.asked
-                self.failed += [f"{line.method} on {line.family}: {status}" for status in line.failing or ()]
-            elif isinstance(line, Drift):
-                self.failed.append(line.sentence)
-            elif isinstance(line, NotStarted):
-                self.not_started.append(line.trouble)
-            elif isinstance(line, Implementation):
-                if line.broke_protocol_throughout:
-                    self.not_started.append(f"{line.spec} broke the protocol throughout")
-                self.failed += line.troubles
-
-    @property
-    def exit_code(self) -> Exit:
-        """5 where an implementation could not be started or broke the protocol throughout, 1 where one failed."""
-        if self.not_started:
-            return Exit.NOT_STARTED
-        return Exit.WRONG if self.failed else Exit.HELD
+    Raises NothingJudgedError where not one case was judged, which proves nothing.
+    """
+    judged = 0
+    not_started, failed = outcome.because[Exit.NOT_STARTED], outcome.because[Exit.WRONG]
+    for line in recorded:
+        if isinstance(line, Group):
+            judged += line.asked
+            failed += [f"{line.method} on {line.family}: {status}" for status in line.failing or ()]
+        elif isinstance(line, Drift):
+            failed.append(line.sentence)
+        elif isinstance(line, NotStarted):
+            not_started.append(line.trouble)
+        elif isinstance(line, Implementation):
+            if line.broke_protocol_throughout:
+                not_started.append(f"{line.spec} broke the protocol throughout")
+            failed += line.troubles
+    if not judged and not not_started:
+        raise NothingJudgedError(
+            "no case was judged: every one lies outside the domain, or cannot be written in the declared precision"
+        )
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 from hypcheck.casebook.families import select
 from hypcheck.casebook.family import Family
 from hypcheck.casebook.fixed_sizes import families_for
-from hypcheck.errors import NothingJudgedError
+from hypcheck.errors import RunOutcome
 from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.cluster import connected
 from hypcheck.gate.conformance import Rules
 from hypcheck.gate.consistency import planned, require_all_tallied
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
-from hypcheck.gate.lines import GateOutcome, Lines, as_recorded
+from hypcheck.gate.lines import Lines, as_recorded, outcome_of
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Keeper
 from hypcheck.gate.schedule import Crew, State, Step, states, steps
@@ -46,7 +46,7 @@ def size(plan: GatePlan) -> int:
     return sum(planned(plan).values())
 
 
-def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advance, state: State | None = None) -> None:
+def run(plan: GatePlan, recorder: Recorder, outcome: RunOutcome, advance: Advance, state: State | None = None) -> None:
     """Gate the implementations of the plan; `advance` is told how many cases have been asked.
 
     Those whose lines the recorder begins with are not asked again, and the next one goes on from `state`; `advance`
@@ -66,11 +66,7 @@ def run(plan: GatePlan, recorder: Recorder, outcome: GateOutcome, advance: Advan
                 recorder.add(NotStarted(spec=spec, name=spec, trouble=str(error)))
                 advance(cases)
             state = None
-    outcome.take(recorder.lines)
-    if not outcome.judged and not outcome.not_started:
-        raise NothingJudgedError(
-            "no case was judged: every one lies outside the domain, or cannot be written in the declared precision"
-        )
+    outcome_of(recorder.lines, outcome)
 
 
 def known_failures_of(plan: GatePlan) -> tuple[KnownFailure, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import msgspec
@@ -12,7 +12,7 @@ from hypcheck import judge
 from hypcheck.bench.rounds import measure
 from hypcheck.derivation.printed import check_equations
 from hypcheck.derivation.proofs import prove_formulas
-from hypcheck.errors import Exit
+from hypcheck.errors import Exit, RunOutcome
 from hypcheck.judge import Status
 from hypcheck.methods.builtin import builtin, builtin_methods, methods_without_meshes
 from hypcheck.methods.method import Method
@@ -32,23 +32,6 @@ MESH = "mesh"
 Advance = Callable[[int], object]
 
 
-@dataclass
-class Outcome:
-    """What decides how the run ends."""
-
-    failed_proofs: list[str] = field(default_factory=list)
-    disagreements: int = 0
-    exact_methods_wrong: list[str] = field(default_factory=list)
-    drift: list[str] = field(default_factory=list)
-
-    @property
-    def exit_code(self) -> Exit:
-        """ORACLES_DISAGREE where oracles or a proof do, WRONG where an exact method erred or findings drifted."""
-        if self.failed_proofs or self.disagreements:
-            return Exit.ORACLES_DISAGREE
-        return Exit.WRONG if self.exact_methods_wrong or self.drift else Exit.HELD
-
-
 @dataclass(frozen=True)
 class Stage:
     """A part of the run: its title for the progress bar, how many steps it has, and what does them."""
@@ -58,7 +41,7 @@ class Stage:
     run: Callable[[Advance], None]
 
 
-def stages(plan: Plan, recorder: Recorder, outcome: Outcome) -> tuple[Stage, ...]:
+def stages(plan: Plan, recorder: Recorder, outcome: RunOutcome) -> tuple[Stage, ...]:
     """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
     families = chosen_families(plan)
     all_batches = batches(plan, families)
@@ -94,14 +77,14 @@ def _with_available(plan: Plan, recorder: Recorder) -> Plan:
     return replace(plan, oracles=present)
 
 
-def _derive(recorder: Recorder, outcome: Outcome, advance: Advance) -> None:
+def _derive(recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
     for equation in check_equations():
         recorder.add(lines.Equation(**asdict(equation)))
     advance(1)
     for proof in prove_formulas():
         recorder.add(lines.Proof(**asdict(proof)))
         if not proof.holds:
-            outcome.failed_proofs.append(f"{proof.formula}: {proof.statement}")
+            outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
     advance(1)
 
 
@@ -110,7 +93,7 @@ def _cross_check(
     all_batches: Sequence[Batch],
     todo: Sequence[crosscheck.Task],
     recorder: Recorder,
-    outcome: Outcome,
+    outcome: RunOutcome,
     advance: Advance,
 ) -> None:
     tallies: list[Tally] = []
@@ -119,7 +102,7 @@ def _cross_check(
             tallies.append(crosscheck.compare(task, opinions, all_batches[task.batch], seconds))
             advance(1)
     for tally in crosscheck.merged(tallies):
-        outcome.disagreements += len(tally.disagreements)
+        outcome.because[Exit.ORACLES_DISAGREE] += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
         cases = [
             lines.Disagreement(**{**asdict(case), "row": tuple(value.hex() for value in case.row)})
             for case in tally.disagreements[:20]
@@ -139,7 +122,7 @@ def _cross_check(
 
 
 def _exact_findings(
-    plan: Plan, all_batches: Sequence[Batch], recorder: Recorder, outcome: Outcome, advance: Advance
+    plan: Plan, all_batches: Sequence[Batch], recorder: Recorder, outcome: RunOutcome, advance: Advance
 ) -> None:
     found, listed = [], known.known_findings()
     for batch in all_batches:
@@ -150,7 +133,7 @@ def _exact_findings(
             advance(1)
     for sentence in known.drift(found, listed, complete=plan.complete):
         recorder.add(lines.Drift(sentence=sentence))
-        outcome.drift.append(sentence)
+        outcome.because[Exit.WRONG].append(sentence)
 
 
 def _judge(
@@ -158,7 +141,7 @@ def _judge(
     all_batches: Sequence[Batch],
     methods: Sequence[Method],
     recorder: Recorder,
-    outcome: Outcome,
+    outcome: RunOutcome,
     advance: Advance,
 ) -> None:
     for batch in (each.head(plan.judged) for each in all_batches):
@@ -168,7 +151,7 @@ def _judge(
             line = findings.group(method, batch, octaves, plan)
             recorder.add(line)
             if method.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}:
-                outcome.exact_methods_wrong.append(f"{method.name} on {batch.family.name}")
+                outcome.because[Exit.WRONG].append(f"{method.name} on {batch.family.name}")
             advance(1)
 
 

@@ -9,10 +9,10 @@ from importlib import resources
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.bench import plan, run
+from hypcheck.bench import plan
 from hypcheck.bench.plan import REFERENCE
 from hypcheck.cli.bench import bench
-from hypcheck.errors import InputError
+from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import Accuracy, Method, Noise, Speed, Workload
@@ -118,8 +118,8 @@ def test_what_does_not_exist_is_refused_and_nothing_is_written(tmp_path, options
 
 
 def test_reasons_to_end_have_an_order():
-    outcome = run.BenchOutcome()
-    for code, found in ((4, outcome.inconclusive), (3, outcome.slower), (1, outcome.wrong), (5, outcome.not_started)):
-        found.append("a reason")
+    outcome = RunOutcome()
+    for code in (4, 3, 1, 5, 6):
+        outcome.because[Exit(code)].append("a reason")
         assert outcome.exit_code == code
-    assert run.BenchOutcome().exit_code == 0
+    assert RunOutcome().exit_code == 0

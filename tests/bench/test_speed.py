@@ -13,6 +13,7 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.rounds import Samples
 from hypcheck.bench.session import AGAIN, Measured
+from hypcheck.errors import Exit, RunOutcome
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
 from hypcheck.record.measurements import Speed, Unmeasured
@@ -64,12 +65,12 @@ def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_
     after = list(lines(parts("fast-numpy", [-1.0, 0.2], [3.0, 3.1])))
     plan = BenchPlan(methods=("fast-numpy",), baseline=tmp_path)
     for now, inconclusive in ((before, 0), (after, 1)):
-        outcome = run.BenchOutcome()
+        outcome = RunOutcome()
         recorder = Recorder(io.StringIO(), plan.options)
         state = run._Run(plan, recorder, outcome, contenders(plan), baseline=speeds_of(before), speeds=now)
         run._compare(state, lambda steps: None)
-        assert len(outcome.inconclusive) == inconclusive
-        assert outcome.slower == []
+        assert len(outcome.because[Exit.INCONCLUSIVE]) == inconclusive
+        assert outcome.because[Exit.SLOWER] == []
 
 
 def test_a_baseline_of_an_earlier_version_is_not_compared_where_its_times_were_lost():

@@ -16,7 +16,7 @@ import click
 
 from hypcheck.cli.main import main as hypcheck
 from hypcheck.cli.whole import Whole
-from hypcheck.gate.lines import GateOutcome
+from hypcheck.errors import RunOutcome
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.retest import PARTS
 from hypcheck.gate.run import run, size
@@ -100,7 +100,7 @@ def _timed(spec: str, count: int, workers: int | None) -> Pace:
     marks: list[tuple[float, int]] = []
     plan = GatePlan((spec,), families=(FAMILY,), count=count, workers=workers)
     begun = time.perf_counter()
-    run(plan, Recorder(io.StringIO(), {}), GateOutcome(), lambda rows: marks.append((time.perf_counter(), rows)))
+    run(plan, Recorder(io.StringIO(), {}), RunOutcome(), lambda rows: marks.append((time.perf_counter(), rows)))
     asking = plan.crew(size(plan)) or 1
     first = 1 if asking == 1 else 2 * asking
     behind = sum(rows for _, rows in marks[first + 1 :])

@@ -13,6 +13,7 @@ from hypcheck.bench.rounds import measure
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.derivation.printed import EquationCheck
 from hypcheck.derivation.proofs import Proof
+from hypcheck.errors import RunOutcome
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
 from hypcheck.record import Recorder, measurements, plain, read
 from hypcheck.record.fields import as_json
@@ -104,7 +105,7 @@ def really_recorded():
     """A small run of the oracles, the formulas, the methods and the map, without the slow derivation and timing."""
     plan = Plan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
     stream = io.StringIO()
-    recorder, outcome = Recorder(stream, run.options(plan)), run.Outcome()
+    recorder, outcome = Recorder(stream, run.options(plan)), RunOutcome()
     for stage in run.stages(plan, recorder, outcome):
         if stage.title not in ("derivation", "timing"):
             stage.run(lambda steps: None)
