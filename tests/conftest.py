@@ -27,28 +27,31 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 gc.disable()
 
 SLOW = {
-    "": "settings wheel",
-    "bench": "foreign kernel_targets plan_measure run scenes",
-    "cases": "labels reading",
+    "": "reference_bench settings wheel",
+    "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
+    "casebook": "razor",
+    "cases": "cli files labels reading",
     "classify": "blocks processes tables",
     "cli": "exits leaving startup",
+    "derivation": "formulas proofs rounding",
     "emission": "extremes foreign_text gated kernels limits scenes text",
     "fuzz": "fuzz",
-    "gate": "again cluster cluster_interrupted cluster_refused cluster_versions extremes gate interrupted "
-    "local_cluster reports resume resume_refused schedule workers",
+    "gate": "cluster cluster_interrupted cluster_refused cluster_versions extremes gate interrupted "
+    "local_cluster reports resume resume_refused retest schedule unchanged workers",
     "hunt": "cli minimise search",
     "kernel": "attack header parallel_lines printing_languages sanitizers",
-    "methods": "commands functions libraries processes",
+    "methods": "commands fcl_naive functions libraries processes",
     "mutants": "mutants",
-    "paper": "ledger_formats motion simulate_cli tower",
+    "paper": "ledger_cli ledger_formats ledger_search motion simulate_cli tower",
+    "record": "integrity",
     "replay": "replay",
-    "report": "browser cli_report page scene_map simulation_pictures svg write",
+    "report": "browser cli_report github hostile junit markdown page plots scene_map simulation_pictures svg write",
     "scaffold": "adapters requirement shared",
     "soak": "soak",
     "truth": "mesh motion nearest nearest_bounds roots_table",
     "verify": "interrupted run",
 }
-"""Modules, by folder, that take more than three seconds or wait for much: `make check` leaves them out."""
+"""Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 
 
 def pytest_collection_modifyitems(items):

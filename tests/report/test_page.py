@@ -15,6 +15,8 @@ from msgspec import structs
 from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import Settings
+from hypcheck.report import markdown
+from hypcheck.report.content import failed
 from hypcheck.report.content.blocks import LONGEST
 from hypcheck.report.html import page
 from hypcheck.report.plots.table import PLOTS, draw
@@ -146,6 +148,18 @@ def test_what_failed_stands_before_what_holds(no_plots):
     assert text.index("verdict failed") < text.index("What failed") < text.rindex("The oracles")
     assert "verdict held" in page.render(samples.record()).decode("utf-8")
     assert "TRUNCATED" in page.render(samples.record(exit_code=None)).decode("utf-8")
+
+
+def test_failures_beyond_the_length_of_the_table_or_of_the_list_are_counted(no_plots, monkeypatch):
+    monkeypatch.setattr(failed, "IN_TABLE", 3)
+    monkeypatch.setattr(failed, "LISTED", 2)
+    proof = {"type": "proof", "formula": "f", "holds": False, "statement": "x"}
+    record = samples.record([{**proof, "quantity": f"quantity-{number}"} for number in range(9)], exit_code=6)
+    text = page.render(record).decode("utf-8")
+    assert "… and 6 more failures; <code>junit.xml</code> and <code>summary.json</code> list them all." in text
+    assert "quantity-2" in text
+    assert "quantity-3" not in text
+    assert "… and 7 more failures; `junit.xml` and `summary.json` list them all." in markdown.render(record).decode()
 
 
 def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_plots):
