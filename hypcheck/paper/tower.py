@@ -11,7 +11,7 @@ from hypcheck.paper import tower_table
 from hypcheck.paper.flights_craft import Craft, craft_of
 from hypcheck.paper.flights_start import require_valid_start
 from hypcheck.paper.tower_paths import paths
-from hypcheck.paper.tower_table import STATEMENT, Advance, Block
+from hypcheck.paper.tower_table import Advance, Block
 from hypcheck.scene.model import Flight, Scene
 from hypcheck.version import VERSION
 
@@ -84,7 +84,7 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
         "schema": SCHEMA,
         "simulation": "tower",
         "seed": plan.seed,
-        "statement": STATEMENT,
+        "statement": tower_table.statement(craft),
         "assumptions": _assumptions(plan.scene, craft, flight),
         "flights": {
             "speed": plan.speed,
@@ -93,7 +93,7 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
             "paths": tracks,
             "ways": asdict(ways) if plan.continuous else None,
         },
-        "table_5": tower_table.as_json(cells, plan.runs) if cells else None,
+        "table_5": tower_table.as_json(cells, plan.runs, tower_table.statement(craft)) if cells else None,
     }
 
 

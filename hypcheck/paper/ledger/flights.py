@@ -121,8 +121,8 @@ def _shares() -> tuple[Entry, ...]:
             "4",
             "less than 14 % of executions in all cases",
             PROVED,
-            f"true of the printed figures, the greatest of which is {most}; in ours, with l = 0.135, the same cell has "
-            "14.06 ± 0.08, and with rotors apart (0.1414 ≤ l ≤ 0.15) from 13.36 to 12.64",
+            f"true of the printed figures, the greatest of which is {most}; the greatest of ours is 14.06 ± 0.05 "
+            "(v = 6) with l = 0.135, where rotors overlap, and with rotors apart, 0.1414 ≤ l ≤ 0.15, 13.66 to 13.09",
             "“extremely low” has no measure; for Procedure 2.b it means about one question in seven that "
             "asks the rotors",
             lambda: (Evidence("count", f"{most} < 14", most < 14),),
