@@ -21,6 +21,7 @@ from hypcheck.cli.main import main
 from hypcheck.gate import progress
 from hypcheck.gate.resuming import finished_part
 from hypcheck.record import read
+from hypcheck.record.fields import as_json
 from hypcheck.record.lines import Progress
 from hypcheck.record.reader import FILE
 from tests.gate.interrupted import (
@@ -92,7 +93,7 @@ def interrupted(out, whole, dice, number, *more):
     assert "Traceback" not in said or number == signal.SIGINT  # Python itself may still be starting
     if process.returncode > CODE and (out / FILE).exists():
         record = read(out / FILE)
-        goes_on = f"the same command {f'with --resume {out} goes on' if record.of('progress') else ''}"
+        goes_on = f"the same command {f'with --resume {out} goes on' if record.of(Progress) else ''}"
         assert (f"hypcheck report {out} --out {out} makes its reports" if record.footer else goes_on) in said
 
 
@@ -154,9 +155,9 @@ def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused
     path = tmp_path / FILE
     path.write_bytes(paused)
     kept = read(path).lines[-1]
-    assert kept["number"] == 1
-    assert kept["state"]["done"] > 0
-    assert violations(kept, RECORD["$defs"]["progress"], RECORD, closed=True) == []
+    assert kept.number == 1
+    assert kept.state["done"] > 0
+    assert violations(as_json(kept), RECORD, closed=True) == []
     assert here(tmp_path, "--resume", str(path))[0] == CODE
     assert came_to(tmp_path) == whole[0]
 
@@ -206,8 +207,8 @@ def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_
         record = read(path)
         carried, kept = finished_part(record)
     whole_second = len(record.lines) - len(record.of(Progress)) >= 6 and form[-1].get("finished", True)
-    assert list(carried) == [*groups, first, *(second if whole_second else [])]
-    assert kept == (progress if record.of(Progress) and not whole_second else None)
+    assert [as_json(line) for line in carried] == [*groups, first, *(second if whole_second else [])]
+    assert (kept and as_json(kept)) == (progress if record.of(Progress) and not whole_second else None)
 
 
 @pytest.mark.parametrize("most", [3000, 12000])
