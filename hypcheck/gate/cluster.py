@@ -9,19 +9,22 @@ import asyncio
 import logging
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from concurrent import futures
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from threading import Thread
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.gate.ourselves import own_sha256
-from hypcheck.gate.patience import within
 from hypcheck.processes import interrupts_held
 from hypcheck.version import VERSION
 
 if TYPE_CHECKING:
     from distributed import Client
     from distributed.security import Security
+
+Result = TypeVar("Result")
 
 LOCAL = re.compile(r"local:([1-9]\d{0,3})")
 """`local:N`: a scheduler here, with N workers."""
@@ -45,6 +48,28 @@ def check_address(address: str) -> None:
     if not LOCAL.fullmatch(address) and not (named and int(named["port"]) < 1 << 16):
         right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
         raise InputError(f"--cluster is {address!r}; it must be {right}")
+
+
+def within(seconds: int, call: Callable[[], Result]) -> Result:
+    """What a call returns. Raises what it raises, or TimeoutError, and then leaves it to itself.
+
+    A call may never return where the scheduler is there, as the system sees it, but does nothing any more. Seconds in
+    which this process stood still do not count.
+    """
+    future: futures.Future[Result] = futures.Future()
+
+    def perform() -> None:
+        try:
+            future.set_result(call())
+        except BaseException as error:  # noqa: BLE001 - it is raised where it is waited for
+            future.set_exception(error)
+
+    Thread(target=perform, name="hypcheck-call", daemon=True).start()
+    for _ in range(seconds):
+        futures.wait([future], timeout=1)
+        if future.done():
+            return future.result()
+    raise TimeoutError(f"it took longer than {seconds} s")
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hypcheck.errors import InputError
 from hypcheck.gate.cluster import check_address
-from hypcheck.gate.work import Opening
+from hypcheck.gate.tasks import Opening
 from hypcheck.judge import DEFAULT_TOLERANCE
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.limits import Limits
@@ -59,7 +59,7 @@ class GatePlan:
             if self.workers is not None:
                 raise InputError("--workers is for a run on this machine; a cluster has workers of its own")
 
-    def crew(self, cases: int) -> int | None:
+    def processes(self, cases: int) -> int | None:
         """How many processes of our own ask so many cases; None: none but this one, which takes no time to begin."""
         return self.workers or (usable_processors() if cases >= LARGE else None)
 

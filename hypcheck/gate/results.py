@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from hypcheck import tally
 from hypcheck.gate.chunks import Chunk
 from hypcheck.methods.faults import Outcome
-from hypcheck.methods.runs import Allowance
 from hypcheck.tally import Tally
 
 
@@ -78,31 +77,3 @@ def merged(results: Iterable[Result]) -> Result:
         excusing=frozenset().union(*(part.excusing for part in parts)),
         named=frozenset().union(*(part.named for part in parts)),
     )
-
-
-@dataclass(frozen=True)
-class Performed:
-    """A result, the allowance with which it was come to, and what was left of that."""
-
-    result: Result
-    granted: Allowance
-    left: Allowance
-
-    def fits(self, actual: Allowance) -> bool:
-        """Whether it would have come out the same with the `actual` allowance, which is not larger."""
-        if self.granted == actual:
-            return True
-        if actual.over or self.left.over or (actual.hangs is not None and actual.hangs != self.granted.hangs):
-            return False
-        spent = self._spent
-        return spent.restarts <= actual.restarts and spent.faults < actual.faults
-
-    def after(self, actual: Allowance) -> Allowance:
-        """What is left of the `actual` allowance behind it."""
-        spent = self._spent
-        hangs = None if actual.hangs is None else self.left.hangs
-        return Allowance(actual.restarts - spent.restarts, actual.faults - spent.faults, self.left.over, hangs)
-
-    @property
-    def _spent(self) -> Allowance:
-        return Allowance(self.granted.restarts - self.left.restarts, self.granted.faults - self.left.faults)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, nullcontext, suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import TYPE_CHECKING
 
 from hypcheck.casebook.families import select
@@ -14,13 +14,13 @@ from hypcheck.gate.chunks import Chunk, chunks, found_by_search
 from hypcheck.gate.cluster import connected
 from hypcheck.gate.conformance import Rules
 from hypcheck.gate.consistency import planned, require_all_tallied
+from hypcheck.gate.executors import keep_memory, pool, serial
 from hypcheck.gate.known_failures import KnownFailure, read_known_failures
 from hypcheck.gate.lines import Lines, as_recorded, outcome_of
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Keeper
-from hypcheck.gate.schedule import Crew, State, Step, states, steps
-from hypcheck.gate.work import Opening
-from hypcheck.gate.workers import Here, Workers, keep_memory
+from hypcheck.gate.schedule import Performing, State, Step, states, steps
+from hypcheck.gate.tasks import Opening
 from hypcheck.judge import Criterion
 from hypcheck.methods.description import Description
 from hypcheck.methods.domain import Domain
@@ -110,10 +110,9 @@ def _gate(
     lines = Lines(plan, opening.spec, implementation.declared, used, rules)
     state = begun = begun or State(implementation.allowance)
     asked = steps_of(plan, used)
-    with ExitStack() as stack:
-        crew = _crew(stack, implementation, opening, plan, rules, client)
+    with _performing(implementation, opening, plan, rules, client) as performing:
         try:
-            for step, after in states(asked, crew, begun):
+            for step, after in states(asked, performing, begun):
                 state = after
                 advance(_cases_of(step))
                 keeper.offer(state)
@@ -132,21 +131,16 @@ def _cases_of(step: Step) -> int:
     return len(step) if isinstance(step, Chunk) else 0
 
 
-def _crew(
-    stack: ExitStack,
-    implementation: Implementation,
-    opening: Opening,
-    plan: GatePlan,
-    rules: Rules,
-    client: Client | None,
-) -> Crew:
-    """Who asks: this process; for large runs others, or a cluster: then the implementation here has done its part."""
-    count = plan.crew(size(plan))
+def _performing(
+    implementation: Implementation, opening: Opening, plan: GatePlan, rules: Rules, client: Client | None
+) -> AbstractContextManager[Performing]:
+    """What performs the tasks: this process; for large runs others, or a cluster: then nothing is asked here."""
+    count = plan.processes(size(plan))
     if client is None and count is None:
-        return Here(implementation, rules)
+        return serial(implementation, rules)
     implementation.close()
     if count is not None and client is None:
-        return stack.enter_context(Workers(count, opening, rules, implementation))
-    from hypcheck.gate.afar import Afar  # noqa: PLC0415 - loads dask.distributed, which no other run needs
+        return pool(count, opening, rules, implementation)
+    from hypcheck.gate.dask_executor import on_cluster  # noqa: PLC0415 - loads dask.distributed, which no other run needs
 
-    return stack.enter_context(Afar(client, opening, rules, implementation))
+    return on_cluster(client, opening, rules, implementation)

@@ -1,30 +1,44 @@
-"""The steps of a run in their order, whoever performs them and whenever: chunks, asking again, the invalid rows.
+"""The steps of a run: chunks, retests, the invalid rows. An executor performs them, and results are merged in order.
 
-Steps may be performed ahead of their turn and at the same time; their results are put together in order. What one may
-cost depends on what those before it have cost, so that a step performed ahead of its turn is done anew where it turns
-out that less was left for it than it was granted. The state after each step is therefore the same for any crew.
+Every task begins with all that the limits allow, and its result says what it spent. What tasks have spent together is
+decided when their results are merged, in the order of the steps: the step in which the limits run out is the last
+counted, and the implementation is not asked what lies behind it. So the state after each step is the same for any
+executor and any number of workers.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass, field, replace
 from itertools import islice, takewhile
-from typing import Protocol
 
+from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.chunks import SIZE, Chunk
-from hypcheck.gate.conformance import Invalid
-from hypcheck.gate.results import Open, Performed, Result, merged
+from hypcheck.gate.conformance import Invalid, Rules
+from hypcheck.gate.results import Open, Result, merged
 from hypcheck.gate.retest import RetestTask
-from hypcheck.gate.work import Task
+from hypcheck.gate.tasks import Task, TaskResult, perform
+from hypcheck.methods.implementation import Crashed
 from hypcheck.methods.runs import Allowance
 
 ROUND = 64 * SIZE
 """Rows after which their open cases are asked again, so that no more than so many are ever kept.
 
-Whoever asks them again holds them all at once; twice as many would cost each process some 8 MB more.
+A retest holds them all at once; twice as many would cost each process some 8 MB more.
 """
+
+AHEAD = 32
+"""Steps for each worker whose results may wait to be merged, so that no worker is idle during a retest."""
+
+IN_HAND = 2
+"""Tasks for each worker that its executor holds: one that it performs, and the next. The others wait here in order."""
+
+DEATHS = 3
+"""Workers that one task may cost, and that may end one after the other before they are ready."""
+
+_TICK = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,13 +59,10 @@ class Again:
 
 Step = Chunk | Again | Invalid
 
-_LATER = 0
-"""The number of a step that was not submitted yet; those of a crew begin with 1."""
-
 
 @dataclass(frozen=True)
 class State:
-    """A run so far: how many steps it has done, what came of them, and what the implementation may still cost.
+    """A run so far: how many steps are done, their merged result, and what the implementation may still spend.
 
     From a state and the same steps the run goes on as if it had never paused.
     """
@@ -60,26 +71,52 @@ class State:
     done: int = 0
     total: Result = field(default_factory=Result)
 
-    def after(self, step: Step, performed: Performed) -> State:
-        """The state after one more step."""
+    def after(self, step: Step, done: TaskResult, limits: Allowance) -> State:
+        """The state after one more step, whose task began with all of the limits."""
         before = self.total
         if isinstance(step, Again):
             before = replace(before, open=tuple(each for each in before.open if each.chunk.part != step.part))
-        return State(performed.after(self.left), self.done + 1, merged([before, performed.result]))
+        return State(self.left.after(done.left, limits), self.done + 1, merged([before, done.result]))
 
 
-class Crew(Protocol):
-    """Who performs tasks, some `ahead` at a time."""
+class WorkerLost(Exception):  # noqa: N818 - it is an event, which costs the run nothing
+    """A worker ended while it performed a task: what every executor raises for it.
 
-    ahead: int
+    The text names the workers, and `last` says how the last one ended. The task has cost `deaths` of them; 0 where the
+    worker ended before it was ready, which is no task's fault.
+    """
 
-    def submit(self, task: Task, allowance: Allowance, *, first: bool = False) -> int:
-        """Put a task in line, before those that are not if it is `first`; a number to ask for its result with."""
-        ...
+    def __init__(self, workers: str, last: str = "", deaths: int = 1) -> None:
+        super().__init__(workers, last, deaths)
+        self.workers = workers
+        self.last = last
+        self.deaths = deaths
 
-    def result(self, number: int) -> Performed:
-        """Wait for a task's result."""
-        ...
+
+class LostError(HypcheckError):
+    """Workers ended, one after the other, before they were ready, or are not of this program."""
+
+    exit_code = Exit.INTERNAL
+
+
+@dataclass(frozen=True)
+class Performing:
+    """An executor, and what it needs to perform tasks.
+
+    It calls `function` with a `task` and its `allowance`, in `workers` processes; 0 where it is this one.
+    `limits` are what one task may spend. `most` and `rules` make the result of a task that no worker survives.
+    """
+
+    executor: Executor
+    function: Callable[..., TaskResult]
+    workers: int
+    limits: Allowance
+    most: int | None
+    rules: Rules
+
+    def crashed(self, task: Task, allowance: Allowance, reason: str) -> TaskResult:
+        """The result of a task all of whose cases crash."""
+        return perform(task, Crashed(self.most, reason, allowance), self.rules, allowance)
 
 
 def steps(chunks: Iterable[Chunk], *, refuses: bool) -> Iterator[Step]:
@@ -102,30 +139,119 @@ def _round(number: int, parts: set[int]) -> Iterator[Again]:
     return (Again(number, part) for part in (1, 2, 0) if part in parts)
 
 
-def states(some: Iterable[Step], crew: Crew, state: State) -> Iterator[tuple[Step, State]]:
-    """Perform the steps behind those that are done; each with the state after it."""
-    coming = islice(some, state.done, None)
-    line: deque[tuple[Step, int]] = deque()
-    while True:
-        while len(line) < crew.ahead and (step := next(coming, None)) is not None:
-            line.append((step, _LATER if isinstance(step, Again) else crew.submit(step, state.left)))
-        if not line:
-            return
-        if line[0][1] == _LATER:
-            _begin_round(line, crew, state)
-        step, number = line.popleft()
-        performed = crew.result(number)
-        if not performed.fits(state.left):
-            performed = crew.result(crew.submit(_task(step, state), state.left, first=True))
-        state = state.after(step, performed)
+def states(some: Iterable[Step], performing: Performing, state: State) -> Iterator[tuple[Step, State]]:
+    """Perform the steps behind those that are done; each with the state after it.
+
+    Raises LostError where workers end before they are ready, and whatever a task raises.
+    """
+    line = _Line(islice(some, state.done, None), performing)
+    while line.fill(state):
+        if (found := line.take()) is None:
+            line.wait()
+            continue
+        step, done = found
+        stopped = state.left.over
+        state = state.after(step, done, performing.limits)
+        if state.left.over and not stopped:
+            line.drop()
         yield step, state
 
 
-def _begin_round(line: deque[tuple[Step, int]], crew: Crew, state: State) -> None:
-    """Submit the parts of a round, with which the line begins: only now all of its cases are there."""
-    for place, (step, _) in enumerate(takewhile(lambda each: each[1] == _LATER, tuple(line))):
-        line[place] = step, crew.submit(_task(step, state), state.left, first=True)
+@dataclass
+class _Entry:
+    """A step whose result is not merged yet. `deaths` are the workers that it has cost, which makes it a suspect."""
+
+    step: Step
+    task: Task | None = None
+    future: Future[TaskResult] | None = None
+    deaths: int = 0
+    alone: bool = False
 
 
-def _task(step: Step, state: State) -> Task:
-    return step.of(state.total.open) if isinstance(step, Again) else step
+class _Line:
+    """The steps that are next, in order. Decides which tasks are submitted, and what becomes of those that are lost.
+
+    A task whose worker ended is a suspect, and performed alone, so that none is blamed for another. One that has cost
+    DEATHS workers, the last of them alone, is given up: its cases crash.
+    """
+
+    def __init__(self, coming: Iterator[Step], performing: Performing) -> None:
+        self._coming = coming
+        self._performing = performing
+        self._entries: deque[_Entry] = deque()
+        self._unready = 0
+
+    def take(self) -> tuple[Step, TaskResult] | None:
+        """The next step with its result; None where that is not there yet. Raises what the task raised."""
+        future = self._entries[0].future
+        if future is None or not future.done() or isinstance(future.exception(), WorkerLost):
+            return None
+        return self._entries.popleft().step, future.result()
+
+    def wait(self) -> None:
+        """Wait until something has come of a task that was submitted."""
+        wait(self._running, _TICK, FIRST_COMPLETED)
+
+    def drop(self) -> None:
+        """Forget what was submitted: the implementation is to be asked no more."""
+        for entry in self._entries:
+            if entry.future is not None:
+                entry.future.cancel()
+            entry.future, entry.deaths = None, 0
+
+    def fill(self, state: State) -> bool:
+        """Submit the earliest tasks that can be; whether there are steps left behind this state.
+
+        Where one is suspected, it is submitted alone, when no other is running.
+        """
+        allowance = replace(self._performing.limits, over=state.left.over, hangs=state.left.hangs)
+        self._settle(allowance)
+        one_by_one = not self._performing.workers or state.left.hangs is not None  # hangs are counted in order
+        ahead, most = (1, 1) if one_by_one else (self._performing.workers * each for each in (AHEAD, IN_HAND))
+        self._look_ahead(ahead, state)
+        suspects = [entry for entry in self._entries if entry.deaths]
+        running = len(self._running)
+        for entry in suspects[:1] or self._entries:
+            if entry.future is None and entry.task is not None and running < (1 if suspects else most):
+                executor, function = self._performing.executor, self._performing.function
+                entry.future = executor.submit(function, task=entry.task, allowance=allowance)
+                entry.alone = bool(suspects)
+                running += 1
+        return bool(self._entries)
+
+    def _look_ahead(self, steps: int, state: State) -> None:
+        while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
+            self._entries.append(_Entry(step, None if isinstance(step, Again) else step))
+        for entry in takewhile(lambda each: isinstance(each.step, Again), self._entries):
+            if isinstance(entry.step, Again) and entry.task is None:  # only now all of its cases are there
+                entry.task = entry.step.of(state.total.open)
+
+    @property
+    def _running(self) -> list[Future[TaskResult]]:
+        futures = (entry.future for entry in self._entries)
+        return [future for future in futures if future is not None and not future.done()]
+
+    def _settle(self, allowance: Allowance) -> None:
+        """See which tasks were lost, and which suspects are cleared."""
+        for entry in self._entries:
+            if entry.future is not None and entry.future.done():
+                lost = entry.future.exception()
+                if isinstance(lost, WorkerLost):
+                    self._retry(entry, lost, allowance)
+                else:
+                    entry.deaths = self._unready = 0
+
+    def _retry(self, entry: _Entry, lost: WorkerLost, allowance: Allowance) -> None:
+        entry.future = None
+        if not lost.deaths:
+            self._unready += 1
+            if self._unready == DEATHS:
+                raise LostError(f"{DEATHS} {lost.workers} ended before they had asked anything, {lost.last}")
+            return
+        entry.deaths += lost.deaths
+        if entry.alone and entry.deaths >= DEATHS and entry.task is not None:
+            last = f", {lost.last}" if lost.last else ""
+            reason = f"{entry.deaths} {lost.workers} ended while they asked these cases{last}"
+            entry.future = Future()
+            entry.future.set_result(self._performing.crashed(entry.task, allowance, reason))
+            entry.deaths = 0

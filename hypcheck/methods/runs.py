@@ -23,13 +23,29 @@ class Allowance:
 
     `restarts` after rows that ended its process; `faults`, rows that ended in one without ending the process. `over`
     says why it is asked no more already; empty while it is. `hangs` are questions that it may still leave without an
-    answer; None once it has answered one, from when on restarts alone count.
+    answer; None once it has answered one, from when on restarts alone count. `last` is the reason of the last row that
+    was charged.
     """
 
     restarts: int
     faults: int
     over: str = ""
     hangs: int | None = HANGS
+    last: str = ""
+
+    def after(self, task: Allowance, limits: Allowance) -> Allowance:
+        """What is left for the run once a task is counted that began with all of the `limits` and left `task`.
+
+        Where tasks have spent more than the limits together, the one that exceeds them is the last that counts.
+        """
+        restarts = self.restarts - (limits.restarts - task.restarts)
+        faults = self.faults - (limits.faults - task.faults)
+        over = self.over or task.over
+        if not over and restarts < 0:
+            over = f"not asked: {_used_up(limits.restarts)}; the last row at fault: {task.last}"
+        if not over and faults < 1:
+            over = f"not asked: {limits.faults - faults:,} rows before were at fault; the last: {task.last}"
+        return Allowance(max(0, restarts), max(0, faults), over, None if self.hangs is None else task.hangs)
 
 
 class Runs:
@@ -101,11 +117,11 @@ class Runs:
     def charge(self, fault: FaultError, reason: str) -> None:
         """Take note of a row that was found to be at fault."""
         if fault.fatal and self.left.restarts:
-            self.left = replace(self.left, restarts=self.left.restarts - 1)
+            self.left = replace(self.left, restarts=self.left.restarts - 1, last=reason)
         elif fault.fatal:
             self._end(f"not asked: {_used_up(self._most.restarts)}; the last process: {reason}")
         elif self.left.faults > 1:
-            self.left = replace(self.left, faults=self.left.faults - 1)
+            self.left = replace(self.left, faults=self.left.faults - 1, last=reason)
         else:
             were = "row before was" if self._most.faults == 1 else "rows before were"
             self._end(f"not asked: {self._most.faults:,} {were} at fault; the last: {reason}")

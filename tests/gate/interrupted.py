@@ -29,10 +29,10 @@ def in_small_steps(put):
 
 def with_little_patience(put):
     """Let it be soon lost when a scheduler is silent."""
-    from hypcheck.gate import afar
+    from hypcheck.gate import dask_executor
 
-    put(afar, "CONNECT", 1)
-    put(afar, "SILENCES", 2)
+    put(dask_executor, "CONNECT", 1)
+    put(dask_executor, "SILENCES", 2)
 
 
 def words(out, *more):

@@ -7,10 +7,10 @@ from fractions import Fraction
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.gate import chunks
 from hypcheck.gate.conformance import Rules
+from hypcheck.gate.executors import serial
 from hypcheck.gate.saved import saved_result
 from hypcheck.gate.schedule import State, states, steps
-from hypcheck.gate.work import Opening
-from hypcheck.gate.workers import Here
+from hypcheck.gate.tasks import Opening
 from hypcheck.judge import Criterion
 from hypcheck.methods.limits import Limits
 
@@ -31,8 +31,8 @@ def rules_of(it):
 
 def here(opening, some):
     """The last state of steps performed in this process."""
-    with opening.open() as it:
-        *_, (_, state) = states(some, Here(it, rules_of(it)), State(it.allowance))
+    with opening.open() as it, serial(it, rules_of(it)) as performing:
+        *_, (_, state) = states(some, performing, State(it.allowance))
         return state
 
 

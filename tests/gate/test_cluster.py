@@ -12,15 +12,15 @@ from hypcheck.errors import InputError
 from hypcheck.gate import chunks, schedule
 from hypcheck.gate.saved import saved
 from hypcheck.gate.schedule import State, states
-from hypcheck.gate.work import Opening
+from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits
 from tests.gate.clusters import Cluster
 from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 
 pytest.importorskip("distributed")
 
-from hypcheck.gate.afar import Afar
 from hypcheck.gate.cluster import connected
+from hypcheck.gate.dask_executor import on_cluster
 
 
 @pytest.fixture(scope="module")
@@ -45,13 +45,13 @@ def small(monkeypatch):
     monkeypatch.setattr(schedule, "ROUND", 3000)
 
 
-def there(client, opening, some, after=lambda crew, number: None):
+def there(client, opening, some, after=lambda number: None):
     """The last state; `after` is called behind each step."""
-    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+    with opening.open() as it, on_cluster(client, opening, rules_of(it), it) as performing:
         it.close()
         passed = []
-        for _, state in states(some, crew, State(it.allowance)):
-            after(crew, len(passed))
+        for _, state in states(some, performing, State(it.allowance)):
+            after(len(passed))
             passed.append(state)
         return passed[-1]
 
@@ -63,7 +63,7 @@ def pids(client):
 def test_killed_workers_cost_nothing(client):
     some = steps_of(["tower-body", "ring"], 9000)
 
-    def kill(crew, number):
+    def kill(number):
         if number in {1, 12}:
             os.kill(next(iter(pids(client).values())), signal.SIGKILL)
 
@@ -74,7 +74,7 @@ def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(client):
     some = steps_of(["uniform", "tower-body"], 4000)
     culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
-    reason = "workers of the cluster ended, one after the other, while they had nothing but these cases"
+    reason = "4 workers of the cluster ended while they asked these cases"
     require_one_crash(found, here(KILLS, others).total, culprit, reason)
 
 
@@ -88,23 +88,23 @@ def test_a_file_that_a_worker_does_not_have_is_sent(client, tmp_path):
     file, opening = _subject(tmp_path)
     some = steps_of(["ring"], 2000)
     expected = here(opening, some)
-    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+    with opening.open() as it, on_cluster(client, opening, rules_of(it), it) as performing:
         file.rename(tmp_path / "elsewhere.py")
-        *_, (_, state) = states(some, crew, State(it.allowance))
+        *_, (_, state) = states(some, performing, State(it.allowance))
     assert saved(state) == saved(expected)
 
 
 def test_another_file_on_a_worker_is_refused(client, tmp_path):
     file, opening = _subject(tmp_path)
-    with opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+    with opening.open() as it, on_cluster(client, opening, rules_of(it), it) as performing:
         file.write_text(file.read_text() + "\n")
         with pytest.raises(
             InputError, match=r"subject.py is another file on worker tcp://127.0.0.1:\d+: sha256 \w{64} "
         ):
-            list(states(steps_of(["ring"], 100), crew, State(it.allowance)))
+            list(states(steps_of(["ring"], 100), performing, State(it.allowance)))
 
 
 def test_nothing_is_left_on_the_workers(client, cluster):
     """Neither an implementation nor a copy of its file: all of the tests above are over."""
-    held = client.run(lambda: len(__import__("hypcheck.gate.station").gate.station._HELD))
+    held = client.run(lambda: len(__import__("hypcheck.gate.dask_executor").gate.dask_executor._HELD))
     assert set(held.values()) == {0}

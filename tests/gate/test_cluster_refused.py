@@ -16,10 +16,9 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.gate import cluster as ways
-from hypcheck.gate.cluster import check_address, connected
-from hypcheck.gate.patience import within
+from hypcheck.gate.cluster import check_address, connected, within
 from hypcheck.gate.schedule import State, states
-from hypcheck.gate.work import Opening
+from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits
 from tests.gate.clusters import Cluster
 from tests.gate.killing import rules_of, steps_of
@@ -28,7 +27,7 @@ pytest.importorskip("distributed")
 
 from distributed.comm.core import CommClosedError
 
-from hypcheck.gate.afar import Afar
+from hypcheck.gate.dask_executor import on_cluster
 
 
 @pytest.fixture(scope="module")
@@ -117,10 +116,14 @@ def test_a_worker_is_there(cluster, monkeypatch):
 
 def test_a_worker_that_cannot_write(cluster):
     opening = Opening("builtin:fast", Limits())
-    with connected(cluster.address) as client, opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
+    with (
+        connected(cluster.address) as client,
+        opening.open() as it,
+        on_cluster(client, opening, rules_of(it), it) as performing,
+    ):
         client.run(lambda dask_worker: shutil.rmtree(dask_worker.local_directory))
         with pytest.raises(InputError, match=r"worker tcp://\S+ cannot write into its folder \S+: no such file"):
-            list(states(steps_of(["ring"], 100), crew, State(it.allowance)))
+            list(states(steps_of(["ring"], 100), performing, State(it.allowance)))
 
 
 def test_a_worker_that_says_nothing(tmp_path, monkeypatch):

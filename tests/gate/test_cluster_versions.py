@@ -10,7 +10,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.gate.schedule import State, states
-from hypcheck.gate.work import Opening
+from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits
 from hypcheck.version import VERSION
 from tests.gate.clusters import HOME, Cluster
@@ -18,8 +18,8 @@ from tests.gate.killing import rules_of, steps_of
 
 pytest.importorskip("distributed")
 
-from hypcheck.gate.afar import Afar
 from hypcheck.gate.cluster import connected
+from hypcheck.gate.dask_executor import on_cluster
 
 OTHER_DASK = """
 from importlib import metadata
@@ -83,8 +83,12 @@ def test_a_worker_with_other_files_of_the_same_version(cluster, another):
 def test_a_worker_with_other_files_that_comes_in_the_middle(cluster, another):
     opening = Opening("builtin:fast", Limits())
     cluster.start_workers(1)
-    with connected(cluster.address) as client, opening.open() as it, Afar(client, opening, rules_of(it), it) as crew:
-        passed = states(steps_of(["ring"], 100), crew, State(it.allowance))
+    with (
+        connected(cluster.address) as client,
+        opening.open() as it,
+        on_cluster(client, opening, rules_of(it), it) as performing,
+    ):
+        passed = states(steps_of(["ring"], 100), performing, State(it.allowance))
         next(passed)
         cluster.start_workers(1, home=another)
         client.wait_for_workers(2, timeout=60)

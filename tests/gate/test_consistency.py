@@ -13,13 +13,13 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.gate import chunks, run, schedule
 from hypcheck.gate.consistency import MissingCasesError, planned, require_all_tallied, require_lines, require_state
+from hypcheck.gate.executors import serial
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.lines import as_recorded
 from hypcheck.gate.plan import GatePlan
 from hypcheck.gate.progress import Progress
 from hypcheck.gate.saved import restored, saved
 from hypcheck.gate.schedule import State, states
-from hypcheck.gate.workers import Here
 from hypcheck.methods.description import Description
 from hypcheck.methods.limits import Limits
 from hypcheck.record import lines, read
@@ -46,8 +46,9 @@ def every_state(plan):
     """Each state of a run of a plan, with what consistency is asked with."""
     with plan.opening(0).open() as it:
         rules = run.rules_of(plan, it.description, KNOWN)
-        for _, state in states(run.steps_of(plan, it.description), Here(it, rules), State(it.allowance)):
-            yield it.description, rules, state
+        with serial(it, rules) as performing:
+            for _, state in states(run.steps_of(plan, it.description), performing, State(it.allowance)):
+                yield it.description, rules, state
 
 
 def check(plan, used, rules, content):

@@ -9,8 +9,7 @@ import sys
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.gate.fingerprint import files_of, fingerprints, sha256
-from hypcheck.gate.shipped import files_to_ship, module_sha256, spec_there
+from hypcheck.gate.fingerprint import files_of, files_to_ship, fingerprints, module_sha256, sha256, spec_there
 
 
 @pytest.fixture

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import random
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import replace
 from itertools import accumulate
 
@@ -11,12 +13,12 @@ import pytest
 
 from hypcheck import tally
 from hypcheck.gate import chunks, results, schedule
+from hypcheck.gate.executors import pool, serial
 from hypcheck.gate.known_failures import KnownFailure
-from hypcheck.gate.results import Performed, Result, merged
+from hypcheck.gate.results import Result, merged
 from hypcheck.gate.saved import restored, restored_result, saved, saved_result
 from hypcheck.gate.schedule import Again, State, states
-from hypcheck.gate.work import Opening, perform
-from hypcheck.gate.workers import Here, Workers
+from hypcheck.gate.tasks import Opening, perform
 from hypcheck.methods.faults import Outcome, StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance
@@ -28,29 +30,29 @@ DIES = Opening("python:tests.gate.subjects:dies_on_the_axis", Limits(restarts=2)
 KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("uniform/1/1/300", None, 9.0, "near"))
 
 
-class Shuffled:
-    """Performs what is in line in any order, each with what was left when it was put there."""
+class Shuffled(Executor):
+    """Makes one call after the other, any of those that wait."""
 
-    ahead = 9
+    def __init__(self, seed):
+        self._random = random.Random(seed)  # noqa: S311
+        self._waiting = []
+        self._thread = ThreadPoolExecutor(1)
 
-    def __init__(self, implementation, rules, seed):
-        self._with = implementation, rules
-        self._random = np.random.default_rng(seed)
-        self._waiting, self._done, self._count = {}, {}, 0
+    def submit(self, function, /, **arguments):
+        """Put a call in line."""
+        self._waiting.append((future := Future(), function, arguments))
+        self._thread.submit(self._call_one)
+        return future
 
-    def submit(self, task, allowance, *, first=False):
-        """Put a task in line."""
-        self._count += 1
-        self._waiting[self._count] = task, allowance
-        return self._count
+    def _call_one(self):
+        future, function, arguments = self._waiting.pop(self._random.randrange(len(self._waiting)))
+        if future.set_running_or_notify_cancel():
+            future.set_result(function(**arguments))
 
-    def result(self, number):
-        """Perform tasks until this one is done."""
-        while number not in self._done:
-            chosen = int(self._random.choice(list(self._waiting)))
-            task, allowance = self._waiting.pop(chosen)
-            self._done[chosen] = perform(task, *self._with, allowance)
-        return self._done.pop(number)
+
+def shuffled(it, rules, seed):
+    with serial(it, rules) as performing:
+        return replace(performing, executor=Shuffled(seed), workers=4)
 
 
 @pytest.fixture(autouse=True)
@@ -62,6 +64,11 @@ def small(monkeypatch):
 
 def rules_of(implementation):
     return replace(killing.rules_of(implementation), known=KNOWN)
+
+
+def in_this_process(some, it, rules, begun=None):
+    with serial(it, rules) as performing:
+        yield from states(some, performing, begun or State(it.allowance))
 
 
 def last(some):
@@ -89,11 +96,11 @@ def test_the_order_in_which_steps_are_performed_makes_no_difference():
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
-        expected = last(states(some, Here(it, rules), begun))
+        expected = last(in_this_process(some, it, rules, begun))
         assert expected.total.again.asked > 300
         assert not expected.total.open
         for seed in range(3):
-            assert saved(last(states(some, Shuffled(it, rules, seed), begun))) == saved(expected)
+            assert saved(last(states(some, shuffled(it, rules, seed), begun))) == saved(expected)
 
 
 def test_every_open_case_is_asked_again_in_one_part_of_one_round():
@@ -101,7 +108,7 @@ def test_every_open_case_is_asked_again_in_one_part_of_one_round():
     with RIGHT.open() as it:
         rules = rules_of(it)
         left = [perform(step, it, rules, it.allowance).result.open for step in some if isinstance(step, chunks.Chunk)]
-        total = last(states(some, Here(it, rules), State(it.allowance))).total
+        total = last(in_this_process(some, it, rules)).total
     assert total.again.asked == sum(len(each.indices) for found in left for each in found)
     assert not total.open
 
@@ -112,28 +119,28 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
     with DIES.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
-        expected = last(states(some, Here(it, rules), begun))
+        expected = last(in_this_process(some, it, rules, begun))
         counts = {family: each.counts for family, each in expected.total.tallies.items()}
         assert counts["tower-body"]["right"] > 1000
         assert counts["axis"]["crash"] == 3
         assert set(counts["tower-rotors"]) == {"not-run"}
         assert "2 restarts are used up" in expected.left.over
-        assert saved(last(states(some, Shuffled(it, rules, 1), begun))) == saved(expected)
-        with Workers(2, DIES, rules, it) as crew:
-            assert saved(last(states(some, crew, begun))) == saved(expected)
+        assert saved(last(states(some, shuffled(it, rules, 1), begun))) == saved(expected)
+        with pool(2, DIES, rules, it) as performing:
+            assert saved(last(states(some, performing, begun))) == saved(expected)
 
 
 def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
     some = steps_of(["flight", "ring", "uniform"], 2500)
     with RIGHT.open() as it:
         rules = rules_of(it)
-        passed = [state for _, state in states(some, Here(it, rules), State(it.allowance))]
+        passed = [state for _, state in in_this_process(some, it, rules)]
         asked = [len(step) if isinstance(step, chunks.Chunk) else 0 for step in some]
         assert [state.total.cases for state in passed] == list(accumulate(asked))
         for pause in (0, 3, len(some) - 2):
             read = restored(json.loads(json.dumps(saved(passed[pause]), allow_nan=False)))
             assert saved(read) == saved(passed[pause])
-            assert saved(last(states(some, Here(it, rules), read))) == saved(passed[-1])
+            assert saved(last(in_this_process(some, it, rules, read))) == saved(passed[-1])
 
 
 def _but_for_bins(state):
@@ -146,7 +153,7 @@ def _but_for_bins(state):
 def test_what_is_kept_of_a_run_does_not_grow_with_it():
     some = steps_of(["uniform"], 36_000)
     with RIGHT.open() as it:
-        passed = [state for _, state in states(some, Here(it, rules_of(it)), State(it.allowance))]
+        passed = [state for _, state in in_this_process(some, it, rules_of(it))]
     sizes = [len(json.dumps(_but_for_bins(saved(state)))) for state in passed]
     quarter = len(sizes) // 4
     assert quarter >= 9
@@ -158,12 +165,12 @@ def test_a_process_of_ours_that_is_killed_costs_nothing():
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
-        expected = last(states(some, Here(it, rules), begun))
-        with Workers(2, RIGHT, rules, it) as crew:
-            found = states(some, crew, begun)
+        expected = last(in_this_process(some, it, rules, begun))
+        with pool(2, RIGHT, rules, it) as performing:
+            found = states(some, performing, begun)
             next(found)
-            crew._workers[0].process.kill()
-            crew._workers[1].process.kill()
+            for process in list(performing.executor.processes):
+                process.kill()
             assert saved(last(found)) == saved(expected)
 
 
@@ -175,31 +182,79 @@ def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_pat
     with (
         fickle.open() as it,
         pytest.raises(StartError, match="describes itself otherwise"),
-        Workers(2, fickle, rules_of(it), it) as crew,
+        pool(2, fickle, rules_of(it), it) as performing,
     ):
-        last(states(steps_of(["ring"], 10), crew, State(it.allowance)))
+        last(states(steps_of(["ring"], 10), performing, State(it.allowance)))
+
+
+LIMITS = Allowance(20, 100)
 
 
 @pytest.mark.parametrize(
-    ("granted", "left", "actual", "fits"),
+    ("left", "task", "expected"),
     [
-        ((20, 9999, ""), (18, 9999, ""), (20, 9999, ""), True),
-        ((20, 9999, ""), (18, 9999, ""), (2, 9999, ""), True),
-        ((20, 9999, ""), (18, 9999, ""), (1, 9999, ""), False),
-        ((20, 9999, ""), (20, 9000, ""), (20, 1000, ""), True),
-        ((20, 9999, ""), (20, 9000, ""), (20, 999, ""), False),
-        ((20, 9999, ""), (20, 9999, ""), (20, 9999, "used up"), False),
-        ((0, 9999, ""), (0, 9999, "used up"), (0, 9999, ""), True),
-        ((1, 9999, ""), (0, 9999, "used up"), (0, 9999, ""), False),
-        # Of questions left without an answer before any was answered; None: one was.
-        ((20, 9999, "", 3), (20, 9999, "", None), (19, 9999, "", None), True),
-        ((20, 9999, "", 3), (18, 9999, "hung", 0), (20, 9999, "", None), False),
-        ((20, 9999, "", 3), (18, 9999, "", None), (18, 9999, "", 1), False),
+        (Allowance(20, 100, hangs=None), replace(LIMITS, restarts=15), Allowance(15, 100, hangs=None)),
+        (Allowance(5, 100), replace(LIMITS, restarts=15, last="it died"), Allowance(0, 100)),
+        (Allowance(20, 71), replace(LIMITS, faults=30), Allowance(20, 1)),
+        (Allowance(20, 100), replace(LIMITS, hangs=1), Allowance(20, 100, hangs=1)),
+        (Allowance(20, 100, hangs=None), replace(LIMITS, hangs=1), Allowance(20, 100, hangs=None)),
+        (Allowance(9, 9, "enough"), replace(LIMITS, over="more"), Allowance(9, 9, "enough")),
+        (Allowance(9, 9), Allowance(0, 100, "20 restarts are used up"), Allowance(0, 9, "20 restarts are used up")),
+        (
+            Allowance(4, 100),
+            replace(LIMITS, restarts=15, last="it died"),
+            Allowance(0, 100, "not asked: 20 restarts are used up; the last row at fault: it died"),
+        ),
+        (
+            Allowance(20, 60),
+            replace(LIMITS, faults=30, last="it raised"),
+            Allowance(20, 0, "not asked: 110 rows before were at fault; the last: it raised"),
+        ),
     ],
 )
-def test_a_result_counts_where_enough_was_left_for_it(granted, left, actual, fits):
-    performed = Performed(Result(), Allowance(*granted), Allowance(*left))
-    assert performed.fits(Allowance(*actual)) is fits
+def test_the_task_in_which_the_limits_run_out_is_the_last_that_counts(left, task, expected):
+    assert left.after(task, LIMITS) == expected
+
+
+def dies_of(rows):
+    """Source of an implementation that dies of these rows and answers all others, wrongly."""
+    return (
+        "import os\n\nimport numpy as np\n\n"
+        f"ROWS = np.frombuffer(bytes.fromhex({rows.tobytes().hex()!r})).reshape(-1, 7)\n\n\n"
+        "def f(rows):\n    if (rows[:, None] == ROWS).all(axis=2).any():\n        os._exit(3)\n"
+        "    return np.zeros(len(rows), dtype=np.int8)\n"
+    )
+
+
+def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_chunk(tmp_path):
+    """Two, then three of three that are allowed: the second chunk counts whole, and nothing behind it is asked."""
+    some = steps_of(["tower-body"], 6000)
+    drawn = [step for step in some if isinstance(step, chunks.Chunk) and step.seed is not None]
+    places = [(0, 10), (0, 800), (1, 3), (1, 4), (1, 700), (2, 9), (4, 4)]
+    rows = np.concatenate([chunks.cases(drawn[number]).rows[[index]] for number, index in places])
+    (tmp_path / "dies.py").write_text(dies_of(rows))
+    dies = Opening(f"python:{tmp_path / 'dies.py'}:f", Limits(restarts=3))
+    with dies.open() as it:
+        rules = rules_of(it)
+        begun = State(it.allowance)
+        passed = [state for _, state in in_this_process(some, it, rules, begun)]
+        expected = saved(passed[-1])
+        (only,) = passed[-1].total.tallies.values()
+        assert only.counts["crash"] == 5
+        stopped = next(number for number, state in enumerate(passed) if state.left.over)
+        assert some[stopped] == drawn[1]
+        behind = sum(len(step) for step in some[stopped + 1 :] if isinstance(step, chunks.Chunk))
+        waiting = sum(len(each.indices) for each in passed[stopped].total.open)
+        assert only.counts["not-run"] == behind + waiting
+        assert passed[-1].left.over == "not asked: 3 restarts are used up; the last row at fault: " + next(
+            fault.reason for fault in only.faults if fault.status == "crash"
+        )
+        assert saved(last(states(some, shuffled(it, rules, 1), begun))) == expected
+        for pause in (stopped - 1, stopped, stopped + 1):
+            read = restored(json.loads(json.dumps(saved(passed[pause]))))
+            assert saved(last(in_this_process(some, it, rules, read))) == expected
+        with pool(2, dies, rules, it) as performing:
+            assert saved(last(states(some, performing, begun))) == expected
 
 
 def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp_path):
@@ -209,9 +264,9 @@ def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp
     some = steps_of(["tower-body"], 2500)
     with hangs.open() as it:
         begun = State(it.allowance)
-        expected = last(states(some, Here(it, rules_of(it)), begun))
-        with Workers(2, hangs, rules_of(it), it) as crew:
-            found = last(states(some, crew, begun))
+        expected = last(in_this_process(some, it, rules_of(it), begun))
+        with pool(2, hangs, rules_of(it), it) as performing:
+            found = last(states(some, performing, begun))
     assert saved(found) == saved(expected)
     (only,) = found.total.tallies.values()
     assert {name: count for name, count in only.counts.items() if count} == {"timeout": 2, "not-run": only.asked - 2}

@@ -6,16 +6,16 @@ import os
 import signal
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import replace
 
 import pytest
 
-from hypcheck.gate import chunks, schedule, workers
+from hypcheck.gate import chunks, executors, schedule
+from hypcheck.gate.executors import WorkerPool, pool
 from hypcheck.gate.saved import saved
-from hypcheck.gate.schedule import State, states
-from hypcheck.gate.work import Opening
-from hypcheck.gate.workers import LostError, Workers
+from hypcheck.gate.schedule import LostError, State, WorkerLost, states
+from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits
 from hypcheck.record import read
 from hypcheck.record.lines import Group
@@ -23,6 +23,13 @@ from tests.gate.killing import ENVIRONMENT, KILLS, here, require_one_crash, rule
 from tests.undrawn import COMMAND
 
 RIGHT = Opening("builtin:table-2-float32", Limits())
+
+
+def started(performing):
+    """The processes of a pool, once all of them are started."""
+    while len(performing.executor.processes) < performing.workers:
+        pass
+    return list(performing.executor.processes)
 
 
 @pytest.fixture(autouse=True)
@@ -38,8 +45,8 @@ def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(monkeypatch):
     expected = here(KILLS, others).total
     for name, value in ENVIRONMENT.items():
         monkeypatch.setenv(name, value)
-    with KILLS.open() as it, Workers(2, KILLS, rules_of(it), it) as crew:
-        *_, (_, state) = states(some, crew, State(it.allowance))
+    with KILLS.open() as it, pool(2, KILLS, rules_of(it), it) as performing:
+        *_, (_, state) = states(some, performing, State(it.allowance))
     require_one_crash(state.total, expected, culprit, "3 processes of hypcheck ended while they asked these cases")
     assert state.left == replace(it.allowance, hangs=None)  # it has answered
 
@@ -50,14 +57,14 @@ def _ends_at_once(*_):
 
 def test_processes_that_cannot_begin_end_the_run(monkeypatch):
     """Nothing is known of any case then, so that none may be called a crash."""
-    monkeypatch.setattr(workers, "_serve", _ends_at_once)
+    monkeypatch.setattr(executors, "_serve", _ends_at_once)
     some = steps_of(["uniform"], 2000)
     with (
         KILLS.open() as it,
         pytest.raises(LostError, match=r"3 processes of hypcheck ended before they had asked anything, .* status 9"),
-        Workers(2, KILLS, rules_of(it), it) as crew,
+        pool(2, KILLS, rules_of(it), it) as performing,
     ):
-        list(states(some, crew, State(it.allowance)))
+        list(states(some, performing, State(it.allowance)))
 
 
 def test_one_worker_may_end_as_well(tmp_path):
@@ -76,14 +83,14 @@ STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us 
 
 @STOPS
 def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
-    monkeypatch.setattr(workers, "LOOK", 0.01)
-    monkeypatch.setattr(workers, "STOPPED", 3)
+    monkeypatch.setattr(executors, "LOOK", 0.01)
+    monkeypatch.setattr(executors, "STOPPED", 3)
     some = steps_of(["uniform"], 6000)
     expected = here(RIGHT, some)
-    with RIGHT.open() as it, Workers(2, RIGHT, rules_of(it), it) as crew:
-        found = states(some, crew, State(it.allowance))
+    with RIGHT.open() as it, pool(2, RIGHT, rules_of(it), it) as performing:
+        found = states(some, performing, State(it.allowance))
         next(found)
-        first = [worker.process for worker in crew._workers]
+        first = started(performing)
         for process in first:
             os.kill(process.pid, signal.SIGSTOP)
         *_, (_, state) = found
@@ -92,23 +99,38 @@ def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
 
 
 @STOPS
-def test_who_is_sent_on_in_time_goes_on(monkeypatch):
-    monkeypatch.setattr(workers, "LOOK", 0)
-    with RIGHT.open() as it, Workers(1, RIGHT, rules_of(it), it) as crew:
-        (worker,) = crew._workers
-        for signals in (signal.SIGSTOP, signal.SIGCONT):
-            os.kill(worker.process.pid, signals)
-            while workers.is_stopped(worker.process) != (signals == signal.SIGSTOP):
+def test_a_process_that_is_continued_in_time_is_not_ended(monkeypatch):
+    """Looks that find it stopped are counted from the beginning when one finds it running."""
+    looks = iter([True, True, False] * 3)
+    done = []
+    monkeypatch.setattr(executors, "LOOK", 0.01)
+    monkeypatch.setattr(executors, "STOPPED", 3)
+    monkeypatch.setattr(executors, "is_stopped", lambda _: next(looks, None) or done.append(None))
+    with WorkerPool(1, nullcontext) as running:
+        future = running.submit(signal.pause)
+        while len(done) < 3:
+            pass
+        (process,) = running.processes
+        assert process.is_alive()
+        process.kill()
+        with pytest.raises(WorkerLost):
+            future.result()
+
+
+@STOPS
+def test_a_process_tells_whether_it_is_stopped():
+    with WorkerPool(1, nullcontext) as running:
+        assert running.submit(os.getpid).result() == running.processes[0].pid
+        for number in (signal.SIGSTOP, signal.SIGCONT):
+            os.kill(running.processes[0].pid, number)
+            while executors.is_stopped(running.processes[0]) != (number == signal.SIGSTOP):
                 pass
-            crew._look()
-            assert worker.stopped == (signals == signal.SIGSTOP)
-        assert worker.process.is_alive()
 
 
 @STOPS
 def test_a_run_that_is_interrupted_does_not_wait_for_who_was_stopped():
-    with RIGHT.open() as it, suppress(KeyboardInterrupt), Workers(2, RIGHT, rules_of(it), it) as crew:
-        processes = [worker.process for worker in crew._workers]
+    with RIGHT.open() as it, suppress(KeyboardInterrupt), pool(2, RIGHT, rules_of(it), it) as performing:
+        processes = started(performing)
         for process in processes:
             os.kill(process.pid, signal.SIGSTOP)
         raise KeyboardInterrupt

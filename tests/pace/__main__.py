@@ -101,7 +101,7 @@ def _timed(spec: str, count: int, workers: int | None) -> Pace:
     plan = GatePlan((spec,), families=(FAMILY,), count=count, workers=workers)
     begun = time.perf_counter()
     run(plan, Recorder(io.StringIO(), {}), RunOutcome(), lambda rows: marks.append((time.perf_counter(), rows)))
-    asking = plan.crew(size(plan)) or 1
+    asking = plan.processes(size(plan)) or 1
     first = 1 if asking == 1 else 2 * asking
     behind = sum(rows for _, rows in marks[first + 1 :])
     last = -2 if sum(1 for _, rows in marks if not rows) <= PARTS else -1

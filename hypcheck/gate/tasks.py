@@ -1,4 +1,4 @@
-"""The units of work of a run, and what performs one wherever an implementation is held."""
+"""The tasks of a run, and the function that performs one wherever an implementation is open."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from hypcheck.gate.chunks import Chunk
 from hypcheck.gate.conformance import Invalid, Rules, ask_chunk, ask_invalid
-from hypcheck.gate.results import Performed, Result
+from hypcheck.gate.results import Result
 from hypcheck.gate.retest import RetestTask, retest
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.implementation import Crashed, Implementation
@@ -34,11 +34,19 @@ class Opening:
         )
 
 
-def perform(task: Task, implementation: Implementation | Crashed, rules: Rules, allowance: Allowance) -> Performed:
-    """Do it; the result depends on nothing but these, as far as the implementation's answers do not."""
+@dataclass(frozen=True)
+class TaskResult:
+    """The result of a task, and what is left of the allowance with which it began."""
+
+    result: Result
+    left: Allowance
+
+
+def perform(task: Task, implementation: Implementation | Crashed, rules: Rules, allowance: Allowance) -> TaskResult:
+    """Perform a task, which may spend the allowance; the result depends on nothing else but the answers."""
     implementation.allow(allowance)
     result = _result(task, implementation, rules)
-    return Performed(result, allowance, implementation.allowance)
+    return TaskResult(result, implementation.allowance)
 
 
 def _result(task: Task, implementation: Implementation | Crashed, rules: Rules) -> Result:
