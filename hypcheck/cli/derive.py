@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 import click
 
@@ -19,6 +20,7 @@ hypcheck derive
 hypcheck derive --only ledger
 hypcheck derive --claim "Proposition 3"
 hypcheck derive --format latex --output derivation.tex
+hypcheck derive --format erratum --output erratum.tex
 
 Ends with 0 when all that was shown holds, with 6 when our derivation disagrees with what it is said to show.
 """
@@ -34,11 +36,17 @@ def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: s
     """Derive, and tell what came of it."""
     if claim is not None and only:
         raise InputError("--claim shows one claim and --only parts of all; use one of them")
+    if form == "erratum" and (claim is not None or only):
+        raise InputError("--format erratum writes one whole note; it takes neither --claim nor --only")
     from hypcheck.paper.derive.asking import writer
     from hypcheck.paper.derive.choosing import Chosen
 
     chosen = Chosen(() if claim is not None else only or tuple(PARTS), claim)
     _write(writer(form)(chosen), output)
+    if form == "erratum" and output != "-":
+        from hypcheck.paper.derive.erratum import compile_note
+
+        click.echo(compile_note(Path(output)), err=True)
     failing = chosen.failing
     if failing:
         click.echo(f"hypcheck: our derivation disagrees with what it is said to show: {', '.join(failing)}", err=True)

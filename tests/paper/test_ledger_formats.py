@@ -13,7 +13,7 @@ from matplotlib.mathtext import MathTextParser
 from hypcheck.derivation.chains.book import chains
 from hypcheck.derivation.counting import Operations
 from hypcheck.derivation.walk import walk
-from hypcheck.paper.derive import as_json, latex, markdown, text
+from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
 from hypcheck.paper.derive.asking import FORMATS, PARTS, writer
 from hypcheck.paper.derive.choosing import Chosen
 from hypcheck.paper.derive.layout import WIDTH, broken, columns, paragraph
@@ -172,6 +172,7 @@ def test_every_format_can_be_written():
         "latex": latex.lines,
         "json": as_json.lines,
         "markdown": markdown.lines,
+        "erratum": erratum.lines,
     }
 
 

@@ -19,6 +19,7 @@ FORMATS = {
     "latex": "hypcheck.paper.derive.latex",
     "json": "hypcheck.paper.derive.as_json",
     "markdown": "hypcheck.paper.derive.markdown",
+    "erratum": "hypcheck.paper.derive.erratum",
 }
 """The formats by name, with the module whose `lines` writes what was chosen."""
 

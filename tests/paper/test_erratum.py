@@ -1,0 +1,57 @@
+"""The erratum says what the ledger says, compiles to three pages at most, and takes no claim and no part."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import Exit
+from hypcheck.paper.derive import erratum
+from hypcheck.paper.derive.choosing import Chosen
+
+
+@pytest.fixture(scope="module")
+def note():
+    return "\n".join(erratum.lines(Chosen(())))
+
+
+def test_everything_is_filled_in_and_well_formed(note):
+    assert note.isascii()
+    assert not re.search(r"<[\w ]+>", note)
+    assert note.count("$") % 2 == 0
+    assert note.count("{") - note.count(r"\{") == note.count("}") - note.count(r"\}")
+    assert note.count(r"\proof") == note.count(r"\qed") >= 8
+
+
+def test_corrections_and_counterexamples_are_those_of_the_ledger(note):
+    assert r"f(\lambda) = g\,(a^{2} + \lambda)/(a^{4}\,c^{2})" in note
+    assert "centre $(5/2,0,0)$: exterior, $\\Delta=0,\\ c_2=-33/4,\\ c_1=18$" in note
+    assert "centre $(0,0,2)$: interior" in note
+    assert "11.7990, 10.9387, 10.3449, 9.6364, 8.9626, 8.5885" in note
+
+
+@pytest.mark.skipif(shutil.which(erratum.COMPILER) is None, reason="LaTeX is not installed here: nothing compiles")
+def test_it_compiles_to_three_pages_at_most(note, tmp_path):
+    target = tmp_path / "note.tex"
+    target.write_text(note)
+    assert erratum.compile_note(target) == f"wrote {target.with_suffix('.pdf')}"
+    assert {path.name for path in tmp_path.iterdir()} == {"note.tex", "note.pdf"}
+    pages = len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "note.pdf").read_bytes()))
+    assert pages <= 3
+
+
+def test_without_latex_the_source_is_written_and_that_it_is_not_compiled_is_said(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(erratum.shutil, "which", lambda _: None)
+    target = tmp_path / "note.tex"
+    assert main(["derive", "--format", "erratum", "--output", str(target)]) == Exit.HELD
+    assert capsys.readouterr().err == "not compiled: there is no pdflatex on this machine\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["note.tex"]
+
+
+@pytest.mark.parametrize("more", [("--claim", "12"), ("--only", "costs")])
+def test_an_erratum_takes_no_part_and_no_claim(capsys, more):
+    assert main(["derive", "--format", "erratum", *more]) == Exit.USAGE
+    assert "takes neither --claim nor --only" in capsys.readouterr().err
