@@ -42,7 +42,7 @@ class Disagreement:
 
 
 @dataclass(frozen=True, slots=True)
-class Tally:
+class OracleTally:
     """What came of asking one oracle about one family: counts of answers and of deciding stages, and its time."""
 
     oracle: str
@@ -97,7 +97,7 @@ def perform(todo: Sequence[Task], executor: Executor | None) -> Iterator[tuple[T
         yield task, opinions, seconds
 
 
-def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> Tally:
+def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> OracleTally:
     """The opinions against the exact decisions."""
     disagreements = tuple(
         Disagreement(task.oracle, batch.name(task.start + index), tuple(task.rows[index].tolist()), *words)
@@ -106,7 +106,7 @@ def compare(task: Task, opinions: Sequence[Opinion], batch: Batch, seconds: floa
     )
     undecided = sum(opinion.position is None for opinion in opinions)
     stages = dict(Counter(opinion.stage for opinion in opinions))
-    return Tally(task.oracle, batch.family.name, len(opinions), undecided, stages, seconds, disagreements)
+    return OracleTally(task.oracle, batch.family.name, len(opinions), undecided, stages, seconds, disagreements)
 
 
 def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
@@ -122,19 +122,19 @@ def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] |
     return None if same else (exact, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")
 
 
-def merged(tallies: Sequence[Tally]) -> list[Tally]:
+def merged(tallies: Sequence[OracleTally]) -> list[OracleTally]:
     """One tally for each oracle and family, whatever the order in which their parts came."""
-    parts: dict[tuple[str, str], list[Tally]] = {}
+    parts: dict[tuple[str, str], list[OracleTally]] = {}
     for tally in tallies:
         parts.setdefault((tally.oracle, tally.family), []).append(tally)
     return [_sum(parts[key]) for key in sorted(parts)]
 
 
-def _sum(parts: Sequence[Tally]) -> Tally:
+def _sum(parts: Sequence[OracleTally]) -> OracleTally:
     stages: Counter[str] = Counter()
     for part in parts:
         stages.update(part.stages)
-    return Tally(
+    return OracleTally(
         parts[0].oracle,
         parts[0].family,
         sum(part.asked for part in parts),

@@ -19,7 +19,7 @@ from hypcheck.methods.method import Method
 from hypcheck.processes import processes
 from hypcheck.record import Recorder, lines
 from hypcheck.verify import contenders, crosscheck, findings, known, maps
-from hypcheck.verify.crosscheck import Tally
+from hypcheck.verify.crosscheck import OracleTally
 from hypcheck.verify.opinions import ORACLES
 from hypcheck.verify.plan import Batch, Plan, batches, chosen_families
 
@@ -96,7 +96,7 @@ def _cross_check(
     outcome: RunOutcome,
     advance: Advance,
 ) -> None:
-    tallies: list[Tally] = []
+    tallies: list[OracleTally] = []
     with processes(plan.workers) as executor:
         for task, opinions, seconds in crosscheck.perform(todo, executor):
             tallies.append(crosscheck.compare(task, opinions, all_batches[task.batch], seconds))
