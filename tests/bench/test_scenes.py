@@ -20,6 +20,7 @@ from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.methods.engines import FCL
 from hypcheck.record import SCHEMA, read
+from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import Forest
 from hypcheck.record.measurements import Scene as SceneLine
 from tests.schemas import violations
@@ -58,7 +59,7 @@ def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
     lines = record.of(Forest)
     assert {line.trees for line in lines} == {10, 200}
     for line in lines:
-        assert not violations(line, DEFINITIONS["$defs"]["forest"], DEFINITIONS)
+        assert not violations(as_json(line), DEFINITIONS, closed=True)
         assert line.step_ns > 0
     assert all(line.wrong == 0 and line.ratio == 1 for line in lines if line.method == contenders.OURS)
     assert "A step in a forest" in report
@@ -114,13 +115,13 @@ def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_pat
     code, record, report = ended(tmp_path, "--scene", "tower")
     (line,) = record.of(SceneLine)
     assert code == 0
-    assert not violations(line, DEFINITIONS["$defs"]["scene"], DEFINITIONS)
+    assert not violations(as_json(line), DEFINITIONS, closed=True)
     assert (line.scene, line.settings, line.wrong) == ("cooling tower", 2, 0)
     assert sum(astuple(line.shares)) == pytest.approx(1)
-    for mode in ("batch", "single"):
-        assert min(line[mode][name] for name in ("kernel_ns", "printed_ns", "certified_ns")) > 0
-        low, high = line[mode]["by_printed_ci95"]
-        assert low <= line[mode]["by_printed"] <= high
+    for times in (line.batch, line.single):
+        assert min(times.kernel_ns, times.printed_ns, times.certified_ns) > 0
+        low, high = times.by_printed_ci95
+        assert low <= times.by_printed <= high
     assert "What scenes leave out" in report
 
 
