@@ -5,11 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from jsonschema import Draft202012Validator
+from jsonschema.validators import extend
+
+_INTEGERS = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
+_Checker = extend(Draft202012Validator, type_checker=_INTEGERS)
+"""Takes 500.0 for no integer, as whatever reads JSON or TOML here does."""
 
 
 def violations(value: Any, schema: dict[str, Any], *, closed: bool = False) -> list[str]:
     """What is wrong with the value, a sentence each; with `closed`, so is a property that the schema does not name."""
-    checker = Draft202012Validator(_closed(schema) if closed else schema)
+    checker = _Checker(_closed(schema) if closed else schema)
     return [f"{error.json_path}: {error.message[:300]}" for error in checker.iter_errors(value)]
 
 
