@@ -109,7 +109,7 @@ def test_a_gating_run_on_github(monkeypatch, tmp_path, capsys):
     token = stop.removeprefix("::stop-commands::")
     assert re.fullmatch("[0-9a-f]{32}", token)
     end = rest.index(f"::{token}::")
-    assert any("ended wrong" in line for line in rest[:end])
+    assert any("ended as wrong" in line for line in rest[:end])
     assert [line.startswith("::error title=hypcheck%3A table-2-float64%2C ring::") for line in rest[end + 1 :]] == [
         True
     ]
