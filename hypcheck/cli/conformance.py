@@ -94,10 +94,11 @@ def _run(
     from hypcheck.gate.fingerprint import fingerprints
     from hypcheck.gate.known_failures import update
     from hypcheck.gate.ourselves import Unchanged
-    from hypcheck.gate.resuming import Resumed
+    from hypcheck.gate.plan import size
+    from hypcheck.gate.resume import Resumed
     from hypcheck.report.write import import_all
 
-    cases, files = run.size(plan), fingerprints(plan.specs, plan.known_failures)
+    cases, files = size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
     unchanged, changed = Unchanged(files), list[str]()
     begun = Resumed() if resume is None else resumed(resume, out, plan, shown, files, cases)

@@ -16,7 +16,7 @@ from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from hypcheck.gate.plan import GatePlan
-    from hypcheck.gate.resuming import Resumed
+    from hypcheck.gate.resume import Resumed
     from hypcheck.record import Record
 
 
@@ -33,7 +33,7 @@ def resumed(
     `path` is a record, or the folder of a run. Raises InputError where the record cannot be read, is being written, or
     is not one of just this run, saying what differs.
     """
-    from hypcheck.gate.resuming import require_same_run, resume
+    from hypcheck.gate.resume import require_same_run, resume
     from hypcheck.record.owning import owning
     from hypcheck.record.reader import GROWING, interrupted_in, read
 

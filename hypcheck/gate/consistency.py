@@ -15,16 +15,14 @@ import numpy as np
 
 from hypcheck import judge
 from hypcheck.casebook import fixed_sizes, vectors
-from hypcheck.casebook.families import select
 from hypcheck.casebook.frozen import refusals
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.gate.chunks import OCTAVES_OF, Chunk, found_by_search, frozen_cases
+from hypcheck.gate.chunks import OCTAVES_OF, Chunk
 from hypcheck.gate.conformance import Invalid, Rules
-from hypcheck.gate.plan import GatePlan
+from hypcheck.gate.plan import GatePlan, planned
 from hypcheck.gate.results import Open, Result
 from hypcheck.gate.schedule import State, Step
 from hypcheck.judge import UNANSWERED, Mistake, Status
-from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import FAULTS
 from hypcheck.methods.questions import allowed
@@ -44,22 +42,6 @@ class MissingCasesError(HypcheckError):
     """A run whose tallies do not hold the cases that were planned; it proves nothing, whatever they say."""
 
     exit_code = Exit.INTERNAL
-
-
-def planned(plan: GatePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
-    """The cases of each family that one implementation is asked, skipped ones included.
-
-    A domain of given sizes alone has families of its own, and one that `refuses` is asked the invalid rows too. Raises
-    InputError naming a family that does not exist.
-    """
-    cases = {family.name: frozen_cases(family.name) + plan.count for family in select(plan.families)}
-    if not plan.filtered:
-        cases |= {chunk.family: len(chunk) for chunk in found_by_search()}
-        settings = domain.settings if domain is not None else ()
-        cases |= {family.name: plan.count for family in fixed_sizes.families_for(settings)}
-    if refuses:
-        cases[refusals.NAME] = len(vectors.load_refusals().rows)
-    return {family: number for family, number in cases.items() if number}
 
 
 def require_all_tallied(tallies: Mapping[str, Tally], cases: Mapping[str, int]) -> None:

@@ -1,15 +1,25 @@
-"""What one gating run is asked to do."""
+"""What one conformance run is asked to do: its options, and the cases, steps and rules that follow from them."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
+from hypcheck.casebook import fixed_sizes, vectors
+from hypcheck.casebook.families import select
+from hypcheck.casebook.family import Family
+from hypcheck.casebook.frozen import refusals
 from hypcheck.errors import InputError
+from hypcheck.gate.chunks import Chunk, chunks, found_by_search, frozen_cases
 from hypcheck.gate.cluster import check_address
+from hypcheck.gate.conformance import Rules
+from hypcheck.gate.known_failures import KnownFailure, read_known_failures
+from hypcheck.gate.schedule import Step, steps
 from hypcheck.gate.tasks import Opening
-from hypcheck.judge import DEFAULT_TOLERANCE
+from hypcheck.judge import DEFAULT_TOLERANCE, Criterion
+from hypcheck.methods.description import Description
 from hypcheck.methods.domain import Domain
 from hypcheck.methods.limits import Limits
 from hypcheck.processes import usable_processors
@@ -71,3 +81,55 @@ class GatePlan:
     def filtered(self) -> bool:
         """Whether families were chosen, so that not everything a list of known failures speaks of is asked."""
         return bool(self.families)
+
+
+def planned(plan: GatePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
+    """The cases of each family that one implementation is asked, skipped ones included.
+
+    A domain of given sizes alone has families of its own, and one that `refuses` is asked the invalid rows too. Raises
+    InputError naming a family that does not exist.
+    """
+    cases = {family.name: frozen_cases(family.name) + plan.count for family in select(plan.families)}
+    if not plan.filtered:
+        cases |= {chunk.family: len(chunk) for chunk in found_by_search()}
+        settings = domain.settings if domain is not None else ()
+        cases |= {family.name: plan.count for family in fixed_sizes.families_for(settings)}
+    if refuses:
+        cases[refusals.NAME] = len(vectors.load_refusals().rows)
+    return {family: number for family, number in cases.items() if number}
+
+
+def chosen(plan: GatePlan) -> tuple[Family, ...]:
+    """The families of the plan. Raises InputError naming one that does not exist."""
+    return select(plan.families)
+
+
+def size(plan: GatePlan) -> int:
+    """The cases that each implementation is asked, those that it will skip included."""
+    return sum(planned(plan).values())
+
+
+def known_failures_of(plan: GatePlan) -> tuple[KnownFailure, ...]:
+    """Those that the plan lists. Raises InputError as read_known_failures does."""
+    return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
+
+
+def steps_of(plan: GatePlan, used: Description) -> Iterator[Step]:
+    """The steps that ask an implementation which is judged by this description."""
+    return steps(_chunks(plan, used.domain), refuses=used.refuses)
+
+
+def rules_of(plan: GatePlan, used: Description, listed: tuple[KnownFailure, ...]) -> Rules:
+    """How an implementation is judged by this description."""
+    return Rules(Criterion(used.question, used.precision, plan.tolerance), used.domain, listed, plan.seed)
+
+
+def _chunks(plan: GatePlan, domain: Domain | None = None) -> Iterator[Chunk]:
+    """The chunks of a run; a domain of given sizes alone has families made for them."""
+    for family in chosen(plan):
+        yield from chunks(family, plan.seed, plan.count)
+    if plan.filtered:
+        return
+    yield from found_by_search()
+    for family in fixed_sizes.families_for(domain.settings) if domain is not None else ():
+        yield from chunks(family, plan.seed, plan.count)

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import TYPE_CHECKING
 
-from hypcheck.casebook.families import select
-from hypcheck.casebook.family import Family
-from hypcheck.casebook.fixed_sizes import families_for
 from hypcheck.errors import RunOutcome
-from hypcheck.gate.chunks import Chunk, chunks, found_by_search
+from hypcheck.gate.chunks import Chunk
 from hypcheck.gate.cluster import connected
 from hypcheck.gate.conformance import Rules
-from hypcheck.gate.consistency import planned, require_all_tallied
+from hypcheck.gate.consistency import require_all_tallied
 from hypcheck.gate.executors import keep_memory, pool, serial
-from hypcheck.gate.known_failures import KnownFailure, read_known_failures
+from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.lines import Lines, as_recorded, outcome_of
-from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.progress import Keeper
-from hypcheck.gate.schedule import Performing, State, Step, states, steps
+from hypcheck.gate.plan import GatePlan, known_failures_of, planned, rules_of, size, steps_of
+from hypcheck.gate.resume import Keeper
+from hypcheck.gate.schedule import Performing, State, Step, states
 from hypcheck.gate.tasks import Opening
-from hypcheck.judge import Criterion
-from hypcheck.methods.description import Description
-from hypcheck.methods.domain import Domain
 from hypcheck.methods.faults import StartError
 from hypcheck.methods.implementation import Implementation
 from hypcheck.processes import interrupts_deferred
@@ -34,16 +28,6 @@ if TYPE_CHECKING:
     from distributed import Client
 
 Advance = Callable[[int], object]
-
-
-def chosen(plan: GatePlan) -> tuple[Family, ...]:
-    """The families of the plan. Raises InputError naming one that does not exist."""
-    return select(plan.families)
-
-
-def size(plan: GatePlan) -> int:
-    """The cases that each implementation is asked, those that it will skip included."""
-    return sum(planned(plan).values())
 
 
 def run(plan: GatePlan, recorder: Recorder, outcome: RunOutcome, advance: Advance, state: State | None = None) -> None:
@@ -67,32 +51,6 @@ def run(plan: GatePlan, recorder: Recorder, outcome: RunOutcome, advance: Advanc
                 advance(cases)
             state = None
     outcome_of(recorder.lines, outcome)
-
-
-def known_failures_of(plan: GatePlan) -> tuple[KnownFailure, ...]:
-    """Those that the plan lists. Raises InputError as read_known_failures does."""
-    return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
-
-
-def steps_of(plan: GatePlan, used: Description) -> Iterator[Step]:
-    """The steps that ask an implementation which is judged by this description."""
-    return steps(_chunks(plan, used.domain), refuses=used.refuses)
-
-
-def rules_of(plan: GatePlan, used: Description, listed: tuple[KnownFailure, ...]) -> Rules:
-    """How an implementation is judged by this description."""
-    return Rules(Criterion(used.question, used.precision, plan.tolerance), used.domain, listed, plan.seed)
-
-
-def _chunks(plan: GatePlan, domain: Domain | None = None) -> Iterator[Chunk]:
-    """The chunks of a run; a domain of given sizes alone has families made for them."""
-    for family in chosen(plan):
-        yield from chunks(family, plan.seed, plan.count)
-    if plan.filtered:
-        return
-    yield from found_by_search()
-    for family in families_for(domain.settings) if domain is not None else ():
-        yield from chunks(family, plan.seed, plan.count)
 
 
 def _gate(

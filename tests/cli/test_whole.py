@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from hypcheck.cli.main import main
 from hypcheck.cli.whole import whole_of
 from hypcheck.gate.chunks import chunks, found_by_search
-from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.run import chosen, size
+from hypcheck.gate.plan import GatePlan, chosen, size
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import time
 from contextlib import suppress
 
 from hypcheck.cli.main import main
-from hypcheck.gate import chunks, progress, schedule
+from hypcheck.gate import chunks, resume, schedule
 from hypcheck.record import read
 from hypcheck.record.reader import FILE, GROWING
 
@@ -21,8 +21,8 @@ CODE = 1
 
 def in_small_steps(put):
     """Let `put(owner, name, value)` make the steps of runs small, and their progress kept at each."""
-    put(progress, "EVERY", 0.0)
-    put(progress, "SHARE", 0)
+    put(resume, "EVERY", 0.0)
+    put(resume, "SHARE", 0)
     put(chunks, "SIZE", 64)
     put(schedule, "ROUND", 600)
 

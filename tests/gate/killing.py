@@ -8,7 +8,7 @@ from hypcheck.casebook.families import FAMILIES
 from hypcheck.gate import chunks
 from hypcheck.gate.conformance import Rules
 from hypcheck.gate.executors import serial
-from hypcheck.gate.saved import saved_result
+from hypcheck.gate.resume import saved_result
 from hypcheck.gate.schedule import State, states, steps
 from hypcheck.gate.tasks import Opening
 from hypcheck.judge import Criterion

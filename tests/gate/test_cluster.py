@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.gate import chunks, schedule
-from hypcheck.gate.saved import saved
+from hypcheck.gate.resume import saved
 from hypcheck.gate.schedule import State, states
 from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits

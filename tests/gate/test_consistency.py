@@ -11,14 +11,13 @@ from msgspec import structs
 
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
-from hypcheck.gate import chunks, run, schedule
-from hypcheck.gate.consistency import MissingCasesError, planned, require_all_tallied, require_lines, require_state
+from hypcheck.gate import chunks, schedule
+from hypcheck.gate.consistency import MissingCasesError, require_all_tallied, require_lines, require_state
 from hypcheck.gate.executors import serial
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.lines import as_recorded
-from hypcheck.gate.plan import GatePlan
-from hypcheck.gate.progress import Progress
-from hypcheck.gate.saved import restored, saved
+from hypcheck.gate.plan import GatePlan, planned, rules_of, steps_of
+from hypcheck.gate.resume import Progress, restored, saved
 from hypcheck.gate.schedule import State, states
 from hypcheck.methods.description import Description
 from hypcheck.methods.limits import Limits
@@ -45,15 +44,15 @@ def plan_of(spec, **options):
 def every_state(plan):
     """Each state of a run of a plan, with what consistency is asked with."""
     with plan.opening(0).open() as it:
-        rules = run.rules_of(plan, it.description, KNOWN)
+        rules = rules_of(plan, it.description, KNOWN)
         with serial(it, rules) as performing:
-            for _, state in states(run.steps_of(plan, it.description), performing, State(it.allowance)):
+            for _, state in states(steps_of(plan, it.description), performing, State(it.allowance)):
                 yield it.description, rules, state
 
 
 def check(plan, used, rules, content):
     """Raise what is raised where a run goes on from a state that was read back."""
-    require_state(restored(content), run.steps_of(plan, used), plan, rules)
+    require_state(restored(content), steps_of(plan, used), plan, rules)
 
 
 @pytest.mark.parametrize(
@@ -137,7 +136,7 @@ def test_an_edited_line_of_progress_is_refused_in_a_sentence(edit, said):
     declared = as_recorded(Description("mine"))
     line = lines.Progress(number=0, declared=declared, cases=3, state=content, program="")
     with pytest.raises((InputError, ValueError), match=said):
-        require_state(Progress.of_line(line, "some.jsonl").state, run.steps_of(plan, used), plan, rules)
+        require_state(Progress.of_line(line, "some.jsonl").state, steps_of(plan, used), plan, rules)
 
 
 def test_a_finished_run_without_all_its_cases_is_no_pass():

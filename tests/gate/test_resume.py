@@ -18,8 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.cli.main import main
-from hypcheck.gate import progress
-from hypcheck.gate.resuming import finished_part
+from hypcheck.gate.resume import Keeper, finished_part
 from hypcheck.record import read
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import Progress
@@ -129,10 +128,10 @@ def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    keep = progress.Keeper.keep
+    keep = Keeper.keep
     with monkeypatch.context() as patch:
-        patch.setattr(progress.Keeper, "offer", interrupted)
-        patch.setattr(progress.Keeper, "keep", keeps_late)
+        patch.setattr(Keeper, "offer", interrupted)
+        patch.setattr(Keeper, "keep", keeps_late)
         code, said = here(tmp_path)
     assert code == 130
     assert f"the same command with --resume {tmp_path} goes on" in said

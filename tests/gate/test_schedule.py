@@ -16,7 +16,7 @@ from hypcheck.gate import chunks, results, schedule
 from hypcheck.gate.executors import pool, serial
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.results import Result, merged
-from hypcheck.gate.saved import restored, restored_result, saved, saved_result
+from hypcheck.gate.resume import restored, restored_result, saved, saved_result
 from hypcheck.gate.schedule import Again, State, states
 from hypcheck.gate.tasks import Opening, perform
 from hypcheck.methods.faults import Outcome, StartError

@@ -13,7 +13,7 @@ import pytest
 
 from hypcheck.gate import chunks, executors, schedule
 from hypcheck.gate.executors import WorkerPool, pool
-from hypcheck.gate.saved import saved
+from hypcheck.gate.resume import saved
 from hypcheck.gate.schedule import LostError, State, WorkerLost, states
 from hypcheck.gate.tasks import Opening
 from hypcheck.methods.limits import Limits

@@ -17,9 +17,9 @@ import click
 from hypcheck.cli.main import main as hypcheck
 from hypcheck.cli.whole import Whole
 from hypcheck.errors import RunOutcome
-from hypcheck.gate.plan import GatePlan
+from hypcheck.gate.plan import GatePlan, size
 from hypcheck.gate.retest import PARTS
-from hypcheck.gate.run import run, size
+from hypcheck.gate.run import run
 from hypcheck.record import Recorder
 
 FAMILY = "tower-body"
