@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test lint quick cases check-cases prove paper mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test lint quick cases check-cases prove paper figures mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -56,6 +56,9 @@ paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 
 schemas: $(VENV)/ready ## the published schema of records anew, from the values of their lines
 	$(BIN)/python -m hypcheck.record.schema hypcheck/report/schemas
+
+figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
+	$(BIN)/python -m tests.paper_figures
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
 	$(BIN)/python -m tests.mutants --out docs/mutants.md

@@ -11,7 +11,7 @@ import pytest
 from hypcheck.casebook.draw import Draw
 from hypcheck.errors import InputError
 from hypcheck.paper.flights_circle import EIGHTH, any_angle, quarter_turns, small_angle, turned
-from hypcheck.paper.flights_craft import Procedures, craft_of
+from hypcheck.paper.flights_craft import Craft, Procedures, craft_of
 from hypcheck.paper.flights_ways import valid
 from hypcheck.scene.model import Span, Start
 from hypcheck.scene.reading import read_scene
@@ -124,3 +124,12 @@ def test_places_whose_squares_would_overflow_are_refused(changed, message):
     tower = SCENES["tower"]
     with pytest.raises(InputError, match=message):
         craft_of(replace(tower, **changed(tower)))
+
+
+def test_procedure_2b_put_right_allows_an_interior_hull_with_a_zero_coefficient_that_the_printed_one_refuses():
+    """The ledger's witness against Table 4: c2 = 0 at the first place, and nothing vanishes at the second."""
+    craft = Craft((1.0, 1.0, 1.0, 1.0), (1.0, 1.0, 0.25, 0.25), 0.5, 45.0, None)
+    at, heading = (np.zeros(2), np.zeros(2), np.array([1.0, 1.25])), (np.ones(2), np.zeros(2))
+    assert valid(craft, at, heading).tolist() == [True, True]
+    assert Procedures(craft).ask(at, heading)[0].tolist() == [False, True]
+    assert Procedures(craft, repaired=True).ask(at, heading)[0].tolist() == [True, True]

@@ -230,3 +230,11 @@ def test_the_scene_says_how_many_steps():
 def test_what_cannot_be_simulated_is_refused(scene, steps, message):
     with pytest.raises(InputError, match=message):
         simulated(scene=scene, steps=steps)
+
+
+def test_procedure_1_put_right_lets_the_walker_through_every_phantom_and_decides_nothing_else_otherwise():
+    result = simulate_forest(ForestPlan(read_scene("forest"), 3, 4000, continuous=False))
+    phantoms = result["phantoms"]
+    assert phantoms["float32"] == 5
+    assert phantoms["float32_repaired"] == phantoms["float64_repaired"] == 0
+    assert result["repaired"] == {"float32_differs": 5, "float64_differs": 0}

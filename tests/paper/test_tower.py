@@ -140,6 +140,9 @@ def test_ways_are_counted_where_they_are_asked_for():
         moves_of(SHORT.flight, v * t) for t in (*TIMES, 0.25) for v in SPEEDS
     )
     assert ways["wrongly_accepted"] == ways["wrongly_refused"] == 0
+    assert ways["asked"] > ways["vertical"] + ways["horizontal"]
+    differ = ("procedure_2a_differs", "repaired_2a_differs", "repaired_2b_differs")
+    assert [ways[name] for name in differ] == [0, 0, 0]  # B > A + 1 in this tower
 
 
 def test_every_assumption_is_told():

@@ -160,7 +160,7 @@ def _space(result: dict[str, Any]) -> Plot:
     for place, ring in enumerate(_guilty_rings(result["trees"])):
         axes.plot(*ring, result["path"][0][2], **_RING, label="" if place else _TOLD_RING)
     mark_contacts([axes], result["ways"])
-    axes.set_box_aspect((1, 1, 0.32), zoom=0.9)
+    axes.set_box_aspect((1, 1, 0.32), zoom=0.84)
     axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
     in_space(axes)
     trunks = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=told) for told, paint in TRUNKS.values()]

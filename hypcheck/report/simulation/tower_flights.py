@@ -41,8 +41,8 @@ def flights(result: dict[str, Any]) -> Plot:
     said = (
         f"Inside a hyperboloid with α = {told['alpha']:g} m and γ = {told['gamma']:g} m, {len(flown['paths'])} "
         f"random flights with steps of {flown['step']:g} m, from the side and from above, and the discriminant Δ "
-        "of the body's cubic at each position: it is nearest to 0 where the quadcopter is near the wall, and where "
-        "it is not above 0 the rotors are asked."
+        "of the body's cubic at each position: at one height it falls towards the wall, across heights it does not "
+        "tell how near the wall is, and where it is not above 0 the rotors are asked."
     )
     return Plot("tower-flights", "Flights inside a cooling tower, and Δ along them", said, figure)
 
