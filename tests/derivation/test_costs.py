@@ -7,6 +7,7 @@ import pytest
 from hypcheck.derivation.costs import cost_of, costs, discriminant_share, loop_as_printed
 from hypcheck.derivation.counting import Operations
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.repaired_formulas import REPAIRED
 
 
 def test_table_2():
@@ -48,4 +49,4 @@ def test_every_way_has_a_cost(cost):
 
 
 def test_the_names_are_those_of_the_formulas_and_of_the_roots_way():
-    assert [cost.name for cost in costs()] == [*FORMULAS, "roots-trigonometric", "roots-sweep"]
+    assert [cost.name for cost in costs()] == [*FORMULAS, *REPAIRED, "roots-trigonometric", "roots-sweep"]
