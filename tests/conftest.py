@@ -27,16 +27,16 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 gc.disable()
 
 SLOW = {
-    "": "reference_bench settings wheel",
+    "": "processes reference_bench settings wheel",
     "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
     "casebook": "razor",
     "cases": "cli files labels reading",
     "classify": "blocks processes tables",
-    "cli": "exits leaving startup",
-    "derivation": "formulas proofs rounding",
-    "emission": "extremes foreign_text gated kernels limits scenes text",
+    "cli": "completion exits leaving startup",
+    "derivation": "formulas proofs repaired_formulas rounding",
+    "emission": "extremes foreign_text gated kernels limits prefix scenes text",
     "fuzz": "fuzz",
-    "gate": "cluster cluster_interrupted cluster_refused cluster_versions extremes gate interrupted "
+    "gate": "cluster cluster_interrupted cluster_refused cluster_versions consistency extremes gate interrupted "
     "local_cluster reports resume resume_refused retest schedule unchanged workers",
     "hunt": "cli minimise search",
     "kernel": "attack header parallel_lines printing_languages sanitizers",
