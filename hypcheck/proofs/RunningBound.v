@@ -1,4 +1,5 @@
-(** The running bound E of the kernel's second stage covers the error of 3 delta, whatever was rounded and contracted. *)
+(** The running bounds of the kernel's second stage cover the errors of 3 delta, of the slopes at the poles and of the
+    offsets from them, whatever was rounded and contracted. *)
 
 Require Import Reals Lra Lia List.
 From Hypcheck Require Import Geometry UnitBall Cubic Rounding Kernel.
@@ -136,7 +137,7 @@ Definition unit := / 2 ^ 52.
 Definition slack := 1 + / 2 ^ 20.
 
 Let known n := nth n [fA; fB; fAB; fBP; fAQ; fP; fQ; Rabs f1; Rabs f2; Rabs g1; Rabs g2; Rabs g3;
-                      4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack] 0.
+                      4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack; 16 * unit * slack] 0.
 Variable E : R.
 Hypothesis CE : computes u exact_inputs known StageTwo.Bound.E E.
 
@@ -397,7 +398,7 @@ Proof.
   assert (S : 0 <= slack) by (rewrite Hslack; lra).
   assert (W : forall c, 0 <= c -> 0 <= c * unit * slack) by (intros; repeat apply Rmult_le_pos; lra).
   destruct has_A, has_B, has_AB, has_BP, has_AQ, has_P, has_Q.
-  do 16 (destruct n as [| n]; [unfold known; simpl; auto using Rabs_pos; apply W; lra |]).
+  do 17 (destruct n as [| n]; [unfold known; simpl; auto using Rabs_pos; apply W; lra |]).
   unfold known; destruct n; simpl; lra.
 Qed.
 
@@ -435,6 +436,231 @@ Proof.
   pose proof running_bound_covers_the_error as H; set (D := disc _ _ _) in *.
   pose proof (Rle_abs (delta_3 - 3 * D)); pose proof (Rle_abs (- (delta_3 - 3 * D))); rewrite Rabs_Ropp in *.
   split; intros; lra.
+Qed.
+
+(** ** The slopes at the poles, g'(B) and g'(-A), and the offsets 3B + c2 and 3A - c2. *)
+
+Let growth_sharp k : (k <= 20)%nat -> growth u k <= INR k * unit * slack.
+Proof.
+  intros K; apply le_INR in K; simpl in K; pose proof (pos_INR k) as K0; pose proof (bernoulli u k ltac:(lra)) as N.
+  assert (Q0 : 0 < (1 - u) ^ k) by (apply pow_lt; lra).
+  assert (KU : 0 <= INR k * u <= 20 * / 4503599627370496) by (split; [nra | apply Rmult_le_compat; lra]).
+  assert (KS : INR k * u <= INR k * unit) by (apply Rmult_le_compat_l; [lra | unfold unit; lra]).
+  unfold growth; apply Rplus_le_reg_r with 1; replace (/ (1 - u) ^ k - 1 + 1) with (/ (1 - u) ^ k) by ring.
+  apply Rle_trans with (1 + INR k * u * slack); [| rewrite Hslack; lra].
+  assert (1 <= (1 + INR k * u * slack) * (1 - INR k * u)) by (rewrite Hslack; nra).
+  apply Rmult_le_reg_l with ((1 - u) ^ k); [assumption |]; rewrite Rinv_r by lra.
+  apply Rle_trans with ((1 - INR k * u) * (1 + INR k * u * slack)); [lra |].
+  apply Rmult_le_compat_r; [rewrite Hslack; lra | assumption].
+Qed.
+
+(** How a bound that is computed from a rounded pole p' = p / r covers what is needed of the exact pole p. *)
+Let pole_covered k p p' f : (k <= 190)%nat -> (exists t, factor u 3 t /\ p' = p * t) -> 0 < p -> factor u k f ->
+  p <= slack * f * p' /\ 1 <= slack * f /\ p * p <= 8 / 5 * (slack * f * (p' * p')) /\ 0 < p'.
+Proof.
+  intros K (t & T & ->) Hp F; pose proof (factor_pos u U1 _ _ T); pose proof (factor_pos u U1 _ _ F).
+  assert (H1 : 1 <= slack * f) by (apply slack_covers with k; [lia | assumption]).
+  assert (H2 : 1 <= slack * (f * t)) by (apply slack_covers with (k + 3)%nat; [lia | apply factor_mul; assumption]).
+  assert (H3 : 1 <= slack * (f * (t * t))).
+  { apply slack_covers with (k + (3 + 3))%nat; [lia |]; repeat apply factor_mul; assumption. }
+  repeat split; [nra | assumption | | apply Rmult_lt_0_compat; assumption].
+  replace (slack * f * (p * t * (p * t))) with (slack * (f * (t * t)) * (p * p)) by ring.
+  assert (0 < p * p) by (apply Rmult_lt_0_compat; assumption); nra.
+Qed.
+
+Let slopes n := nth n [f1; f2; alpha; gamma; b; d] 0.
+
+Let A_pos' : 0 < A := A_pos alpha b Ha Hb.
+Let B_pos' : 0 < B := B_pos gamma d Hg Hd.
+
+Let is_A : exists t, factor u 3 t /\ fA = A * t.
+Proof.
+  destruct (one_term_factor u exact_inputs row U1 StageTwo.A fA eq_refl) as (t & T & ->);
+    [unfold row; simpl; repeat split; auto; apply no_zero | exact CA |].
+  exists t; split; [exact T |]; unfold A, row; simpl; field; lra.
+Qed.
+Let is_B : exists t, factor u 3 t /\ fB = B * t.
+Proof.
+  destruct (one_term_factor u exact_inputs row U1 StageTwo.B fB eq_refl) as (t & T & ->);
+    [unfold row; simpl; repeat split; auto; apply no_zero | exact CB |].
+  exists t; split; [exact T |]; unfold B, row; simpl; field; lra.
+Qed.
+
+(** The sizes of slope and offset for a pole p, and the bounds as the kernel forms them from p'. *)
+Let slope_bound p := slack * (2 * e2 * p + e1 + 16 * unit * slack * ((3 * p + 2 * m2) * p + m1)).
+Let offset_bound p := slack * (e2 + 16 * unit * slack * (p + m2)).
+
+Let slope_needs p := 2 * e2 * p + e1 + 10 * unit * slack * ((3 * p + 2 * m2) * p + m1).
+Let offset_needs p := e2 + 5 * unit * slack * (3 * p + m2).
+
+Let slope_suffices k p p' f : (k <= 190)%nat -> (exists t, factor u 3 t /\ p' = p * t) -> 0 < p -> factor u k f ->
+  slope_needs p <= slope_bound p' * f /\ offset_needs p <= offset_bound p' * f.
+Proof.
+  intros K T Hp F; destruct (pole_covered k p p' f K T Hp F) as (H1 & H2 & H3 & H4).
+  destruct sizes as (_ & S1 & S2 & Q4 & _ & T1 & T2 & _); set (h := slack * f) in *.
+  assert (W : 0 <= unit * slack) by (rewrite Hunit, Hslack; lra); unfold slope_needs, slope_bound, offset_needs, offset_bound.
+  assert (X1 : e2 * p <= e2 * (h * p')) by (apply Rmult_le_compat_l; assumption).
+  assert (X2 : m2 * p <= m2 * (h * p')) by (apply Rmult_le_compat_l; assumption).
+  assert (G : forall v, 0 <= v -> v <= h * v).
+  { intros v V0; rewrite <- (Rmult_1_l v) at 1; apply Rmult_le_compat_r; assumption. }
+  pose proof (G e1 S1) as X3; pose proof (G m1 T1) as X4; pose proof (G e2 S2) as X5; pose proof (G m2 T2) as X6.
+  assert (X7 : 0 <= m2 * (h * p')) by (apply Rmult_le_pos; [assumption | apply Rmult_le_pos; lra]).
+  split.
+  - replace (slack * (2 * e2 * p' + e1 + 16 * unit * slack * ((3 * p' + 2 * m2) * p' + m1)) * f)
+      with (2 * (e2 * (h * p')) + h * e1 + unit * slack * (16 * (3 * (h * (p' * p')) + 2 * (m2 * (h * p')) + h * m1)))
+      by (unfold h; ring).
+    replace (10 * unit * slack * ((3 * p + 2 * m2) * p + m1))
+      with (unit * slack * (10 * (3 * (p * p) + 2 * (m2 * p) + m1))) by ring.
+    assert (unit * slack * (10 * (3 * (p * p) + 2 * (m2 * p) + m1))
+            <= unit * slack * (16 * (3 * (h * (p' * p')) + 2 * (m2 * (h * p')) + h * m1)))
+      by (apply Rmult_le_compat_l; [assumption | lra]).
+    lra.
+  - replace (slack * (e2 + 16 * unit * slack * (p' + m2)) * f)
+      with (h * e2 + unit * slack * (16 * (h * p' + h * m2))) by (unfold h; ring).
+    replace (5 * unit * slack * (3 * p + m2)) with (unit * slack * (5 * (3 * p + m2))) by ring.
+    assert (unit * slack * (5 * (3 * p + m2)) <= unit * slack * (16 * (h * p' + h * m2)))
+      by (apply Rmult_le_compat_l; [assumption | lra]).
+    lra.
+Qed.
+
+(** The error of a slope and of an offset; s is 1 at B and -1 at -A. *)
+Let slope_error p s X v M : 0 < p -> s = 1 \/ s = -1 -> v = (3 * p + s * (2 * f2)) * p + f1 ->
+  M = (3 * p + 2 * Rabs f2) * p + Rabs f1 -> Rabs (X - v) <= growth u 10 * M ->
+  Rabs (X - ((3 * p + s * (2 * v2)) * p + v1)) <= slope_needs p.
+Proof.
+  intros Hp S -> -> H; destruct sizes as (_ & S1 & S2 & _ & _ & T1 & T2 & _).
+  pose proof (growth_sharp 10 ltac:(lia)) as G; simpl in G; pose proof (Rabs_pos f1); pose proof (Rabs_pos f2).
+  assert (M0 : 0 <= (3 * p + 2 * Rabs f2) * p + Rabs f1) by (apply Rplus_le_le_0_compat; [apply Rmult_le_pos |]; lra).
+  apply Rle_trans with (10 * unit * slack * ((3 * p + 2 * Rabs f2) * p + Rabs f1) + (2 * e2 * p + e1)).
+  - apply chain_error with ((3 * p + s * (2 * f2)) * p + f1).
+    + apply Rle_trans with (1 := H); apply Rmult_le_compat_r; lra.
+    + replace ((3 * p + s * (2 * f2)) * p + f1 - ((3 * p + s * (2 * v2)) * p + v1))
+        with (2 * p * s * (f2 - v2) + (f1 - v1)) by ring.
+      pose proof (Rabs_triang (2 * p * s * (f2 - v2)) (f1 - v1)) as TR; rewrite Rabs_mult in TR.
+      assert (PS : Rabs (2 * p * s) = 2 * p).
+      { destruct S; subst s; [rewrite Rmult_1_r, Rabs_pos_eq by lra; reflexivity |].
+        replace (2 * p * -1) with (- (2 * p)) by ring; rewrite Rabs_Ropp, Rabs_pos_eq by lra; reflexivity. }
+      rewrite PS in TR; pose proof error_1 as Y1; pose proof error_2 as Y2; fold v1 e1 in Y1; fold v2 e2 in Y2.
+      assert (2 * p * Rabs (f2 - v2) <= 2 * p * e2) by (apply Rmult_le_compat_l; lra); lra.
+  - unfold slope_needs; assert (W : 0 <= 10 * unit * slack) by (rewrite Hunit, Hslack; lra).
+    assert (10 * unit * slack * ((3 * p + 2 * Rabs f2) * p + Rabs f1) <= 10 * unit * slack * ((3 * p + 2 * m2) * p + m1)).
+    { apply Rmult_le_compat_l; [assumption |]; apply Rplus_le_compat; [apply Rmult_le_compat_r |]; unfold m1, m2; lra. }
+    lra.
+Qed.
+
+Let offset_error p s X v M : 0 < p -> s = 1 \/ s = -1 -> v = 3 * p + s * f2 -> M = 3 * p + Rabs f2 ->
+  Rabs (X - v) <= growth u 5 * M -> Rabs (X - (3 * p + s * v2)) <= offset_needs p.
+Proof.
+  intros Hp S -> -> H; destruct sizes as (_ & S1 & S2 & _ & _ & T1 & T2 & _).
+  pose proof (growth_sharp 5 ltac:(lia)) as G; simpl in G; pose proof (Rabs_pos f2).
+  apply Rle_trans with (5 * unit * slack * (3 * p + Rabs f2) + e2).
+  - apply chain_error with (3 * p + s * f2).
+    + apply Rle_trans with (1 := H); apply Rmult_le_compat_r; lra.
+    + replace (3 * p + s * f2 - (3 * p + s * v2)) with (s * (f2 - v2)) by ring; rewrite Rabs_mult.
+      assert (PS : Rabs s = 1) by (destruct S; subst s; [apply Rabs_R1 | rewrite Rabs_left; lra]).
+      rewrite PS, Rmult_1_l; apply error_2.
+  - unfold offset_needs; assert (W : 0 <= 5 * unit * slack) by (rewrite Hunit, Hslack; lra).
+    assert (5 * unit * slack * (3 * p + Rabs f2) <= 5 * unit * slack * (3 * p + m2))
+      by (apply Rmult_le_compat_l; [assumption | unfold m2; lra]). lra.
+Qed.
+
+Let bounded e X : divides_well slopes e -> computes u exact_inputs slopes e X ->
+  Rabs (X - value slopes e) <= growth u (count exact_inputs e) * magnitude slopes e.
+Proof. intros D C; apply error_bound; assumption. Qed.
+
+Let size_of_pole_A : magnitude slopes StageTwo.Slopes.A = A.
+Proof. unfold slopes, A; simpl; rewrite (Rabs_pos_eq alpha), (Rabs_pos_eq b) by lra; field; lra. Qed.
+Let size_of_pole_B : magnitude slopes StageTwo.Slopes.B = B.
+Proof. unfold slopes, B; simpl; rewrite (Rabs_pos_eq gamma), (Rabs_pos_eq d) by lra; field; lra. Qed.
+Let pole_A : value slopes StageTwo.Slopes.A = A.
+Proof. unfold slopes, A; simpl; field; lra. Qed.
+Let pole_B : value slopes StageTwo.Slopes.B = B.
+Proof. unfold slopes, B; simpl; field; lra. Qed.
+
+Let divides : forall e, e = StageTwo.Slopes.A \/ e = StageTwo.Slopes.B -> divides_well slopes e.
+Proof. intros e [-> | ->]; unfold slopes; simpl; repeat split; auto; lra. Qed.
+Let divides_A := divides StageTwo.Slopes.A (or_introl eq_refl).
+Let divides_B := divides StageTwo.Slopes.B (or_intror eq_refl).
+
+Variables X_bound : R.
+
+Let bound_computed e v : only_sums e = true -> (count exact_inputs e <= 190)%nat -> V e = v ->
+  computes u exact_inputs known e X_bound -> exists f, factor u (count exact_inputs e) f /\ X_bound = v * f.
+Proof.
+  intros O K <- C; exact (positive_factor u exact_inputs known e X_bound U1 (sums_positive e O) C).
+Qed.
+
+Theorem bound_covers_slope_at_B X : computes u exact_inputs slopes StageTwo.Slopes.slope_B X ->
+  computes u exact_inputs known StageTwo.Bound.bound_B X_bound ->
+  Rabs (X - slope A B P Q B) <= X_bound.
+Proof.
+  intros C CB'; destruct (bound_computed StageTwo.Bound.bound_B (slope_bound fB) ltac:(vm_compute; reflexivity) ltac:(vm_compute; lia)) as (f & F & XB);
+    [transitivity (slack * (2 ^ 1 * e2 * fB + e1 + 16 * unit * slack * ((3 * fB + 2 ^ 1 * m2) * fB + m1)));
+     [reflexivity | unfold slope_bound; ring] | exact CB' |].
+  rewrite XB; apply Rle_trans with (slope_needs B); [| apply (slope_suffices (count exact_inputs StageTwo.Bound.bound_B) B fB f ltac:(vm_compute; lia) is_B B_pos' F)].
+  replace (slope A B P Q B) with ((3 * B + 1 * (2 * v2)) * B + v1) by (unfold slope, v2, v1; ring).
+  apply slope_error with (3 := eq_refl) (4 := eq_refl); auto.
+  assert (R3 : Rabs 3 = 3) by (apply Rabs_pos_eq; lra).
+  pose proof (bounded StageTwo.Slopes.slope_B X (conj (conj (conj (conj I divides_B) I) divides_B) I) C) as H.
+  replace (value slopes StageTwo.Slopes.slope_B) with ((3 * B + 1 * (2 * f2)) * B + f1) in H.
+  2: { rewrite <- pole_B; transitivity ((3 * value slopes StageTwo.Slopes.B + 2 ^ 1 * f2) * value slopes StageTwo.Slopes.B + f1);
+       [ring | reflexivity]. }
+  replace (magnitude slopes StageTwo.Slopes.slope_B) with ((3 * B + 2 * Rabs f2) * B + Rabs f1) in H; [exact H |].
+  transitivity ((Rabs 3 * magnitude slopes StageTwo.Slopes.B + 2 ^ 1 * Rabs f2)
+                * magnitude slopes StageTwo.Slopes.B + Rabs f1); [rewrite size_of_pole_B, R3; ring | reflexivity].
+Qed.
+
+Theorem bound_covers_slope_at_minus_A X : computes u exact_inputs slopes StageTwo.Slopes.slope_A X ->
+  computes u exact_inputs known StageTwo.Bound.bound_A X_bound ->
+  Rabs (X - slope A B P Q (- A)) <= X_bound.
+Proof.
+  intros C CB'; destruct (bound_computed StageTwo.Bound.bound_A (slope_bound fA) ltac:(vm_compute; reflexivity) ltac:(vm_compute; lia)) as (f & F & XB);
+    [transitivity (slack * (2 ^ 1 * e2 * fA + e1 + 16 * unit * slack * ((3 * fA + 2 ^ 1 * m2) * fA + m1)));
+     [reflexivity | unfold slope_bound; ring] | exact CB' |].
+  rewrite XB; apply Rle_trans with (slope_needs A); [| apply (slope_suffices (count exact_inputs StageTwo.Bound.bound_A) A fA f ltac:(vm_compute; lia) is_A A_pos' F)].
+  replace (slope A B P Q (- A)) with ((3 * A + -1 * (2 * v2)) * A + v1) by (unfold slope, v2, v1; ring).
+  apply slope_error with (3 := eq_refl) (4 := eq_refl); auto.
+  assert (R3 : Rabs 3 = 3) by (apply Rabs_pos_eq; lra).
+  pose proof (bounded StageTwo.Slopes.slope_A X (conj (conj (conj (conj I divides_A) I) divides_A) I) C) as H.
+  replace (value slopes StageTwo.Slopes.slope_A) with ((3 * A + -1 * (2 * f2)) * A + f1) in H.
+  2: { rewrite <- pole_A; transitivity ((3 * value slopes StageTwo.Slopes.A - 2 ^ 1 * f2) * value slopes StageTwo.Slopes.A + f1);
+       [ring | reflexivity]. }
+  replace (magnitude slopes StageTwo.Slopes.slope_A) with ((3 * A + 2 * Rabs f2) * A + Rabs f1) in H; [exact H |].
+  transitivity ((Rabs 3 * magnitude slopes StageTwo.Slopes.A + 2 ^ 1 * Rabs f2)
+                * magnitude slopes StageTwo.Slopes.A + Rabs f1); [rewrite size_of_pole_A, R3; ring | reflexivity].
+Qed.
+
+Theorem bound_covers_offset_at_B X : computes u exact_inputs slopes StageTwo.Slopes.offset_B X ->
+  computes u exact_inputs known StageTwo.Bound.offset_bound_B X_bound ->
+  Rabs (X - (3 * B + UnitBall.c2 A B P Q)) <= X_bound.
+Proof.
+  intros C CB'; destruct (bound_computed StageTwo.Bound.offset_bound_B (offset_bound fB) ltac:(vm_compute; reflexivity) ltac:(vm_compute; lia)) as (f & F & XB);
+    [reflexivity | exact CB' |].
+  rewrite XB; apply Rle_trans with (offset_needs B); [| apply (slope_suffices (count exact_inputs StageTwo.Bound.offset_bound_B) B fB f ltac:(vm_compute; lia) is_B B_pos' F)].
+  replace (3 * B + UnitBall.c2 A B P Q) with (3 * B + 1 * v2) by (unfold v2; ring).
+  apply offset_error with (3 := eq_refl) (4 := eq_refl); auto.
+  pose proof (bounded StageTwo.Slopes.offset_B X (conj (conj I divides_B) I) C) as H.
+  replace (value slopes StageTwo.Slopes.offset_B) with (3 * B + 1 * f2) in H by (rewrite <- pole_B, Rmult_1_l; reflexivity).
+  replace (magnitude slopes StageTwo.Slopes.offset_B) with (3 * B + Rabs f2) in H; [exact H |].
+  transitivity (Rabs 3 * magnitude slopes StageTwo.Slopes.B + Rabs f2); [| reflexivity].
+  rewrite size_of_pole_B, (Rabs_pos_eq 3) by lra; reflexivity.
+Qed.
+
+Theorem bound_covers_offset_at_minus_A X : computes u exact_inputs slopes StageTwo.Slopes.offset_A X ->
+  computes u exact_inputs known StageTwo.Bound.offset_bound_A X_bound ->
+  Rabs (X - (3 * A - UnitBall.c2 A B P Q)) <= X_bound.
+Proof.
+  intros C CB'; destruct (bound_computed StageTwo.Bound.offset_bound_A (offset_bound fA) ltac:(vm_compute; reflexivity) ltac:(vm_compute; lia)) as (f & F & XB);
+    [reflexivity | exact CB' |].
+  rewrite XB; apply Rle_trans with (offset_needs A); [| apply (slope_suffices (count exact_inputs StageTwo.Bound.offset_bound_A) A fA f ltac:(vm_compute; lia) is_A A_pos' F)].
+  replace (3 * A - UnitBall.c2 A B P Q) with (3 * A + -1 * v2) by (unfold v2; ring).
+  apply offset_error with (3 := eq_refl) (4 := eq_refl); auto.
+  pose proof (bounded StageTwo.Slopes.offset_A X (conj (conj I divides_A) I) C) as H.
+  replace (value slopes StageTwo.Slopes.offset_A) with (3 * A + -1 * f2) in H.
+  2: { rewrite <- pole_A; transitivity (3 * value slopes StageTwo.Slopes.A - f2); [ring | reflexivity]. }
+  replace (magnitude slopes StageTwo.Slopes.offset_A) with (3 * A + Rabs f2) in H; [exact H |].
+  transitivity (Rabs 3 * magnitude slopes StageTwo.Slopes.A + Rabs f2); [| reflexivity].
+  rewrite size_of_pole_A, (Rabs_pos_eq 3) by lra; reflexivity.
 Qed.
 
 End Bound.

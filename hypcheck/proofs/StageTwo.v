@@ -82,6 +82,30 @@ Definition h2_squared := Mul h2 h2.
 Definition delta_3 := Sub h1h3_4 h2_squared.
 End Last.
 
+Module Slopes.
+Definition c1 := Input 0.
+Definition c2 := Input 1.
+Definition alpha := Input 2.
+Definition gamma := Input 3.
+Definition b := Input 4.
+Definition d := Input 5.
+Definition alpha_over_b := Div alpha b.
+Definition A := Mul alpha_over_b alpha_over_b.
+Definition gamma_over_d := Div gamma d.
+Definition B := Mul gamma_over_d gamma_over_d.
+Definition two_c2 := Scale 1 c2.
+Definition thrice_B := Mul (Whole (3)%Z) B.
+Definition chord_B := Add thrice_B two_c2.
+Definition rise_B := Mul chord_B B.
+Definition slope_B := Add rise_B c1.
+Definition offset_B := Add thrice_B c2.
+Definition thrice_A := Mul (Whole (3)%Z) A.
+Definition chord_A := Sub thrice_A two_c2.
+Definition rise_A := Mul chord_A A.
+Definition slope_A := Add rise_A c1.
+Definition offset_A := Sub thrice_A c2.
+End Slopes.
+
 Module Bound.
 Definition A := Input 0.
 Definition B := Input 1.
@@ -99,6 +123,7 @@ Definition u_4 := Input 12.
 Definition u_8 := Input 13.
 Definition u_12 := Input 14.
 Definition slack := Input 15.
+Definition u_16 := Input 16.
 Definition P_plus_Q := Add P Q.
 Definition A_plus_B := Add A B.
 Definition sizes_1 := Add A_plus_B AB.
@@ -150,4 +175,31 @@ Definition F2 := Add twice_E2 u_a2.
 Definition a2_F2 := Mul a2 F2.
 Definition E_sum := Add fourfold_cross_13 a2_F2.
 Definition E := Mul slack E_sum.
+Definition twice_m2 := Scale 1 m2.
+Definition thrice_B := Mul (Whole (3)%Z) B.
+Definition size_chord_B := Add thrice_B twice_m2.
+Definition size_rise_B := Mul size_chord_B B.
+Definition size_slope_B := Add size_rise_B m1.
+Definition u_slope_B := Mul u_16 size_slope_B.
+Definition carried_B := Mul twice_e2 B.
+Definition carried_1_B := Add carried_B e1.
+Definition error_B := Add carried_1_B u_slope_B.
+Definition bound_B := Mul slack error_B.
+Definition size_offset_B := Add B m2.
+Definition u_offset_B := Mul u_16 size_offset_B.
+Definition offset_error_B := Add e2 u_offset_B.
+Definition offset_bound_B := Mul slack offset_error_B.
+Definition thrice_A := Mul (Whole (3)%Z) A.
+Definition size_chord_A := Add thrice_A twice_m2.
+Definition size_rise_A := Mul size_chord_A A.
+Definition size_slope_A := Add size_rise_A m1.
+Definition u_slope_A := Mul u_16 size_slope_A.
+Definition carried_A := Mul twice_e2 A.
+Definition carried_1_A := Add carried_A e1.
+Definition error_A := Add carried_1_A u_slope_A.
+Definition bound_A := Mul slack error_A.
+Definition size_offset_A := Add A m2.
+Definition u_offset_A := Mul u_16 size_offset_A.
+Definition offset_error_A := Add e2 u_offset_A.
+Definition offset_bound_A := Mul slack offset_error_A.
 End Bound.

@@ -126,9 +126,9 @@ def test_constants_proved_in_coq_are_those_of_the_kernel():
         assert unit == units * Fraction(certified.U) == units * Fraction(1, 2**52)
     bound = build.source("RunningBound")
     assert "Definition unit := / 2 ^ 52.\nDefinition slack := 1 + / 2 ^ 20.\n" in bound
-    assert "4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack] 0." in bound
+    assert "4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack; 16 * unit * slack] 0." in bound
     assert Fraction(certified.SLACK) == 1 + Fraction(1, 2**20)
-    for units in (4, 8, 12):
+    for units in (4, 8, 12, 16):
         assert Fraction(certified.CONSTANTS[f"u_{units}"]) == units * Fraction(1, 2**52) * Fraction(certified.SLACK)
 
 

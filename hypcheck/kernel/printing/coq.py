@@ -40,7 +40,8 @@ def stage_two() -> str:
     modules = (
         ("Parts", cut(CERTIFIED, ("c0", "c1", "c2"), ("h1", "h2", "h3")), ("h1", "h2", "h3")),
         ("Last", cut(CERTIFIED, ("h1", "h2", "h3"), ("delta_3",)), ("delta_3",)),
-        ("Bound", cut(CERTIFIED, _KNOWN, ("E",)), ("e0", "e1", "e2", "E")),
+        ("Slopes", cut(CERTIFIED, ("c1", "c2"), _SLOPES), _SLOPES),
+        ("Bound", cut(CERTIFIED, _KNOWN, ("E", *_SLOPE_BOUNDS)), ("e0", "e1", "e2", "E", *_SLOPE_BOUNDS)),
     )
     lines = definitions(SINGLE, ("c0", "c1", "c2", "delta_3"))
     for name, program, wanted in modules:
@@ -55,6 +56,9 @@ _HEAD = """(** What the kernel's floats compute, printed from the kernel's own p
     First c0, c1, c2 and 3 delta from a row; then, in modules, what leads from the coefficients to h1, h2, h3, from
     these to 3 delta, and from computed numbers to the running bound E. Kernel.v and RunningBound.v have the proofs. *)
 """
+
+_SLOPES = ("slope_B", "slope_A", "offset_B", "offset_A")
+_SLOPE_BOUNDS = ("bound_B", "bound_A", "offset_bound_B", "offset_bound_A")
 
 _KNOWN = (
     *("A", "B", "AB", "BP", "AQ", "P", "Q", "size_c1", "size_c2", "size_h1", "size_h2", "size_h3"),
