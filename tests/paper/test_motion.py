@@ -133,6 +133,7 @@ def of_one(columns, place):
 def watched_alone(craft, moves, place, expected):
     """Count one move of one flight, asking each body and each rotor by itself."""
     start, end, heading = (of_one(columns, place) for columns in (moves.start, moves.end, moves.before))
+    expected.asked += bool((moves.accepted[place] or moves.refused[place]) and not moves.turning[place])
     if moves.accepted[place]:
         kind = "vertical" if moves.vertical[place] else "horizontal"
         rotors = zip(floats(*craft.rotors(start, heading)), floats(*craft.rotors(end, heading)), strict=True)
