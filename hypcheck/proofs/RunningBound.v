@@ -258,7 +258,7 @@ Qed.
 Let few k c : INR k * (INR k + 1) <= 100 -> INR k + 1 <= c -> growth u k <= c * u.
 Proof.
   intros K C; pose proof (pos_INR k); apply Rle_trans with ((INR k + 1) * u); [apply growth_is_small; [exact U1 |] |].
-  - apply Rle_trans with (100 * / 4503599627370496); [apply Rmult_le_compat; try lra; nra | lra].
+  - apply Rle_trans with (100 * / 4503599627370496); [apply Rmult_le_compat; try lra; apply Rmult_le_pos; lra | lra].
   - apply Rmult_le_compat_r; lra.
 Qed.
 
@@ -444,11 +444,15 @@ Let growth_sharp k : (k <= 20)%nat -> growth u k <= INR k * unit * slack.
 Proof.
   intros K; apply le_INR in K; simpl in K; pose proof (pos_INR k) as K0; pose proof (bernoulli u k ltac:(lra)) as N.
   assert (Q0 : 0 < (1 - u) ^ k) by (apply pow_lt; lra).
-  assert (KU : 0 <= INR k * u <= 20 * / 4503599627370496) by (split; [nra | apply Rmult_le_compat; lra]).
+  assert (KU : 0 <= INR k * u <= 20 * / 4503599627370496)
+    by (split; [apply Rmult_le_pos; lra | apply Rmult_le_compat; lra]).
   assert (KS : INR k * u <= INR k * unit) by (apply Rmult_le_compat_l; [lra | unfold unit; lra]).
   unfold growth; apply Rplus_le_reg_r with 1; replace (/ (1 - u) ^ k - 1 + 1) with (/ (1 - u) ^ k) by ring.
   apply Rle_trans with (1 + INR k * u * slack); [| rewrite Hslack; lra].
-  assert (1 <= (1 + INR k * u * slack) * (1 - INR k * u)) by (rewrite Hslack; nra).
+  assert (1 <= (1 + INR k * u * slack) * (1 - INR k * u)).
+  { rewrite Hslack; set (v := INR k * u) in *; clearbody v; clear - KU.
+    replace ((1 + v * (1 + / 1048576)) * (1 - v)) with (1 + v * (/ 1048576 - (1 + / 1048576) * v)) by field.
+    assert (0 <= v * (/ 1048576 - (1 + / 1048576) * v)) by (apply Rmult_le_pos; lra); lra. }
   apply Rmult_le_reg_l with ((1 - u) ^ k); [assumption |]; rewrite Rinv_r by lra.
   apply Rle_trans with ((1 - INR k * u) * (1 + INR k * u * slack)); [lra |].
   apply Rmult_le_compat_r; [rewrite Hslack; lra | assumption].
@@ -463,9 +467,14 @@ Proof.
   assert (H2 : 1 <= slack * (f * t)) by (apply slack_covers with (k + 3)%nat; [lia | apply factor_mul; assumption]).
   assert (H3 : 1 <= slack * (f * (t * t))).
   { apply slack_covers with (k + (3 + 3))%nat; [lia |]; repeat apply factor_mul; assumption. }
-  repeat split; [nra | assumption | | apply Rmult_lt_0_compat; assumption].
+  repeat split; [| assumption | | apply Rmult_lt_0_compat; assumption].
+  { replace (slack * f * (p * t)) with (slack * (f * t) * p) by ring.
+    rewrite <- (Rmult_1_l p) at 1; apply Rmult_le_compat_r; lra. }
   replace (slack * f * (p * t * (p * t))) with (slack * (f * (t * t)) * (p * p)) by ring.
-  assert (0 < p * p) by (apply Rmult_lt_0_compat; assumption); nra.
+  assert (PP : 0 < p * p) by (apply Rmult_lt_0_compat; assumption).
+  apply Rle_trans with (1 * (p * p)); [lra |]; apply Rle_trans with (slack * (f * (t * t)) * (p * p)).
+  - apply Rmult_le_compat_r; lra.
+  - assert (0 <= slack * (f * (t * t)) * (p * p)) by (apply Rmult_le_pos; lra); lra.
 Qed.
 
 Let slopes n := nth n [f1; f2; alpha; gamma; b; d] 0.
