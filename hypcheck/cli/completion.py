@@ -9,7 +9,7 @@ from __future__ import annotations
 import click
 from click.shell_completion import CompletionItem, ShellComplete, get_completion_class
 
-from hypcheck.cli.main import COMPLETE
+from hypcheck.cli import COMPLETE
 from hypcheck.errors import InputError
 
 SHELLS = ("bash", "zsh", "fish")

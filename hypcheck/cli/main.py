@@ -10,11 +10,10 @@ from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
+from hypcheck.cli import COMPLETE
 from hypcheck.errors import Terminated
 
 INTERRUPTED = (130, 143)
-COMPLETE = "_HYPCHECK_COMPLETE"
-"""The variable by which a shell asks for completions of the words in its other variables, as click names it."""
 
 
 def process() -> NoReturn:

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from hypcheck.cli import COMPLETE
 from hypcheck.cli.completion import SHELLS
-from hypcheck.cli.main import COMPLETE, main
+from hypcheck.cli.main import main
 
 BASH = """
 eval "$(hypcheck completion bash)"
