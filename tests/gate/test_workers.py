@@ -93,8 +93,8 @@ def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
         first = started(performing)
         for process in first:
             os.kill(process.pid, signal.SIGSTOP)
-        *_, (_, state) = found
-        assert [process.exitcode for process in first] == [-signal.SIGKILL] * 2
+        *_, (_, state) = found  # one that has no task when it is stopped is ended with the pool
+    assert [process.exitcode for process in first] == [-signal.SIGKILL] * 2
     assert saved(state) == saved(expected)
 
 
