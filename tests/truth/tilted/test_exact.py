@@ -1,0 +1,129 @@
+"""The exact decision of tilted pairs against definitions, hand-worked pairs, and the upright decision."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from hypcheck.errors import InputError
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import exact as upright
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.batch import positions
+from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+from tests.truth.tilted.cases import TANGENT, WITNESSES, grown, random_rows
+
+
+def test_quartic_is_the_determinant_of_the_pencil():
+    p, s, q, t, x, y, z, v_x, v_y, v_z, at = sp.symbols("p s q t x y z v_x v_y v_z lambda")
+    axis, center = sp.Matrix([v_x, v_y, v_z]), sp.Matrix([x, y, z])
+    V = axis.dot(axis)
+    M = sp.eye(3) / q + (1 / t - 1 / q) * axis * axis.T / V
+    D = sp.diag(1 / p, 1 / p, -1 / s)
+    S = sp.Matrix(sp.BlockMatrix([[M, -M * center], [-(M * center).T, center.T * M * center - sp.eye(1)]]))
+    H = sp.Matrix(sp.BlockMatrix([[D, sp.zeros(3, 1)], [sp.zeros(1, 3), -sp.eye(1)]]))
+    c, W = v_z**2, v_x**2 + v_y**2
+    g1, g2 = t * W + q * c, q * W + t * c
+    E = p * s * V + at * (s * g1 - p * g2) - at**2 * q * t * V
+    T, N = (x * v_x + y * v_y) * z * v_z, x * v_y - y * v_x
+    R, Z = x**2 + y**2, z**2
+    G = -(1 + at) * E + at * (R * s - Z * p) * V - at**2 * (R * g2 + Z * g1 + 2 * (q - t) * T)
+    F = (p + q * at) * G - (q - t) * N**2 * at**2 * (s - q * at)
+    difference = sp.together((S + at * H).det(method="berkowitz") * p**2 * q**2 * s * t * V - F)
+    assert sp.expand(sp.numer(difference)) == 0
+
+
+def test_quartic_of_integers_is_the_determinant_of_the_pencil():
+    for row in random_rows(30):
+        lengths = TiltedLengths.of(row)
+        F = exact.quartic(lengths)
+        p, s, q, t = (Fraction(each) ** 2 for each in (lengths.alpha, lengths.gamma, lengths.b, lengths.d))
+        V = sum(each * each for each in lengths.axis)
+        for at in (Fraction(-3, 7), Fraction(2, 5), Fraction(11, 3)):
+            expected = determinant(pencil(lengths, at)) * p * p * q * q * s * t * V
+            found = [F.f4, F.f3, F.f2, F.f1, F.f0]
+            assert sum(c * (at * F.side) ** (4 - i) for i, c in enumerate(found)) == expected
+
+
+def pencil(lengths, at):
+    p, s, q, t = (Fraction(each) ** 2 for each in (lengths.alpha, lengths.gamma, lengths.b, lengths.d))
+    v, center = lengths.axis, (lengths.x, lengths.y, lengths.z)
+    V = sum(each * each for each in v)
+    M = [[(i == j) / q + (1 / t - 1 / q) * v[i] * v[j] / V for j in range(3)] for i in range(3)]
+    shift = [-sum(M[i][j] * center[j] for j in range(3)) for i in range(3)]
+    last = -sum(shift[i] * center[i] for i in range(3)) - 1 - at
+    D = (1 / p, 1 / p, -1 / s)
+    rows = [[M[i][j] + (i == j) * at * D[i] for j in range(3)] + [shift[i]] for i in range(3)]
+    return [*rows, [*shift, last]]
+
+
+def determinant(matrix):
+    if len(matrix) == 1:
+        return matrix[0][0]
+    return sum(
+        (-1) ** j * matrix[0][j] * determinant([row[:j] + row[j + 1 :] for row in matrix[1:]])
+        for j in range(len(matrix))
+    )
+
+
+def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrunk():
+    assert {side for _, side in TANGENT} == {Position.EXTERIOR, Position.INTERIOR}
+    step = Fraction(1, 2**200)
+    for row, side in TANGENT:
+        decision = exact.decide(TiltedLengths.of(row))
+        assert decision.position is Position.CONTACT
+        assert decision.limit_of is side
+        assert exact.position(TiltedLengths.of(grown(row, 1 - step))) is side
+        assert exact.position(TiltedLengths.of(grown(row, 1 + step))) is Position.CONTACT
+
+
+@pytest.mark.parametrize(("row", "position", "why"), WITNESSES)
+def test_position_of_hand_worked_pairs(row, position, why):
+    assert exact.position(TiltedPair.from_row(row).lengths) is position, why
+
+
+def test_vertical_axis_and_sphere_have_the_upright_position():
+    for row in random_rows(200):
+        vertical = [*row[:7], 0.0, 0.0, row[9]]
+        sphere = [*row[:3], row[2], *row[4:]]
+        for changed in (vertical, sphere):
+            assert exact.position(TiltedLengths.of(changed)) is upright.position(Pair.from_row(changed[:7]).lengths)
+
+
+def test_position_ignores_length_and_sign_of_the_axis_and_the_unit_of_length():
+    for row in random_rows(100):
+        expected = exact.decide(TiltedLengths.of(row))
+        for factor in (-1.0, 2.0**-900, 2.0**900, Fraction(-3, 7)):
+            assert exact.decide(TiltedLengths.of([*row[:7], *(each * factor for each in row[7:])])) == expected
+        assert exact.decide(TiltedLengths.of([*(Fraction(each) / 3 for each in row[:7]), *row[7:]])) == expected
+
+
+def test_positions_of_an_array_are_those_of_its_rows():
+    rows = random_rows(50)
+    expected = [exact.position(TiltedLengths.of(row)) for row in rows]
+    assert positions(np.array(rows)).tolist() == expected
+    assert len(set(expected)) == 3
+
+
+def test_positions_refuse_or_flag_invalid_rows():
+    good = [1.0, 2.0, 1.0, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 1.0]
+    rows = np.array([good] * 5)
+    rows[1, 7:] = 0.0
+    rows[2, 8] = np.nan
+    rows[3, 7] = np.inf
+    rows[4, 2] = 0.0
+    assert positions(rows, on_invalid="flag").tolist() == [1, 127, 127, 127, 127]
+    with pytest.raises(InputError, match=r"^row 1: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction$"):
+        positions(rows)
+    with pytest.raises(InputError, match=r"^row 1: axis_y is nan; it must be finite$"):
+        positions(rows[[0, 2]])
+    with pytest.raises(InputError, match=r"shape \(1, 7\); it must be \(n, 10\): alpha"):
+        positions([[1, 1, 1, 1, 0, 0, 0]])
+
+
+def test_pair_refuses_an_axis_without_direction():
+    with pytest.raises(InputError, match="must have a direction"):
+        TiltedPair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
