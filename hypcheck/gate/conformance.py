@@ -17,7 +17,7 @@ from hypcheck.casebook.families import is_extreme
 from hypcheck.casebook.frozen import refusals
 from hypcheck.gate.chunks import Cases, Chunk, cases, octaves
 from hypcheck.gate.known_failures import KnownFailure
-from hypcheck.gate.results import Open, Result
+from hypcheck.gate.results import PendingRetest, Result
 from hypcheck.judge import Criterion, Status, WrongCase
 from hypcheck.methods.domain import Domain, claimed
 from hypcheck.methods.implementation import Crashed, Implementation
@@ -116,11 +116,11 @@ def _first_open(chunk: Chunk, indices: Indices) -> int:
     return cut
 
 
-def _open(chunk: Chunk, indices: Indices, answers: NDArray[np.int8]) -> tuple[Open, ...]:
+def _open(chunk: Chunk, indices: Indices, answers: NDArray[np.int8]) -> tuple[PendingRetest, ...]:
     if not len(indices):
         return ()
     first, last = int(indices[0]), int(indices[-1]) + 1
-    return (Open(chunk.between(first, last), indices - first, answers),)
+    return (PendingRetest(chunk.between(first, last), indices - first, answers),)
 
 
 def _excused(case: WrongCase, name: str, family: str, rules: Rules) -> tuple[WrongCase, list[int]]:

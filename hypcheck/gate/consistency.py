@@ -20,7 +20,7 @@ from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.chunks import OCTAVES_OF, Chunk
 from hypcheck.gate.conformance import Invalid, Rules
 from hypcheck.gate.plan import GatePlan, planned
-from hypcheck.gate.results import Open, Result
+from hypcheck.gate.results import PendingRetest, Result
 from hypcheck.gate.schedule import State, Step
 from hypcheck.judge import UNANSWERED, Mistake, Status
 from hypcheck.methods.faults import Outcome
@@ -147,7 +147,7 @@ def _of_allowance(state: State, plan: GatePlan) -> str:
     return "cases were not asked, though it may be asked" if stopped and not left.over else ""
 
 
-def _of_open(each: Open, waiting: Sequence[Chunk], rules: Rules) -> str:
+def _of_open(each: PendingRetest, waiting: Sequence[Chunk], rules: Rules) -> str:
     """Of a planned chunk, trimmed to its open cases, each of which has an answer that the question allows."""
     chunk, indices = each.chunk, each.indices
     known = (*allowed(rules.criterion.question), CANNOT_SAY)

@@ -20,7 +20,7 @@ from hypcheck.judge import UNANSWERED, Status
 from hypcheck.methods.description import Description
 from hypcheck.record import Line, Recorder, lines
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Drift, Group, Implementation, NotStarted, Retest
+from hypcheck.record.lines import Drift, Group, Implementation, NotStarted
 from hypcheck.tally import Tally
 
 
@@ -95,7 +95,7 @@ class Lines:
                 declared=as_recorded(self.declared),
                 used=as_recorded(self.used),
                 restarts=self.plan.limits.restarts - state.left.restarts,
-                again=Retest(**asdict(total.again)),
+                again=total.again,
                 broke_protocol_throughout=total.broke_protocol_throughout,
                 troubles=list(self._troubles(total, found)),
                 finished=UNSET if finished else False,

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from hypcheck import tally
 from hypcheck.gate.chunks import Chunk
 from hypcheck.methods.faults import Outcome
+from hypcheck.record.lines import Retest
 from hypcheck.tally import Tally
 
 
 @dataclass(frozen=True, slots=True)
-class Open:
+class PendingRetest:
     """Cases that were answered and are to be asked again before they are judged.
 
     `indices` (n,) are theirs in the chunk, ascending, and `answers`, int8 (n,), what was answered at first.
@@ -26,13 +27,7 @@ class Open:
     answers: NDArray[np.int8]
 
 
-@dataclass(frozen=True, slots=True)
-class Again:
-    """What asking again came to: cases asked, and those answered differently, within the tolerance and beyond it."""
-
-    asked: int = 0
-    within: int = 0
-    beyond: int = 0
+NO_RETEST = Retest(asked=0, within=0, beyond=0)
 
 
 @dataclass(frozen=True)
@@ -44,8 +39,8 @@ class Result:
     """
 
     tallies: Mapping[str, Tally] = field(default_factory=dict)
-    open: tuple[Open, ...] = ()
-    again: Again = Again()
+    open: tuple[PendingRetest, ...] = ()
+    again: Retest = NO_RETEST
     outcomes: frozenset[Outcome] = frozenset()
     excusing: frozenset[int] = frozenset()
     named: frozenset[str] = frozenset()
@@ -72,8 +67,14 @@ def merged(results: Iterable[Result]) -> Result:
     return Result(
         tallies={family: tally.merged(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
         open=tuple(each for part in parts for each in part.open),
-        again=Again(*(sum(getattr(part.again, name) for part in parts) for name in Again.__slots__)),
+        again=_added(part.again for part in parts),
         outcomes=frozenset().union(*(part.outcomes for part in parts)),
         excusing=frozenset().union(*(part.excusing for part in parts)),
         named=frozenset().union(*(part.named for part in parts)),
     )
+
+
+def _added(retests: Iterable[Retest]) -> Retest:
+    counts = ((each.asked, each.within, each.beyond) for each in retests)
+    asked, within, beyond = map(sum, zip((0, 0, 0), *counts, strict=True))
+    return Retest(asked=asked, within=within, beyond=beyond)

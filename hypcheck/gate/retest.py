@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from hypcheck import judge
 from hypcheck.gate.chunks import Cases, cases_of
 from hypcheck.gate.conformance import Rules, judged
-from hypcheck.gate.results import Again, Open, Result, merged
+from hypcheck.gate.results import PendingRetest, Result, merged
 from hypcheck.judge import Criterion, Status
 from hypcheck.methods.asking import Answered
 from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import Crashed, Implementation
 from hypcheck.pairs import Position
+from hypcheck.record.lines import Retest
 from hypcheck.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.score import Indices, as_slice, ended, score
 from hypcheck.tally import STATUSES
@@ -76,7 +77,7 @@ class RetestTask:
 
     number: int
     part: int
-    open: tuple[Open, ...]
+    open: tuple[PendingRetest, ...]
 
 
 @dataclass(frozen=True)
@@ -120,16 +121,16 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: R
                     changes[place] = STATUSES[status[offset]], reason
     within = sum(status is Status.TOLERATED for status, _ in changes.values())
     beyond = sum(status is Status.NONDETERMINISTIC for status, _ in changes.values())
-    again = Again(len(sample.rows), within, beyond)
+    again = Retest(asked=len(sample.rows), within=within, beyond=beyond)
     return replace(_judged(asked.open, sample, changes, rules), again=again, outcomes=frozenset(outcomes))
 
 
-def as_they_are(some: tuple[Open, ...], rules: Rules) -> Result:
+def as_they_are(some: tuple[PendingRetest, ...], rules: Rules) -> Result:
     """Judge open cases by their first answers: of a run that is interrupted before it could ask them again."""
     return _judged(some, _sample(some), {}, rules) if some else Result()
 
 
-def _sample(some: tuple[Open, ...]) -> _Sample:
+def _sample(some: tuple[PendingRetest, ...]) -> _Sample:
     made = cases_of(each.chunk for each in some)
     both = tuple(zip(made, some, strict=True))
     return _Sample(
@@ -141,7 +142,7 @@ def _sample(some: tuple[Open, ...]) -> _Sample:
     )
 
 
-def _moments(each: Open) -> NDArray[np.int64]:
+def _moments(each: PendingRetest) -> NDArray[np.int64]:
     if each.chunk.movement == 1:
         return np.full(len(each.indices), -1)
     return (each.chunk.start + each.indices) % each.chunk.movement
@@ -159,7 +160,7 @@ def _change(sample: _Sample, place: int, answer: int, criterion: Criterion) -> t
     return Status.NONDETERMINISTIC, reason
 
 
-def _judged(some: tuple[Open, ...], sample: _Sample, changes: Changes, rules: Rules) -> Result:
+def _judged(some: tuple[PendingRetest, ...], sample: _Sample, changes: Changes, rules: Rules) -> Result:
     """All cases of the round, judged by their first answers unless these count no more."""
     results, start = [], 0
     lost = {place: change for place, change in changes.items() if change[0] is not Status.TOLERATED}

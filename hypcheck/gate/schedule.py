@@ -17,7 +17,7 @@ from itertools import islice, takewhile
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.gate.chunks import SIZE, Chunk
 from hypcheck.gate.conformance import Invalid, Rules
-from hypcheck.gate.results import Open, Result, merged
+from hypcheck.gate.results import PendingRetest, Result, merged
 from hypcheck.gate.retest import RetestTask
 from hypcheck.gate.tasks import Task, TaskResult, perform
 from hypcheck.methods.implementation import Crashed
@@ -42,7 +42,7 @@ _TICK = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class RetestStep:
     """A step that asks the open cases of the chunks since the last round again: those in one part of it.
 
     Part 0 is of the chunks that begin a family; with it everything is asked that is asked once a run. Parts 1 and 2 are
@@ -52,12 +52,12 @@ class Again:
     number: int
     part: int = 0
 
-    def of(self, some: tuple[Open, ...]) -> RetestTask:
+    def of(self, some: tuple[PendingRetest, ...]) -> RetestTask:
         """Its task, where these are open."""
         return RetestTask(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
 
 
-Step = Chunk | Again | Invalid
+Step = Chunk | RetestStep | Invalid
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class State:
     def after(self, step: Step, done: TaskResult, limits: Allowance) -> State:
         """The state after one more step, whose task began with all of the limits."""
         before = self.total
-        if isinstance(step, Again):
+        if isinstance(step, RetestStep):
             before = replace(before, open=tuple(each for each in before.open if each.chunk.part != step.part))
         return State(self.left.after(done.left, limits), self.done + 1, merged([before, done.result]))
 
@@ -134,9 +134,9 @@ def steps(chunks: Iterable[Chunk], *, refuses: bool) -> Iterator[Step]:
         yield Invalid()
 
 
-def _round(number: int, parts: set[int]) -> Iterator[Again]:
+def _round(number: int, parts: set[int]) -> Iterator[RetestStep]:
     """Part 0, which takes the longest in the first round, stands last, so that the others are asked together."""
-    return (Again(number, part) for part in (1, 2, 0) if part in parts)
+    return (RetestStep(number, part) for part in (1, 2, 0) if part in parts)
 
 
 def states(some: Iterable[Step], performing: Performing, state: State) -> Iterator[tuple[Step, State]]:
@@ -221,9 +221,9 @@ class _Line:
 
     def _look_ahead(self, steps: int, state: State) -> None:
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
-            self._entries.append(_Entry(step, None if isinstance(step, Again) else step))
-        for entry in takewhile(lambda each: isinstance(each.step, Again), self._entries):
-            if isinstance(entry.step, Again) and entry.task is None:  # only now all of its cases are there
+            self._entries.append(_Entry(step, None if isinstance(step, RetestStep) else step))
+        for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
+            if isinstance(entry.step, RetestStep) and entry.task is None:  # only now all of its cases are there
                 entry.task = entry.step.of(state.total.open)
 
     @property

@@ -284,16 +284,6 @@ class NotStarted(Line, frozen=True, kw_only=True, tag="implementation"):
     trouble: str
 
 
-class Progress(Line, frozen=True, kw_only=True):
-    """Since 1.3.0, of a run with SPEC that did not finish: what it goes on from. `program`: the sha256 of our files."""
-
-    number: Count
-    declared: Description
-    cases: Count
-    state: dict[str, Any]
-    program: str | None = None
-
-
 class Map(Line, frozen=True, kw_only=True):
     """A method over the half plane of a scene: a text for each z, a letter for each r, upper case where it is wrong."""
 

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from hypcheck.errors import InputError
-from hypcheck.record import lines, measurements
+from hypcheck.record import lines, measurements, progress
 from hypcheck.record.fields import Line, decoded
 from hypcheck.record.lines import SCHEMA, Footer, Header, NotStarted
 from hypcheck.record.scanning import Scan
@@ -34,7 +34,7 @@ GROWING = "record.jsonl.part"
 
 LINES: Mapping[str, type[Line]] = {
     str(kind.__struct_config__.tag): kind
-    for module in (lines, measurements)
+    for module in (lines, progress, measurements)
     for kind in vars(module).values()
     if isinstance(kind, type) and issubclass(kind, Line) and kind not in (Line, NotStarted)
 }

@@ -19,7 +19,8 @@ from typing import Any, TextIO
 from hypcheck.processes import interrupts_deferred
 from hypcheck.record.fields import Line, as_json, decoded, plain
 from hypcheck.record.growing import Growing
-from hypcheck.record.lines import SCHEMA, Footer, Header, Implementation, NotStarted, Progress
+from hypcheck.record.lines import SCHEMA, Footer, Header, Implementation, NotStarted
+from hypcheck.record.progress import Progress
 from hypcheck.record.reader import Record
 from hypcheck.record.sealing import sealed
 from hypcheck.version import VERSION

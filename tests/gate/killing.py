@@ -44,7 +44,7 @@ def without_culprit(some):
 
 def require_one_crash(found, expected, culprit, reason):
     """The result is the expected one, but for the cases of the culprit, all of which crashed for the reason."""
-    tower = [saved_result(each)["tallies"]["tower-body"] for each in (found, expected)]
+    tower = [saved_result(each).tallies["tower-body"] for each in (found, expected)]
     assert tower[0] == tower[1]
     counts = dict(found.tallies["uniform"].counts)
     assert counts.pop("crash") == len(culprit)

@@ -7,7 +7,7 @@ import signal
 import pytest
 
 from hypcheck.record import read
-from hypcheck.record.lines import Progress
+from hypcheck.record.progress import Progress
 from hypcheck.record.reader import FILE
 from tests.gate.clusters import Cluster
 from tests.gate.interrupted import CODE, came_to, ended, started, wait_for

@@ -21,7 +21,7 @@ from hypcheck.cli.main import main
 from hypcheck.gate.resume import Keeper, finished_part
 from hypcheck.record import read
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import Progress
+from hypcheck.record.progress import Progress
 from hypcheck.record.reader import FILE
 from tests.gate.interrupted import (
     CODE,
@@ -155,7 +155,7 @@ def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused
     path.write_bytes(paused)
     kept = read(path).lines[-1]
     assert kept.number == 1
-    assert kept.state["done"] > 0
+    assert kept.state.done > 0
     assert violations(as_json(kept), RECORD, closed=True) == []
     assert here(tmp_path, "--resume", str(path))[0] == CODE
     assert came_to(tmp_path) == whole[0]

@@ -17,11 +17,14 @@ from hypcheck.gate.executors import pool, serial
 from hypcheck.gate.known_failures import KnownFailure
 from hypcheck.gate.results import Result, merged
 from hypcheck.gate.resume import restored, restored_result, saved, saved_result
-from hypcheck.gate.schedule import Again, State, states
+from hypcheck.gate.schedule import RetestStep, State, states
 from hypcheck.gate.tasks import Opening, perform
 from hypcheck.methods.faults import Outcome, StartError
 from hypcheck.methods.limits import Limits
 from hypcheck.methods.runs import Allowance
+from hypcheck.record.fields import as_json, decoded
+from hypcheck.record.lines import Retest
+from hypcheck.record.progress import SavedResult, SavedState
 from tests.gate import killing
 from tests.gate.killing import steps_of
 
@@ -76,23 +79,34 @@ def last(some):
     return state
 
 
+def read_back(state):
+    """The state as it comes back from JSON."""
+    return restored(decoded(json.loads(json.dumps(as_json(saved(state)), allow_nan=False)), SavedState))
+
+
 def test_results_add_up_in_any_order():
     with RIGHT.open() as it:
         rules = rules_of(it)
-        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 1500) if not isinstance(step, Again)]
+        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 1500) if not isinstance(step, RetestStep)]
         parts = [perform(step, it, rules, it.allowance).result for step in some]
-    whole = saved_result(merged(parts)) | {"open": []}
+    whole = saved_result(replace(merged(parts), open=()))
     assert len(parts) == 6
-    assert whole["tallies"]["ring-neighbourhood"]["counts"]["wrong"] > 100
-    assert whole["excusing"] == [0]
+    assert whole.tallies["ring-neighbourhood"].counts["wrong"] > 100
+    assert whole.excusing == [0]
     for seed in range(4):
         mixed = [parts[place] for place in np.random.default_rng(seed).permutation(len(parts))]
-        assert saved_result(merged([merged(mixed[:3]), merged(mixed[3:])])) | {"open": []} == whole
+        together = merged([merged(mixed[:3]), merged(mixed[3:])])
+        assert saved_result(replace(together, open=())) == whole
 
 
 def test_the_order_in_which_steps_are_performed_makes_no_difference():
     some = steps_of(["uniform", "flight", "ring"], 2500)
-    assert {(step.number, step.part) for step in some if isinstance(step, Again)} >= {(0, 0), (0, 1), (0, 2), (1, 0)}
+    assert {(step.number, step.part) for step in some if isinstance(step, RetestStep)} >= {
+        (0, 0),
+        (0, 1),
+        (0, 2),
+        (1, 0),
+    }
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
@@ -138,13 +152,14 @@ def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
         asked = [len(step) if isinstance(step, chunks.Chunk) else 0 for step in some]
         assert [state.total.cases for state in passed] == list(accumulate(asked))
         for pause in (0, 3, len(some) - 2):
-            read = restored(json.loads(json.dumps(saved(passed[pause]), allow_nan=False)))
+            read = read_back(passed[pause])
             assert saved(read) == saved(passed[pause])
             assert saved(last(in_this_process(some, it, rules, read))) == saved(passed[-1])
 
 
 def _but_for_bins(state):
-    """Of which there are so many that a run of this size has not seen them all."""
+    """The state as JSON without bins, of which there are so many that a run of this size has not seen them all."""
+    state = as_json(saved(state))
     for each in state["total"]["tallies"].values():
         del each["size_bins"], each["place_bins"]
     return state
@@ -154,7 +169,7 @@ def test_what_is_kept_of_a_run_does_not_grow_with_it():
     some = steps_of(["uniform"], 36_000)
     with RIGHT.open() as it:
         passed = [state for _, state in in_this_process(some, it, rules_of(it))]
-    sizes = [len(json.dumps(_but_for_bins(saved(state)))) for state in passed]
+    sizes = [len(json.dumps(_but_for_bins(state))) for state in passed]
     quarter = len(sizes) // 4
     assert quarter >= 9
     assert max(sizes[-quarter:]) < 1.1 * max(sizes[quarter : 2 * quarter])
@@ -251,7 +266,7 @@ def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_ch
         )
         assert saved(last(states(some, shuffled(it, rules, 1), begun))) == expected
         for pause in (stopped - 1, stopped, stopped + 1):
-            read = restored(json.loads(json.dumps(saved(passed[pause]))))
+            read = read_back(passed[pause])
             assert saved(last(in_this_process(some, it, rules, read))) == expected
         with pool(2, dies, rules, it) as performing:
             assert saved(last(states(some, performing, begun))) == expected
@@ -279,16 +294,20 @@ def test_a_result_comes_back_from_json():
     worst = tally.Worst(
         (1, 2), "a/1/1/2", (1.5, 5e-324, 1.0, 1.0, 0.1, -0.0, 7e9), 0, 1, "false-clear", "wrong", float("inf")
     )
-    left = results.Open(chunks.Chunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8))
+    left = results.PendingRetest(
+        chunks.Chunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8)
+    )
     result = Result(
         tallies={"some": tally.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
         open=(left,),
-        again=results.Again(9, 2, 1),
+        again=Retest(asked=9, within=2, beyond=1),
         outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),
         excusing=frozenset({0, 7}),
         named=frozenset({"ring-0007"}),
     )
-    again = restored_result(json.loads(json.dumps(saved_result(result), allow_nan=False)))
+    again = restored_result(
+        decoded(json.loads(json.dumps(as_json(saved_result(result)), allow_nan=False)), SavedResult)
+    )
     assert again.tallies["some"].worst == (worst,)
     assert repr(again.tallies["some"].faults) == repr((fault,))
     assert saved_result(again) == saved_result(result)

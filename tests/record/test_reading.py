@@ -110,6 +110,16 @@ def test_an_older_version_is_read_without_checksums(path, version):
     assert record.footer == Footer(lines=3, exit_code=0, seconds=0.5)
 
 
+def test_progress_is_read_as_the_first_versions_of_schema_1_3_wrote_it(path):
+    """They had another name for faults, no count of hangs and no sha256 of the program."""
+    nothing = {"tallies": {}, "open": [], "again": SAMPLE["again"], "outcomes": [], "excusing": [], "named": []}
+    state = {"done": 3, "left": {"restarts": 2, "lone": 9, "over": ""}, "total": nothing}
+    line = {"type": "progress", "number": 0, "declared": DESCRIPTION, "cases": 5, "state": state}
+    path.write_bytes(resealed([{**HEADER, "schema": "1.3.0"}, line]))
+    (progress,) = read(path).lines
+    assert (progress.state.done, progress.state.left.restarts, progress.program) == (3, 2, None)
+
+
 def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
     drift = {"type": "drift", "sentence": "odd", "new": {"n": [1]}}
     lines = [{**HEADER, "schema": "1.99.0", "new": [1]}, {"type": "novelty", "n": 1e300}, drift]

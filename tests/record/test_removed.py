@@ -13,11 +13,16 @@ from hypcheck.cli.recording import Part, record_and_report
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Progress, Unavailable
+from hypcheck.record.lines import Description, Retest, Unavailable
+from hypcheck.record.progress import Progress, SavedAllowance, SavedResult, SavedState
 from hypcheck.record.reader import FILE, GROWING
 from tests.record.test_reading import DESCRIPTION
 
-PROGRESS = decoded({"type": "progress", "number": 0, "declared": DESCRIPTION, "cases": 1, "state": {}}, Progress)
+NOTHING = SavedResult(
+    tallies={}, open=[], again=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
+)
+BEGUN = SavedState(done=0, left=SavedAllowance(restarts=0), total=NOTHING)
+PROGRESS = Progress(number=0, declared=decoded(DESCRIPTION, Description), cases=1, state=BEGUN)
 
 
 @pytest.mark.parametrize("end", [None, KeyboardInterrupt, NothingJudgedError("nothing")])
