@@ -76,6 +76,11 @@ class Quartic:
     side: int
     at_first: bool
 
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """f4, f3, f2, f1, f0."""
+        return (self.f4, self.f3, self.f2, self.f1, self.f0)
+
 
 def quartic(lengths: TiltedLengths) -> Quartic:
     """The quartic of a pair whose spheroid is neither upright nor a sphere."""
@@ -126,7 +131,7 @@ def decide(lengths: TiltedLengths) -> Decision:
 
 def _decide(F: Quartic) -> Decision:
     contact = Decision(Position.CONTACT)
-    if F.side == 0 or _variations((F.f4, F.f3, F.f2, F.f1, F.f0)) < 3:
+    if F.side == 0 or _variations(F.coefficients) < 3:
         return contact  # the centre on the hyperboloid, or one positive root alone
     discriminant = _discriminant(F)
     if discriminant < 0:
@@ -149,7 +154,7 @@ def _variations(signs: tuple[int, ...]) -> int:
 
 def _discriminant(F: Quartic) -> int:
     """27 times the discriminant, by its two invariants."""
-    a, b, c, d, e = F.f4, F.f3, F.f2, F.f1, F.f0
+    a, b, c, d, e = F.coefficients
     ae, bd, cc = a * e, b * d, c * c
     H = 12 * ae - 3 * bd + cc
     J = c * (72 * ae + 9 * bd - 2 * cc) - 27 * (a * d * d + e * b * b)
@@ -162,14 +167,12 @@ def _three_beyond(F: Quartic) -> bool:
     By Descartes' rule for the Taylor coefficients at ℓ, all roots being real: three changes of sign. F(ℓ) ≤ 0 may stand
     for −: where it is 0, the sign of F′(ℓ) at a simple root tells by itself which of the roots ℓ is.
     """
-    signs = [_sign_at_first(F, order) for order in (1, 2, 3)] if F.at_first else _signs_at_second(F)
+    signs = _signs_at_first(F) if F.at_first else _signs_at_second(F)
     return _variations((-1, *signs, 1)) == 3
 
 
 def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
     """The derivative of this order over its factorial, the highest power first."""
-    if order == 0:
-        return (F.f4, F.f3, F.f2, F.f1, F.f0)
     if order == 1:
         return (4 * F.f4, 3 * F.f3, 2 * F.f2, F.f1)
     if order == 2:
@@ -177,18 +180,22 @@ def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
     return (4 * F.f4, F.f3)
 
 
-def _sign_at_first(F: Quartic, order: int) -> int:
-    """The sign of a derivative at p/q."""
-    return _sign_at(_derivative(F, order), F.p, F.q)
+def sign_at(coefficients: tuple[int, ...], at: Fraction) -> int:
+    """The sign of a polynomial, the highest power first, at a rational number."""
+    return _sign_at(coefficients, at.numerator, at.denominator)
 
 
 def _sign_at(coefficients: tuple[int, ...], numerator: int, denominator: int) -> int:
-    """The sign of a polynomial at a fraction, denominator > 0."""
     value, scale = 0, 1
     for coefficient in coefficients:
         value = value * numerator + coefficient * scale
         scale *= denominator
     return (value > 0) - (value < 0)
+
+
+def _signs_at_first(F: Quartic) -> list[int]:
+    """The signs of the first three derivatives at p/q."""
+    return [_sign_at(_derivative(F, order), F.p, F.q) for order in (1, 2, 3)]
 
 
 def _signs_at_second(F: Quartic) -> list[int]:
@@ -226,7 +233,7 @@ def _with_multiple_root(F: Quartic) -> Decision:
     m = double_root(F)
     if m <= 0 or (beyond := _beyond(F, m)) > 0:
         return Decision(Position.CONTACT)
-    if beyond == 0 and _sign_at(_derivative(F, 2), m.numerator, m.denominator) > 0:
+    if beyond == 0 and sign_at(_derivative(F, 2), m) > 0:
         return Decision(Position(F.side))  # the simple root lies between 0 and ℓ
     return Decision(Position.CONTACT, limit_of=Position(F.side))
 
@@ -240,7 +247,7 @@ def _beyond(F: Quartic, m: Fraction) -> int:
 
 def double_root(F: Quartic) -> Fraction:
     """The multiple root of a quartic that has exactly one (double or triple), by Euclid's algorithm on F and F′."""
-    first: tuple[int, ...] = _derivative(F, 0)
+    first: tuple[int, ...] = F.coefficients
     second: tuple[int, ...] = _derivative(F, 1)
     while second:
         first, second = second, _remainder(first, second)

@@ -119,3 +119,40 @@ WITNESSES = [
     ([TINY, TINY, TINY, 2 * TINY, 8 * TINY, 0, 0, 1.0, TINY, 0], EXTERIOR, "the least numbers of float64"),
     ([1e308, 1e308, 1e307, 1e306, 0, 0, 0, 1, 1, 1], INTERIOR, "the largest"),
 ]
+
+SYMMETRIC = [
+    # The centre on a plane of symmetry of both, so that the double root of the quartic is a pole. In the eigenbasis of
+    # the pencil the spheroid is the unit ball, the hyperboloid x²/A1 + y²/A2 − z²/B = 1 and the centre (r, 0, 0) with
+    # r² = (A1 + B)(1 + B)/B: in the plane of x and z the points nearest to it are at distance 1. They are nearest in
+    # space, and two, unless φ′(B) = A1 r²/(A1 + B)² − 1 < 0.
+    ([1, 1, 2, 1, 0, 3, 0, 1, 0, 1], CONTACT, EXTERIOR),
+    ([2, 2, 1, 2, 0, 3, 0, 1, 0, 1], CONTACT, EXTERIOR),
+    ([1, 1, 1, 4, 0, 2.5, 0, 1, 0, 1], CONTACT, EXTERIOR),
+    ([2, 6, 5, 2, 0, 9, 0, 3, 0, 1], EXTERIOR, None),
+    ([5, 5, 2, 1, 0, 9, 0, 1, 0, 1], EXTERIOR, None),
+    ([2, 4, 5, 2, 0, 10.5, 0, 1, 0, 2], EXTERIOR, None),
+    # Inside, where A1 < A2, the centre is (0, r, 0) with r² = (A2 − A1)(A1 − 1)/A1: two points touch, unless A1² > A2.
+    ([5, 5, 4, 2, -2.25, 0, 0.75, 1, 0, 1], CONTACT, INTERIOR),
+    ([35, 35, 25, 10, -21, 0, 9, 1, 0, 1], CONTACT, INTERIOR),
+    ([8, 8, 4, 1, -7.5, 0, 4.5, 1, 0, 1], CONTACT, INTERIOR),
+    ([35, 35, 25, 15, -16, 0, 4, 1, 0, 1], INTERIOR, None),
+    ([8, 8, 4, 3, -3.5, 0, 0.5, 1, 0, 1], INTERIOR, None),
+]
+
+
+def near_contact(row, decide):
+    """Two rows next to each other in float64 between which the position changes as the spheroid grows; or None.
+
+    `decide` is asked for the positions; the rows are good for tests that prove the answers.
+    """
+    here = decide(row)
+    low, high = 1.0, 64.0
+    if here is CONTACT or decide(_stretched(row, high)) is not CONTACT:
+        return None
+    while low < (middle := (low + high) / 2) < high:
+        low, high = (middle, high) if decide(_stretched(row, middle)) is here else (low, middle)
+    return _stretched(row, low), _stretched(row, high)
+
+
+def _stretched(row, factor):
+    return [*row[:2], row[2] * factor, row[3] * factor, *row[4:]]

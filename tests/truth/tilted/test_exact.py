@@ -6,7 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-import sympy as sp
+from sympy import ZZ
+from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair, Position
@@ -14,26 +15,29 @@ from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.batch import positions
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from tests.truth.tilted.cases import TANGENT, WITNESSES, grown, random_rows
+from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, random_rows
 
 
 def test_quartic_is_the_determinant_of_the_pencil():
-    p, s, q, t, x, y, z, v_x, v_y, v_z, at = sp.symbols("p s q t x y z v_x v_y v_z lambda")
-    axis, center = sp.Matrix([v_x, v_y, v_z]), sp.Matrix([x, y, z])
-    V = axis.dot(axis)
-    M = sp.eye(3) / q + (1 / t - 1 / q) * axis * axis.T / V
-    D = sp.diag(1 / p, 1 / p, -1 / s)
-    S = sp.Matrix(sp.BlockMatrix([[M, -M * center], [-(M * center).T, center.T * M * center - sp.eye(1)]]))
-    H = sp.Matrix(sp.BlockMatrix([[D, sp.zeros(3, 1)], [sp.zeros(1, 3), -sp.eye(1)]]))
+    _, p, s, q, t, x, y, z, v_x, v_y, v_z, at = ring("p s q t x y z v_x v_y v_z lambda", ZZ)
+    axis, V = (v_x, v_y, v_z), v_x**2 + v_y**2 + v_z**2
+    R, Z = x**2 + y**2, z**2
+    # Seen from the centre, S is diag(M, −1) and H is D with DC beside it, and CᵀDC − 1 in the corner. The first three
+    # rows are multiplied by q t V and by p, p, s; the last by p s.
+    factors = (p, p, s)
+    rows = [[((i == j) * t * V + (q - t) * axis[i] * axis[j]) * factors[i] for j in range(3)] for i in range(3)]
+    for i, sign in enumerate((1, 1, -1)):
+        rows[i][i] += sign * at * q * t * V
+        rows[i].append(sign * at * q * t * V * (x, y, z)[i])
+    rows.append([at * s * x, at * s * y, -at * p * z, at * (R * s - Z * p - p * s) - p * s])
     c, W = v_z**2, v_x**2 + v_y**2
     g1, g2 = t * W + q * c, q * W + t * c
     E = p * s * V + at * (s * g1 - p * g2) - at**2 * q * t * V
     T, N = (x * v_x + y * v_y) * z * v_z, x * v_y - y * v_x
-    R, Z = x**2 + y**2, z**2
     G = -(1 + at) * E + at * (R * s - Z * p) * V - at**2 * (R * g2 + Z * g1 + 2 * (q - t) * T)
     F = (p + q * at) * G - (q - t) * N**2 * at**2 * (s - q * at)
-    difference = sp.together((S + at * H).det(method="berkowitz") * p**2 * q**2 * s * t * V - F)
-    assert sp.expand(sp.numer(difference)) == 0
+    # F is p² q² s t V det(S + λH), and the rows were multiplied by p² s (q t V)³ p s in all.
+    assert determinant(rows) == F * p * s * q * t**2 * V**2
 
 
 def test_quartic_of_integers_is_the_determinant_of_the_pencil():
@@ -83,6 +87,12 @@ def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrun
 @pytest.mark.parametrize(("row", "position", "why"), WITNESSES)
 def test_position_of_hand_worked_pairs(row, position, why):
     assert exact.position(TiltedPair.from_row(row).lengths) is position, why
+
+
+@pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
+def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it(row, position, limit_of):
+    decision = exact.decide(TiltedPair.from_row(row).lengths)
+    assert decision == exact.Decision(position, limit_of)
 
 
 def test_vertical_axis_and_sphere_have_the_upright_position():

@@ -1,0 +1,219 @@
+"""Finding the witness that certificate.py checks, for a spheroid in general position.
+
+All searches go along φ(λ), concave between −ℓ′ and ℓ (exact.py): its maximum is found by bisection with exact signs.
+Where it is > 0, a λ near it is the witness; where it is < 0, X(λ) = (M + λD)⁻¹ M C tends to a point of the hyperboloid
+within the spheroid, and a little beyond it the sides have changed. A witness always exists and every search narrows
+until its claim holds exactly, so each one ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import count
+
+from hypcheck.pairs import Position
+from hypcheck.truth import prove as upright
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.certificate import Point, TiltedCertificate
+from hypcheck.truth.tilted.exact import Decision, Quartic
+from hypcheck.truth.tilted.pair import TiltedPair
+
+Vector = list[Fraction]
+Matrix = list[list[Fraction]]
+
+
+def prove(pair: TiltedPair, decision: Decision | None = None) -> TiltedCertificate:
+    """A certificate for the exact answer about a pair (`decision`, where the caller has it already)."""
+    vertical = pair.upright
+    if vertical is not None:
+        found = upright.prove(vertical)
+        return TiltedCertificate(found.position, found.multiplier, found.points, found.double_root)
+    lengths = pair.lengths
+    decision = decision or exact.decide(lengths)
+    F = exact.quartic(lengths)
+    if decision.tangent:
+        return TiltedCertificate(decision.position, double_root=exact.double_root(F) * F.side)
+    if decision.position is Position.CONTACT:
+        return TiltedCertificate(decision.position, points=_points(pair, F))
+    return TiltedCertificate(decision.position, multiplier=_multiplier(F))
+
+
+def _multiplier(F: Quartic) -> Fraction:
+    """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
+    found = next(at for at in _toward_maximum(F) if _inside(F, at) and exact.sign_at(F.coefficients, at) > 0)
+    for bits in _precisions():
+        at = _round(found, bits)
+        if _inside(F, at) and exact.sign_at(F.coefficients, at) > 0:
+            return at * F.side
+    raise AssertionError("unreachable: the precisions do not end")
+
+
+def _toward_maximum(F: Quartic) -> Iterator[Fraction]:
+    """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ.
+
+    φ is F over the determinant of M + λD, up to a positive factor, so that its slope has the sign of
+    F′ K − F K′, K = (p ± q μ)(e0 + e1 μ − e2 μ²).
+    """
+    signed = F.side * F.q
+    K = (-signed * F.e2, signed * F.e1 - F.p * F.e2, signed * F.e0 + F.p * F.e1, F.p * F.e0)
+    slope = _difference(_product(_derived(F.coefficients), K), _product(F.coefficients, _derived(K)))
+    largest = max(abs(each) for each in (*F.coefficients, *slope)).bit_length()
+    low, high = Fraction(1, 2 << largest), Fraction(2 << largest)
+    while True:
+        middle = _power_near(low, high) if high > 4 * low else (low + high) / 2
+        yield middle
+        if _inside(F, middle) and exact.sign_at(slope, middle) > 0:
+            low = middle
+        else:
+            high = middle
+
+
+def _inside(F: Quartic, at: Fraction) -> bool:
+    """Whether 0 < at < ℓ."""
+    n, k = at.numerator, at.denominator
+    before_first = F.side > 0 or F.q * n < F.p * k
+    return n > 0 and before_first and F.e2 * n * n - F.e1 * n * k < F.e0 * k * k
+
+
+def _points(pair: TiltedPair, F: Quartic) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
+    forms = _Forms(pair)
+    center = forms.center
+    if F.side == 0:
+        return (_point(center),)
+    for candidate in _candidates(forms, F):
+        if forms.spheroid(candidate) <= 0 and forms.hyperboloid(candidate) * F.side <= 0:
+            return (_point(center), _point(candidate))
+    raise AssertionError("unreachable: the candidates do not end")
+
+
+class _Forms:
+    """The two surfaces' equations, and what the pencil needs of them, in rationals."""
+
+    def __init__(self, pair: TiltedPair) -> None:
+        alpha, gamma, b, d, *self.center = map(Fraction, pair.row[:7])
+        v = [Fraction(each) for each in pair.axis]
+        square = sum(each * each for each in v)
+        across, along = 1 / b**2, (1 / d**2 - 1 / b**2) / square
+        self.M = [[(i == j) * across + along * v[i] * v[j] for j in range(3)] for i in range(3)]
+        wide, deep = b**2, (d**2 - b**2) / square
+        self.inverse = [[(i == j) * wide + deep * v[i] * v[j] for j in range(3)] for i in range(3)]
+        self.D = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)
+
+    def spheroid(self, point: Vector) -> Fraction:
+        """(X − C)ᵀ M (X − C) − 1."""
+        way = [a - b for a, b in zip(point, self.center, strict=True)]
+        return _dot(way, _times(self.M, way)) - 1
+
+    def hyperboloid(self, point: Vector) -> Fraction:
+        """Xᵀ D X − 1."""
+        return _dot(point, self.gradient(point)) - 1
+
+    def gradient(self, point: Vector) -> Vector:
+        """D X."""
+        return [a * b for a, b in zip(self.D, point, strict=True)]
+
+    def adjugate(self, at: Fraction) -> Matrix:
+        """The adjugate of M + λD; at a pole it has rank one, and any column spans the kernel."""
+        m = [[self.M[i][j] + (i == j) * at * self.D[i] for j in range(3)] for i in range(3)]
+        return [[_cofactor(m, j, i) for j in range(3)] for i in range(3)]
+
+
+def _candidates(forms: _Forms, F: Quartic) -> Iterator[Vector]:
+    """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
+    steepest = _times(forms.inverse, forms.gradient(forms.center))
+    square = _dot(steepest, forms.gradient(forms.center))
+    for bits in (4, 60) if square else ():
+        yield _plus(forms.center, steepest, -F.side * _root(1 / square, bits))
+    for at in _toward_maximum(F):
+        if not _inside(F, at):
+            continue
+        adjugate = forms.adjugate(at * F.side)
+        scaled = _times(adjugate, _times(forms.M, forms.center))
+        determinant = sum((forms.M[0][j] + (j == 0) * at * F.side * forms.D[0]) * adjugate[j][0] for j in range(3))
+        point = [each / determinant for each in scaled]
+        yield point
+        yield from _across_the_pole(forms, F, adjugate, point)
+
+
+def _across_the_pole(forms: _Forms, F: Quartic, adjugate: Matrix, point: Vector) -> Iterator[Vector]:
+    """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves."""
+    direction = max(adjugate, key=lambda column: _dot(column, column))
+    curvature = _dot(direction, forms.gradient(direction))
+    slope, height = _dot(direction, forms.gradient(point)), forms.hyperboloid(point)
+    if curvature * F.side >= 0 or height * F.side <= 0:
+        return
+    for sign in (1, -1):  # curvature τ² + 2 slope τ + height = 0
+        way = _root((slope / curvature) ** 2 - height / curvature, 64) * (1 + Fraction(1, 1 << 40))
+        yield _plus(point, direction, sign * way - slope / curvature)
+
+
+def _point(vector: Vector) -> Point:
+    x, y, z = vector
+    return (x, y, z)
+
+
+def _dot(a: Vector, b: Vector) -> Fraction:
+    return sum((p * q for p, q in zip(a, b, strict=True)), Fraction(0))
+
+
+def _times(matrix: Matrix, vector: Vector) -> Vector:
+    return [_dot(row, vector) for row in matrix]
+
+
+def _plus(point: Vector, direction: Vector, factor: Fraction) -> Vector:
+    return [a + factor * b for a, b in zip(point, direction, strict=True)]
+
+
+def _cofactor(m: Matrix, i: int, j: int) -> Fraction:
+    (a, b), (c, d) = ([m[r][s] for s in range(3) if s != j] for r in range(3) if r != i)
+    return (b * c - a * d) if (i + j) % 2 else (a * d - b * c)
+
+
+def _derived(f: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(each * (len(f) - 1 - i) for i, each in enumerate(f[:-1]))
+
+
+def _product(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:
+    result = [0] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        for j, b in enumerate(g):
+            result[i + j] += a * b
+    return tuple(result)
+
+
+def _difference(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(a - b for a, b in zip(f, g, strict=True))
+
+
+def _precisions(start: int = 1) -> Iterator[int]:
+    return (start << doubling for doubling in count())
+
+
+def _exponent(value: Fraction) -> int:
+    return value.numerator.bit_length() - value.denominator.bit_length()
+
+
+def _power(exponent: int) -> Fraction:
+    return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
+
+
+def _power_near(low: Fraction, high: Fraction) -> Fraction:
+    """A power of two about midway between two exponents, strictly between low and high > 4 low."""
+    # 2^(e−1) < value < 2^(e+1) for the exponent e of a value: e(low) + 1 ≤ k ≤ e(high) − 1 is strictly between.
+    first, last = _exponent(low) + 1, _exponent(high) - 1
+    return _power((first + last) // 2)
+
+
+def _root(square: Fraction, bits: int) -> Fraction:
+    """√square rounded down to about `bits` bits."""
+    shift = max(0, bits + (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 1)
+    return Fraction(math.isqrt((square.numerator << 2 * shift) // square.denominator), 1 << shift)
+
+
+def _round(value: Fraction, bits: int) -> Fraction:
+    """`value` to `bits` significant bits."""
+    unit = _power(_exponent(value) - bits)
+    return Fraction(round(value / unit)) * unit

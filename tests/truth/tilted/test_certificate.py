@@ -1,0 +1,107 @@
+"""Every answer about a tilted pair is proved, and the checker accepts no proof of another answer."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from types import SimpleNamespace
+
+import pytest
+
+from hypcheck.pairs import Position
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate, pivots
+from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+from hypcheck.truth.tilted.prove import prove
+from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, near_contact, random_rows
+
+EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
+
+
+def position(row):
+    return exact.position(TiltedLengths.of(row))
+
+
+@pytest.fixture(scope="module")
+def proofs():
+    """Pairs of all positions with their proofs: worked by hand, random, and on both sides of contact in float64."""
+    rows = [row for row, *_ in (*WITNESSES, *SYMMETRIC)] + random_rows(40)
+    for row in random_rows(16, seed=1):
+        rows += near_contact(row, position) or ()
+    pairs = [TiltedPair.from_row(row) for row in rows]
+    return [(pair, prove(pair)) for pair in pairs]
+
+
+def test_every_answer_is_proved(proofs):
+    proved = set()
+    for pair, certificate in proofs:
+        decision = exact.decide(pair.lengths)
+        assert certificate.position is decision.position
+        assert (certificate.double_root is not None) == decision.tangent
+        assert check_certificate(pair, certificate), pair
+        proved.add((decision.position, decision.tangent))
+    assert len(proved) == 4
+
+
+def test_no_proof_serves_another_position(proofs):
+    for pair, certificate in proofs:
+        for other in set(Position) - {certificate.position}:
+            assert not check_certificate(pair, replace(certificate, position=other))
+        at = certificate.multiplier
+        if at is not None:
+            assert not check_certificate(pair, replace(certificate, multiplier=-at))
+            assert not check_certificate(pair, TiltedCertificate(CONTACT, double_root=at))
+
+
+def test_double_root_proves_every_tangency_from_rational_rotations():
+    for row, side in TANGENT:
+        F = exact.quartic(TiltedLengths.of(row))
+        root = exact.double_root(F) * F.side
+        pair = SimpleNamespace(row=row, axis=row[7:])
+        assert root * side > 0
+        assert check_certificate(pair, TiltedCertificate(CONTACT, double_root=root))
+        assert not check_certificate(pair, TiltedCertificate(CONTACT, double_root=root * (1 + Fraction(1, 2**99))))
+        for claim in (EXTERIOR, INTERIOR):
+            assert not check_certificate(pair, TiltedCertificate(claim, multiplier=root))
+
+
+@pytest.mark.parametrize("row", [row for row, position, _ in SYMMETRIC if position is not CONTACT])
+def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
+    F = exact.quartic(TiltedLengths.of(row))
+    certificate = TiltedCertificate(CONTACT, double_root=exact.double_root(F) * F.side)
+    assert not check_certificate(TiltedPair.from_row(row), certificate)
+
+
+def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
+    # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
+    crossing = TiltedPair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
+    assert exact.decide(crossing.lengths) == exact.Decision(CONTACT)
+    assert not check_certificate(crossing, TiltedCertificate(CONTACT, double_root=Fraction(-1, 4)))
+
+
+def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
+    pair = TiltedPair(1, 1, 0.5, 2, 2, 0, 0, 1, 0, 0)  # from (0, 0, 0) to (4, 0, 0)
+    for points, proves in (
+        ([(2, 0, 0), (Fraction(1, 2), 0, 0)], True),
+        ([(1, 0, 0)], True),
+        ([(2, 0, 0)], False),
+        ([(2, 0, 0), (4, 0, 0)], False),
+        ([(2, 0, 0), (Fraction(-1, 9), 0, 0)], False),
+        ([(2, 0, 0), (Fraction(1, 2), 0, Fraction(1, 2))], False),
+        ([], False),
+    ):
+        assert check_certificate(pair, TiltedCertificate(CONTACT, points=tuple(points))) is proves
+
+
+@pytest.mark.parametrize(
+    ("matrix", "expected"),
+    [
+        ([[2, 1], [1, 2]], [2, Fraction(3, 2)]),
+        ([[1, 2], [2, 4]], [1, 0]),
+        ([[0, 0], [0, 3]], [0, 3]),
+        ([[0, 1], [1, 3]], [-1]),
+        ([[1, 2], [2, 3]], [1, -1]),
+    ],
+)
+def test_pivots_tell_definite_from_semidefinite(matrix, expected):
+    assert pivots([[Fraction(each) for each in row] for row in matrix]) == expected
