@@ -56,8 +56,8 @@ prove: $(VENV)/ready ## the machine-checked proofs, and the proved checker on th
 paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md
 
-schemas: $(VENV)/ready ## the published schema of records anew, from the values of their lines
-	$(BIN)/python -m hypcheck.record.schema hypcheck/report/schemas
+schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, from the classes that hold it
+	$(BIN)/python -m tests.published_schemas
 
 figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
 	$(BIN)/python -m tests.paper_figures

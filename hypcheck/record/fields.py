@@ -30,8 +30,11 @@ Kind = TypeVar("Kind")
 
 
 def decoded(value: object, kind: type[Kind]) -> Kind:
-    """The value of a kind that these dicts, lists, texts and numbers are. Raises msgspec.ValidationError."""
-    return convert(value, kind, dec_hook=_extended)
+    """The value of a kind that these dicts, lists, texts and numbers are, or the attributes of an object.
+
+    Raises msgspec.ValidationError.
+    """
+    return convert(value, kind, dec_hook=_extended, from_attributes=True)
 
 
 def as_json(value: Part) -> Any:  # noqa: ANN401 - whatever JSON holds

@@ -1,11 +1,11 @@
-"""The published JSON schema of a record's lines, made from their values: `make schemas` writes it anew."""
+"""Published JSON schemas, made from classes: that of a record's lines. `make schemas` writes all of them anew."""
 
 from __future__ import annotations
 
 import json
 import re
-import sys
-from pathlib import Path
+from collections.abc import Iterable
+from inspect import cleandoc
 from typing import Any
 
 import msgspec
@@ -16,17 +16,16 @@ from hypcheck.record.reader import LINES
 
 Json = dict[str, Any]
 
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+
 _CRC = "Since 1.2.0 the last field of every line: the CRC-32 of all bytes before it, but for checksums and line ends."
 
 
 def schema() -> Json:
-    """The schema of a line, draft 2020-12. Every type of line, and every part of one, is a definition."""
-    kinds = [*LINES.values(), NotStarted]
-    references, definitions = msgspec.json.schema_components(
-        kinds, schema_hook=_extended, ref_template="#/$defs/{name}"
-    )
-    whole = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
+    """The schema of a line: every type of line, and every part of one, is a definition."""
+    references, definitions = components([*LINES.values(), NotStarted])
+    return {
+        "$schema": DRAFT,
         "$id": f"urn:hypcheck:record-line:{SCHEMA}",
         "title": f"A line of record.jsonl of hypcheck, version {SCHEMA}",
         "description": "Explained in docs/record.md. Later versions 1.x may add fields and types of lines and change "
@@ -34,25 +33,33 @@ def schema() -> Json:
         "type": "object",
         "required": ["type"],
         "properties": {"crc32": {"description": _CRC, "type": "string", "pattern": "^[0-9a-f]{8}$"}},
-        "oneOf": list(references),
-        "$defs": {_named(name): _untitled(each) for name, each in definitions.items()},
+        "oneOf": references,
+        "$defs": definitions,
     }
-    text = json.dumps(whole, ensure_ascii=False)
-    found: Json = json.loads(re.sub(r'"#/\$defs/(\w+)"', lambda match: f'"#/$defs/{_named(match[1])}"', text))
+
+
+def components(kinds: Iterable[type]) -> tuple[list[Json], Json]:
+    """References to these kinds, and the definitions of them and of all that they are made of."""
+    references, definitions = msgspec.json.schema_components(
+        kinds, schema_hook=_extended, ref_template="#/$defs/{name}"
+    )
+    whole = [list(references), {_named(name): _untitled(each) for name, each in definitions.items()}]
+    text = re.sub(r'"#/\$defs/(\w+)"', lambda match: f'"#/$defs/{_named(match[1])}"', json.dumps(whole))
+    found: tuple[list[Json], Json] = tuple(json.loads(text))
     return found
 
 
-def file_name() -> str:
-    """The name of the file in which this version is published."""
-    return f"record-{SCHEMA}.json"
+def text(schema: Json) -> str:
+    """The content of the file in which a schema is published, a property and a definition a line."""
+    fields = ",\n".join(f"  {_json(name)}: {_entries(name, each)}" for name, each in schema.items())
+    return f"{{\n{fields}\n}}\n"
 
 
-def text() -> str:
-    """The content of that file, a definition a line."""
-    found = schema()
-    definitions = ",\n".join(f"    {_json(name)}: {_json(each)}" for name, each in found.pop("$defs").items())
-    fields = "".join(f"  {_json(name)}: {_json(each)},\n" for name, each in found.items())
-    return f'{{\n{fields}  "$defs": {{\n{definitions}\n  }}\n}}\n'
+def _entries(name: str, value: object) -> str:
+    if not isinstance(value, dict) or name not in ("properties", "$defs"):
+        return _json(value)
+    entries = ",\n".join(f"    {_json(key)}: {_json(each)}" for key, each in value.items())
+    return f"{{\n{entries}\n  }}"
 
 
 def _json(value: object) -> str:
@@ -65,7 +72,8 @@ def _named(name: str) -> str:
 
 
 def _untitled(definition: Json) -> Json:
-    return {key: value for key, value in definition.items() if key != "title"}
+    text = {"description": cleandoc(definition["description"])} if "description" in definition else {}
+    return {key: value for key, value in definition.items() if key != "title"} | text
 
 
 def _extended(kind: type) -> Json:
@@ -74,7 +82,3 @@ def _extended(kind: type) -> Json:
     if kind is Unsigned:
         return {"anyOf": [{"type": "number", "minimum": 0}, {"const": "inf"}]}
     return {"anyOf": [{"type": "number"}, {"enum": ["inf", "-inf"]}]}
-
-
-if __name__ == "__main__":
-    (Path(sys.argv[1]) / file_name()).write_text(text(), encoding="utf-8")

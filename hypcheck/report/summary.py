@@ -1,19 +1,43 @@
-"""summary.json: what a program wants to know of a run. The schema is schemas/summary-1.2.0.json beside this file."""
+"""summary.json: what a program wants to know of a run; its schema is schemas/summary-1.2.0.json beside this file."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from hypcheck.record import Line, Record, plain
-from hypcheck.record.fields import as_json
-from hypcheck.record.lines import Description, Drift, Equation, Finding, Group, Proof, WrongAnswer
+from msgspec import UNSET, Meta, UnsetType
+from msgspec.structs import replace
+
+from hypcheck.record import Record
+from hypcheck.record.fields import (
+    Amount,
+    Count,
+    Counts,
+    Interval,
+    Part,
+    Precision,
+    Question,
+    Unsigned,
+    as_json,
+    decoded,
+    one_of,
+)
+from hypcheck.record.lines import (
+    Domain,
+    Drift,
+    Equation,
+    Finding,
+    Group,
+    Proof,
+    Retest,
+    Settings,
+    WrongAnswer,
+)
 from hypcheck.record.lines import Implementation as Tested
+from hypcheck.record.schema import DRAFT, components
 from hypcheck.report.digest import (
     Implementation,
     OracleTotal,
-    TimingTotal,
     implementations,
     oracle_totals,
     timing_totals,
@@ -22,7 +46,6 @@ from hypcheck.report.digest import (
     worst_case,
     worst_error_u,
 )
-from hypcheck.report.failure import Failure
 from hypcheck.report.measured import Measured, measured
 from hypcheck.report.verdict import failures, verdict
 
@@ -33,154 +56,319 @@ SCHEMA = "1.2.0"
 
 Fields = dict[str, Any]
 
+Distance = Annotated[
+    Unsigned, Meta(description="The flip distance above which at most 1 answer in 1000 is wrong; 0: none is.")
+]
+Units = Annotated[Unsigned, Meta(description="A backward error in units u of the declared precision.")]
+CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]
+Exact = Annotated[bool, Meta(description="It promises never to be wrong; the run fails where it is.")]
+Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
+"""Each with what the schema says of it."""
+
+
+class OracleSummary(Part, frozen=True, kw_only=True):
+    """asked = agreed + undecided + disagreements."""
+
+    asked: Count
+    agreed: Count
+    undecided: Count
+    disagreements: Count
+    seconds: Annotated[float, Meta(ge=0, description="Summed over the processes.")]
+    stages: Counts
+    unavailable: Annotated[str, Meta(description="Why it was not asked; present only then.")] | UnsetType = UNSET
+
+
+class Equations(Part, frozen=True, kw_only=True):
+    """The numbers of the paper's displayed formulas, by what the derivation says of them."""
+
+    holds: list[str]
+    misprint: list[str]
+    false: list[str]
+
+
+class Proofs(Part, frozen=True, kw_only=True):
+    """How many quantities of formulas were to be proved, and how many are."""
+
+    asked: Count
+    hold: Count
+    fail: Count
+
+
+class Findings(Part, frozen=True, kw_only=True):
+    """Errors of formulas in exact arithmetic, one for each formula, family, side of its regimes and cause."""
+
+    inside_stated_regimes: Count
+    outside_stated_regimes: Count
+    unlisted: Count
+    drift: list[str]
+
+
+class Mistakes(Part, frozen=True, kw_only=True, rename="kebab"):
+    """What the wrong and the tolerated answers mean to whoever relies on them."""
+
+    false_clear: Count
+    false_contact: Count
+    wrong_side: Count
+
+
+class FamilySummary(Part, frozen=True, kw_only=True):
+    """What came of an implementation's cases of one family."""
+
+    asked: Count
+    right: Count
+    tolerated: Count
+    wrong: Count
+    excused: Count
+    mistakes: Mistakes
+    worst_backward_error_u: Units
+    worst_case: CaseId
+
+
+class Claims(Part, frozen=True, kw_only=True):
+    """Only of implementations under test: what it declares, or what it was judged as."""
+
+    question: Question
+    precision: Precision
+    domain: Domain
+
+
+class ImplementationSummary(Part, frozen=True, kw_only=True):
+    """An implementation that was judged; one under test also has what it declares and what asking it cost."""
+
+    name: str
+    spec: str
+    precision: Precision
+    question: Question
+    exact: Exact
+    asked: Count
+    right: Count
+    tolerated: Count
+    wrong: Count
+    excused: Count
+    mistakes: Mistakes
+    worst_backward_error_u: Units
+    worst_case: CaseId
+    families: dict[str, FamilySummary]
+    statuses: Counts
+    declared: Claims | UnsetType = UNSET
+    judged_as: Claims | UnsetType = UNSET
+    restarts: Count | UnsetType = UNSET
+    asked_again: Retest | UnsetType = UNSET
+
+
+class TimingSummary(Part, frozen=True, kw_only=True):
+    """What a contender takes; `ratio`: by the plain formula's time in the same rounds; null: that was not timed."""
+
+    name: str
+    workload: str
+    rows: Count
+    median_ns: Nanoseconds
+    ratio: Amount | None
+
+
+class WorkloadSummary(Part, frozen=True, kw_only=True):
+    """A method's answers on a workload of a benchmark."""
+
+    asked: Count
+    wrong: Count
+    false_clear: Count
+    false_contact: Count
+    wrong_side: Count
+    abstained: Count
+    reliable_above: Distance
+
+
+class TimeSummary(Part, frozen=True, kw_only=True):
+    """A method's time on a workload of a benchmark, and its ratio to the run's reference."""
+
+    workload: str
+    mode: str
+    rows: Count
+    median_ns: float
+    ratio: float | None
+    ratio_ci95: Interval | None
+
+
+class MethodSummary(Part, frozen=True, kw_only=True):
+    """A method of a benchmark, over all workloads and for each."""
+
+    name: str
+    tier: str
+    kind: str
+    precision: str
+    question: str
+    exact: bool
+    asked: Count
+    wrong: Count
+    reliable_above: Distance
+    workloads: dict[str, WorkloadSummary]
+    times: list[TimeSummary]
+
+
+class FailureSummary(Part, frozen=True, kw_only=True):
+    """Something that failed the run, and for how many of its kind it stands."""
+
+    subject: Annotated[str, one_of("proof", "oracle", "implementation", "findings", "measurement")]
+    name: str
+    group: str
+    kind: str
+    message: str
+    case: str | None
+    count: Annotated[int, Meta(ge=1)]
+
+
+class Summary(Part, frozen=True, kw_only=True):
+    """Totals of a run, under keys that do not change. Explained in docs/record.md.
+
+    Later versions 1.x may add keys and change none; ignore what you do not know.
+    """
+
+    hypcheck: Annotated[str, Meta(description="The version that wrote the record.")]
+    schema: Annotated[str, Meta(pattern=r"^1\.[0-9]+\.[0-9]+$")]
+    exit_code: Annotated[int | None, Meta(description="null: the run was interrupted before its end.")]
+    passed: Annotated[bool, Meta(description="The run is complete and nothing failed.")]
+    truncated: Annotated[bool, Meta(description="The record has no footer.")]
+    verdict: Annotated[str, Meta(description="One sentence for people.")]
+    started: Annotated[str, Meta(description="ISO 8601 with its offset.")]
+    seconds: Annotated[Amount | None, Meta(description="Wall-clock time of the whole run.")]
+    settings: Annotated[
+        Settings | None,
+        Meta(description="Since 1.2.0; null where there was no settings file, and nothing weakens the gate."),
+    ] = None
+    oracles: dict[str, OracleSummary]
+    equations: Equations
+    proofs: Proofs
+    findings: Findings
+    implementations: list[ImplementationSummary]
+    timings: list[TimingSummary]
+    methods: Annotated[list[MethodSummary], Meta(description="Of a benchmark, since 1.1.0.")]
+    failures: list[FailureSummary]
+
+
+def schema() -> Fields:
+    """The JSON schema of summary.json."""
+    _, definitions = components([Summary])
+    head = {
+        "$schema": DRAFT,
+        "$id": f"urn:hypcheck:summary:{SCHEMA}",
+        "title": f"summary.json of hypcheck, version {SCHEMA}",
+    }
+    return {**head, **definitions.pop("summary"), "$defs": definitions}
+
 
 def render(record: Record, _around: Around | None = None) -> bytes:
     """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
-    text = json.dumps(plain(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
+    text = json.dumps(as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")
 
 
-def summary(record: Record) -> Fields:
+def summary(record: Record) -> Summary:
     """The summary; its keys and their order are the same for every run."""
-    ended = verdict(record)
+    ended, footer = verdict(record), record.footer
     wholes = {each.name: each.line for each in under_test(record) if isinstance(each.line, Tested)}
-    footer = record.footer
-    return {
-        "hypcheck": record.header.hypcheck,
-        "schema": SCHEMA,
-        "exit_code": footer and footer.exit_code,
-        "passed": ended.passed,
-        "truncated": record.footer is None,
-        "verdict": ended.sentence,
-        "started": record.header.started,
-        "seconds": footer and footer.seconds,
-        "settings": as_json(record.header.settings) if record.header.settings else None,
-        "oracles": {total.name: _oracle(total) for total in oracle_totals(record)},
-        "equations": _equations(record.of(Equation)),
-        "proofs": _proofs(record.of(Proof)),
-        "findings": _findings(record),
-        "implementations": [_implementation(each, wholes.get(each.name)) for each in implementations(record)],
-        "timings": [_timing(total) for total in timing_totals(record)],
-        "methods": [_method(each) for each in measured(record)],
-        "failures": [_failure(each) for each in failures(record)],
-    }
+    return Summary(
+        hypcheck=record.header.hypcheck,
+        schema=SCHEMA,
+        exit_code=None if footer is None else footer.exit_code,
+        passed=ended.passed,
+        truncated=footer is None,
+        verdict=ended.sentence,
+        started=record.header.started,
+        seconds=None if footer is None else footer.seconds,
+        settings=None if record.header.settings is UNSET else record.header.settings,
+        oracles={total.name: _oracle(total) for total in oracle_totals(record)},
+        equations=_equations(record.of(Equation)),
+        proofs=_proofs(record.of(Proof)),
+        findings=_findings(record),
+        implementations=[_implementation(each, wholes.get(each.name)) for each in implementations(record)],
+        timings=[decoded(total, TimingSummary) for total in timing_totals(record)],
+        methods=[_method(each) for each in measured(record)],
+        failures=[decoded(each, FailureSummary) for each in failures(record)],
+    )
 
 
-def _oracle(total: OracleTotal) -> Fields:
-    fields = {
-        "asked": total.asked,
-        "agreed": total.agreed,
-        "undecided": total.undecided,
-        "disagreements": total.disagreements,
-        "seconds": round(total.seconds, 3),
-        "stages": total.stages,
-    }
-    return fields if total.unavailable is None else {**fields, "unavailable": total.unavailable}
+def _oracle(total: OracleTotal) -> OracleSummary:
+    return OracleSummary(
+        asked=total.asked,
+        agreed=total.agreed,
+        undecided=total.undecided,
+        disagreements=total.disagreements,
+        seconds=round(total.seconds, 3),
+        stages=total.stages,
+        unavailable=UNSET if total.unavailable is None else total.unavailable,
+    )
 
 
-def _equations(lines: Iterable[Equation]) -> Fields:
-    verdicts: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
+def _equations(lines: list[Equation]) -> Equations:
+    found: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
     for line in lines:
-        verdicts.setdefault(line.verdict, []).append(line.number)
-    return verdicts
+        found[line.verdict].append(line.number)
+    return Equations(**found)
 
 
-def _proofs(lines: list[Proof]) -> Fields:
+def _proofs(lines: list[Proof]) -> Proofs:
     holding = sum(line.holds for line in lines)
-    return {"asked": len(lines), "hold": holding, "fail": len(lines) - holding}
+    return Proofs(asked=len(lines), hold=holding, fail=len(lines) - holding)
 
 
-def _findings(record: Record) -> Fields:
-    """Errors of formulas in exact arithmetic, counted by formula, family, side of the regimes and cause; and drift."""
+def _findings(record: Record) -> Findings:
     lines = record.of(Finding)
-    return {
-        "inside_stated_regimes": sum(line.inside for line in lines),
-        "outside_stated_regimes": sum(not line.inside for line in lines),
-        "unlisted": sum(map(unlisted, lines)),
-        "drift": [line.sentence for line in record.of(Drift)],
-    }
+    return Findings(
+        inside_stated_regimes=sum(line.inside for line in lines),
+        outside_stated_regimes=sum(not line.inside for line in lines),
+        unlisted=sum(map(unlisted, lines)),
+        drift=[line.sentence for line in record.of(Drift)],
+    )
 
 
-def _implementation(each: Implementation, whole: Tested | None) -> Fields:
-    return {
-        "name": each.name,
-        "spec": each.spec,
-        "precision": each.precision,
-        "question": each.question,
-        "exact": each.exact,
+def _implementation(each: Implementation, whole: Tested | None) -> ImplementationSummary:
+    found = ImplementationSummary(
+        name=each.name,
+        spec=each.spec,
+        precision=each.precision,
+        question=each.question,
+        exact=each.exact,
         **_counts(each.asked, each.statuses, each.mistakes, each.worst),
-        "families": {group.family: _family(group) for group in each.groups},
-        "statuses": each.statuses,
-        **({} if whole is None else _whole(whole)),
-    }
+        families={group.family: _family(group) for group in each.groups},
+        statuses=each.statuses,
+    )
+    if whole is None:
+        return found
+    return replace(
+        found,
+        declared=decoded(whole.declared, Claims),
+        judged_as=decoded(whole.used, Claims),
+        restarts=whole.restarts,
+        asked_again=whole.again,
+    )
 
 
-def _whole(line: Tested) -> Fields:
-    """What is known of an implementation under test beside its families."""
-    return {
-        "declared": _claims(line.declared),
-        "judged_as": _claims(line.used),
-        "restarts": line.restarts,
-        "asked_again": as_json(line.again),
-    }
-
-
-def _claims(description: Description) -> Fields:
-    return {name: as_json(description)[name] for name in ("question", "precision", "domain")}
-
-
-def _family(group: Group) -> Fields:
-    return _counts(group.asked, group.counts, group.mistakes, worst_case(group.worst))
+def _family(group: Group) -> FamilySummary:
+    return FamilySummary(**_counts(group.asked, group.counts, group.mistakes, worst_case(group.worst)))
 
 
 def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:
     return {
         "asked": asked,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
-        "mistakes": {name: mistakes.get(name, 0) for name in ("false-clear", "false-contact", "wrong-side")},
+        "mistakes": Mistakes(**{name: mistakes.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}),
         "worst_backward_error_u": worst_error_u(worst),
         "worst_case": None if worst is None else worst.case,
     }
 
 
-def _timing(total: TimingTotal) -> Fields:
-    return {
-        "name": total.name,
-        "workload": total.workload,
-        "rows": total.rows,
-        "median_ns": total.median_ns,
-        "ratio": total.ratio,
-    }
-
-
-def _method(each: Measured) -> Fields:
+def _method(each: Measured) -> MethodSummary:
     line = each.line
-    counts = ("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained", "reliable_above")
-    times = ("workload", "mode", "rows", "median_ns", "ratio", "ratio_ci95")
-    return {
-        "name": each.name,
-        **_fields(line, ("tier", "kind", "precision", "question", "exact")),
-        "asked": each.asked,
-        "wrong": each.wrong,
-        "reliable_above": each.reliable_above,
-        "workloads": {
-            name: {field: getattr(found, field) for field in counts} for name, found in each.accuracy.items()
-        },
-        "times": [_fields(found, times) for found in each.speed.values()],
-    }
-
-
-def _fields(line: Line, names: Iterable[str]) -> Fields:
-    return {name: getattr(line, name) for name in names}
-
-
-def _failure(failure: Failure) -> Fields:
-    return {
-        "subject": failure.subject,
-        "name": failure.name,
-        "group": failure.group,
-        "kind": failure.kind,
-        "message": failure.message,
-        "case": failure.case,
-        "count": failure.count,
-    }
+    return MethodSummary(
+        name=each.name,
+        tier=line.tier,
+        kind=line.kind,
+        precision=line.precision,
+        question=line.question,
+        exact=line.exact,
+        asked=each.asked,
+        wrong=each.wrong,
+        reliable_above=Unsigned(each.reliable_above),
+        workloads={name: decoded(found, WorkloadSummary) for name, found in each.accuracy.items()},
+        times=[decoded(found, TimeSummary) for found in each.speed.values()],
+    )

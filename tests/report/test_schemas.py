@@ -18,13 +18,14 @@ from hypcheck.record import SCHEMA as RECORD_SCHEMA
 from hypcheck.record import Recorder, measurements, plain, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import LINES
-from hypcheck.record.schema import file_name, text
+from hypcheck.record.schema import text
 from hypcheck.report import summary
 from hypcheck.verify import run
 from hypcheck.verify.contenders import Contender
 from hypcheck.verify.contenders import line as timing_line
 from hypcheck.verify.plan import Plan
 from tests import report_samples as samples
+from tests.published_schemas import PUBLISHED
 from tests.report import bench_lines
 from tests.schemas import violations
 
@@ -59,9 +60,9 @@ def of_summary(record):
     return json.loads(summary.render(record))
 
 
-def test_the_published_schema_is_that_of_the_lines():
-    published = resources.files("hypcheck.report").joinpath("schemas", file_name()).read_text(encoding="utf-8")
-    assert published == text(), "make schemas writes it anew"
+@pytest.mark.parametrize("file", PUBLISHED, ids=lambda file: file.name)
+def test_a_published_schema_is_that_of_the_classes(file):
+    assert file.read_text(encoding="utf-8") == text(PUBLISHED[file]()), "make schemas writes it anew"
 
 
 def test_every_line_of_the_sample_fits():
