@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.c import c_statements
 from hypcheck.kernel.printing.spelling import INFIX, Spelling, statements
 from hypcheck.kernel.programs import certified, lines, single
@@ -63,9 +64,12 @@ VECTOR = Spelling(
 """C over vectors of any width: the operators of the compiler, and macros for what they do not cover."""
 
 
+PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "dispatch", "tilted")
+
+
 def header() -> str:
     """The text of hypcheck.h."""
-    body = "\n".join(_part(f"{name}.h") for name in ("platform", "integers", "levels", "scene", "dispatch"))
+    body = "\n".join(_part(f"{name}.h") for name in PARTS)
     text = (
         f"{_part('contract.h')}\n"
         "#if defined(HYPCHECK_IMPLEMENTATION) && !defined(HC_LEVEL) && !defined(HC_IMPLEMENTED)\n"
@@ -78,7 +82,8 @@ def header() -> str:
 def _part(name: str) -> str:
     text = (HERE / "parts" / name).read_text(encoding="utf-8")
     printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
-    return _filled(text, printed).replace("@STACK_KILOBYTES@", str(_kilobytes())).replace("@COMMAND@", COMMAND)
+    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(_kilobytes()), "TILTED_KILOBYTES": str(tilted.kilobytes())}
+    return re.sub(r"@(\w+)@", lambda match: said.get(match[1], match[0]), _filled(text, printed))
 
 
 def _filled(text: str, printed: Mapping[str, Iterable[str]]) -> str:
@@ -139,6 +144,7 @@ def _kilobytes() -> int:
 
 
 _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
+    **tilted.TEXTS,
     "CONSTANTS": _constants,
     "CERTIFIED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in certified.CONSTANTS],
     "CERTIFIED_INPUTS": lambda: [

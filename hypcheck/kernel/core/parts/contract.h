@@ -24,7 +24,7 @@
    Aliasing    inputs may overlap each other. The output must not overlap an input.
    NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
                A scene with invalid sizes answers 127 everywhere. -0.0 is 0 as a coordinate.
-   Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes.
+   Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes, @TILTED_KILOBYTES@ for axes that lean.
    Threads     every function may be called from any number of threads at once. There is one global variable, the
                instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
    Arithmetic  answers do not depend on the rounding mode, on flushing subnormals to zero, or on contraction into FMA;
@@ -58,6 +58,12 @@ void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, c
 size_t hypcheck_ask(int question, size_t n, const double *rows, int8_t *answers);
 size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
                           const double *z, int8_t *answers);
+
+/* The same for a spheroid whose axis of revolution is any vector: rows of 10 doubles, ..., axis_x, axis_y, axis_z, and one
+   orientation for a scene. The axis is finite and not 0; its length and its sign mean nothing. (0, 0, s) is upright. */
+void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
+void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
+                                    const double *y, const double *z, int8_t *positions);
 
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);

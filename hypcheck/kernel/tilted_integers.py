@@ -1,0 +1,136 @@
+"""The last stage for a spheroid whose axis leans: the exact position in integers, over all of float64.
+
+With p, q, s, t the squares of α, b, γ, d, with the axis v and w = v·v, and λ the multiplier of the pencil S + λH,
+
+    F(λ) = p² q² s t w det(S + λH) = λ (λ E + (p + qλ)(G − λ m)) − (1 + λ)(p + qλ) K(λ),   K(λ) = k0 + k1 λ − k2 λ²
+
+is the quartic of the pair in whole numbers (programs/tilted_integers.py has E, G, m and K). The poles of the dual
+function φ = F/((p + qλ) K) are −A1 = −p/q and the roots −A2 < 0 < B of K; S + λH is positive definite exactly where
+F > 0 between λ₋ = −min(A1, A2) and B. F(0) < 0 < F(±∞), F(B) ≤ 0, F(λ₋) ≤ 0, and φ is concave from λ₋ to B, so
+
+    exterior: two roots in (0, B], or one and a double root at B; one root ≥ B; one root < 0;
+    interior: the same with [λ₋, 0) for (0, B];          contact: everything else.
+
+The discriminant Δ of F tells these apart but for the roots' places. Δ < 0: two roots are complex, contact. Δ > 0: four
+roots are real, and Descartes' rule is exact: three are positive or three negative. They are those of a clear pair
+where at most one lies beyond the pole, which the same rule says of F's coefficients at the pole; the pole is a root of
+a quadratic, so each sign is that of some U + V √D. Δ = 0: a tangency, unless the pole is a double root with F > 0
+beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from hypcheck.pairs import Position, to_integers
+
+
+@dataclass(frozen=True, slots=True)
+class Quartic:
+    """F's coefficients, lowest first, and what its poles are made of: −p/q and the roots of k0 + k1 λ − k2 λ²."""
+
+    f: tuple[int, int, int, int, int]
+    p: int
+    q: int
+    oblate: bool
+    k: tuple[int, int, int]
+
+
+def quartic(row: Sequence[float]) -> Quartic:
+    """The quartic of alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, in units that make all of them whole."""
+    alpha, gamma, b, d, x, y, z = to_integers(row[:7])
+    vx, vy, vz = to_integers(row[7:])
+    p, q, s, t = alpha * alpha, b * b, gamma * gamma, d * d
+    level, upward = vx * vx + vy * vy, vz * vz
+    w = level + upward
+    radius, height = x * x + y * y, z * z
+    cross, along = vx * y - vy * x, vx * x + vy * y + vz * z
+    E = (t - q) * (s + p) * cross * cross
+    G = w * (s * radius - p * height)
+    m = t * w * (radius + height) + (q - t) * along * along
+    k0, k2 = p * s * w, q * t * w
+    k1 = s * (t * level + q * upward) - p * (t * upward + q * level)
+    f = (
+        -p * k0,
+        p * (G - k1) - (p + q) * k0,
+        E + q * (G - k0) + p * (k2 - m) - (p + q) * k1,
+        q * (-m - k1) + (p + q) * k2,
+        q * k2,
+    )
+    return Quartic(f, p, q, b > d, (k0, k1, k2))
+
+
+def position(row: Sequence[float]) -> Position:
+    """The exact position of a valid row of ten; the axis must lean and the spheroid be no sphere."""
+    pair = quartic(row)
+    delta = discriminant(pair.f)
+    if delta < 0:
+        return Position.CONTACT
+    if delta == 0:
+        return _on_a_pole(pair)
+    side = Position.EXTERIOR if _changes(pair.f) == 3 else Position.INTERIOR
+    return side if _changes(_outwards(pair, side)) <= 1 else Position.CONTACT
+
+
+def discriminant(f: tuple[int, int, int, int, int]) -> int:
+    """27 times the discriminant of the quartic."""
+    e, d, c, b, a = f
+    i = 12 * a * e - 3 * b * d + c * c
+    j = 72 * a * c * e + 9 * b * c * d - 27 * (a * d * d + e * b * b) - 2 * c * c * c
+    return 4 * i * i * i - j * j
+
+
+def _on_a_pole(pair: Quartic) -> Position:
+    """The position where F has a multiple root: clear where that is a pole and F > 0 on its inner side."""
+    for side in (Position.EXTERIOR, Position.INTERIOR):
+        value, slope, curve = _outwards(pair, side)[:3]
+        if value == slope == 0 and curve > 0:
+            return side
+    return Position.CONTACT
+
+
+def _outwards(pair: Quartic, side: Position) -> list[int]:
+    """The signs of the coefficients of F in the distance beyond the pole on that side, lowest first."""
+    at_ratio = side < 0 and pair.oblate
+    signs = _at_ratio(pair.f, -pair.p, pair.q) if at_ratio else _at_root(pair, side)
+    return [sign if side > 0 or power % 2 == 0 else -sign for power, sign in enumerate(signs)]
+
+
+def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
+    """The signs of F's coefficients at over/under, under > 0."""
+    left = [each * under ** (4 - power) for power, each in enumerate(f)]
+    for first in range(4):
+        for power in range(3, first - 1, -1):
+            left[power] += over * left[power + 1]
+    return [_sign(each) for each in left]
+
+
+def _at_root(pair: Quartic, side: Position) -> list[int]:
+    """The same at B (side 1) or −A2: in μ = k2 λ, a root of μ² = k1 μ + k0 k2, everything is some u + v μ."""
+    (f0, f1, f2, f3, _), (k0, k1, k2) = pair.f, pair.k
+    left = [(k2**3 * f0, 0), (k2 * k2 * f1, 0), (k2 * f2, 0), (f3, 0), (pair.q, 0)]
+    for first in range(4):
+        for power in range(3, first - 1, -1):
+            (u, v), (c, d) = left[power + 1], left[power]
+            left[power] = c + v * k0 * k2, d + u + v * k1
+    D = k1 * k1 + 4 * k0 * k2
+    return [_sign_with_root(2 * u + v * k1, side * v, D) for u, v in left]
+
+
+def _sign_with_root(U: int, V: int, D: int) -> int:
+    """The sign of U + V √D, D > 0."""
+    if _sign(U) * _sign(V) >= 0:
+        return _sign(U) or _sign(V)
+    return _sign(U) * _sign(U * U - V * V * D)
+
+
+def _changes(numbers: Sequence[int]) -> int:
+    """How often the sign changes from one number that is not 0 to the next."""
+    signs = [number > 0 for number in numbers if number]
+    return sum(before != after for before, after in pairwise(signs))
+
+
+def _sign(number: int) -> int:
+    return (number > 0) - (number < 0)

@@ -1,0 +1,128 @@
+"""Expected positions of tilted spheroids, from the 4×4 matrices alone, in fractions.
+
+The spheroid is exterior where S + λH is positive definite for some λ > 0, interior where it is for some λ < 0, and in
+contact otherwise. det(S + λH) is interpolated from five determinants; between each two of its neighbouring real roots
+the matrix has one signature, so one rational λ there is asked (Sylvester's criterion). Roots are separated by Sturm's
+sequence of the squarefree part. Nothing of the kernel's formulas is used.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+
+def exact_position(row):
+    """+1, 0 or −1 for alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z."""
+    S, H = matrices(row)
+    samples = between_roots(interpolated(S, H))
+    sides = {1 if at > 0 else -1 for at in samples if at and positive_definite(combined(S, H, at))}
+    assert len(sides) <= 1
+    return sides.pop() if sides else 0
+
+
+def matrices(row):
+    """S of the spheroid, with (X−C)ᵀM(X−C) − 1, and H of the hyperboloid."""
+    alpha, gamma, b, d, x, y, z, *axis = map(Fraction, row)
+    size = sum(each * each for each in axis)
+    extra = 1 / (d * d) - 1 / (b * b)
+    M = [[extra * axis[i] * axis[j] / size + (1 / (b * b) if i == j else 0) for j in range(3)] for i in range(3)]
+    centre = (x, y, z)
+    MC = [sum(M[i][j] * centre[j] for j in range(3)) for i in range(3)]
+    S = [[*M[i], -MC[i]] for i in range(3)]
+    S.append([*(-each for each in MC), sum(MC[i] * centre[i] for i in range(3)) - 1])
+    diagonal = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2, Fraction(-1))
+    H = [[diagonal[i] if i == j else Fraction(0) for j in range(4)] for i in range(4)]
+    return S, H
+
+
+def combined(S, H, at):
+    return [[S[i][j] + at * H[i][j] for j in range(4)] for i in range(4)]
+
+
+def determinant(matrix):
+    if len(matrix) == 1:
+        return matrix[0][0]
+    return sum(
+        (-1) ** k * matrix[0][k] * determinant([[*line[:k], *line[k + 1 :]] for line in matrix[1:]])
+        for k in range(len(matrix))
+        if matrix[0][k]
+    )
+
+
+def positive_definite(matrix):
+    return all(determinant([line[:size] for line in matrix[:size]]) > 0 for size in (1, 2, 3, 4))
+
+
+def interpolated(S, H):
+    """The coefficients of det(S + λH), lowest first, from its values at λ = 0 … 4."""
+    values = [determinant(combined(S, H, Fraction(at))) for at in range(5)]
+    total = [Fraction(0)] * 5
+    for at, value in enumerate(values):
+        basis, scale = [Fraction(1)], Fraction(1)
+        for other in range(5):
+            if other != at:
+                basis = [a - other * b for a, b in zip([Fraction(0), *basis], [*basis, Fraction(0)], strict=True)]
+                scale *= at - other
+        total = [a + value / scale * b for a, b in zip(total, basis, strict=True)]
+    return total
+
+
+def trimmed(poly):
+    while len(poly) > 1 and poly[-1] == 0:
+        poly = poly[:-1]
+    return poly
+
+
+def divided(poly, by):
+    """Quotient and remainder."""
+    rest, quotient = list(poly), [Fraction(0)] * max(1, len(poly) - len(by) + 1)
+    while len(rest) >= len(by) and any(rest):
+        shift, factor = len(rest) - len(by), rest[-1] / by[-1]
+        quotient[shift] = factor
+        for k, each in enumerate(by):
+            rest[shift + k] -= factor * each
+        rest = trimmed(rest[:-1])
+    return quotient, trimmed(rest)
+
+
+def derivative(poly):
+    return trimmed([k * each for k, each in enumerate(poly)][1:] or [Fraction(0)])
+
+
+def value(poly, at):
+    total = Fraction(0)
+    for each in reversed(poly):
+        total = total * at + each
+    return total
+
+
+def between_roots(poly):
+    """A rational number in each gap between neighbouring real roots, and one beyond the first and the last."""
+    common, other = poly, derivative(poly)
+    while any(other):
+        common, other = other, divided(common, other)[1]
+    free, _ = divided(poly, common)
+    chain = [trimmed(free), derivative(free)]
+    while len(chain[-1]) > 1:
+        rest = divided(chain[-2], chain[-1])[1]
+        if not any(rest):
+            break
+        chain.append([-each for each in rest])
+
+    def below(at):
+        signs = [each > 0 for each in (value(one, at) for one in chain) if each]
+        return -sum(a != b for a, b in pairwise(signs))
+
+    bound = 1 + max(abs(each / free[-1]) for each in free)
+    found, open_parts = [-bound, bound], [(-bound, bound)]
+    while open_parts:
+        low, high = open_parts.pop()
+        if below(high) - below(low) < 2:
+            continue
+        middle = (low + high) / 2
+        while value(free, middle) == 0:
+            middle = (low + middle) / 2
+        found.append(middle)
+        open_parts += [(low, middle), (middle, high)]
+    return sorted(found)
