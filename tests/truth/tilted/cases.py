@@ -62,6 +62,15 @@ def tangent_row(cosine, sine, k, v, azimuth, lean, turn, side, swap=False):
     return [alpha, gamma, b, d, *center, *axis], EXTERIOR if side > 0 else INTERIOR
 
 
+def in_floats(row):
+    """The same pair in integers that float64 holds, or None."""
+    integers = []
+    for group in (row[:7], row[7:]):
+        unit = math.lcm(*(Fraction(each).denominator for each in group))
+        integers += [each * unit for each in group]
+    return [float(each) for each in integers] if all(abs(each) < 2**53 for each in integers) else None
+
+
 def _positive_definite(alpha, gamma, b, d, axis, multiplier):
     """Whether M + multiplier · D is, by the signs of its leading minors; then the point of touch is the nearest one."""
     D = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)

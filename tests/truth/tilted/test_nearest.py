@@ -1,0 +1,70 @@
+"""The nearest-point oracle of tilted pairs against the exact decision, known clearances, and the upright oracle."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import nearest as upright
+from hypcheck.truth.tilted import exact, nearest
+from hypcheck.truth.tilted.pair import TiltedPair
+from tests.tools.tilted_agreement import FAMILIES, rows
+from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, in_floats
+
+FLOAT_TANGENT = [(found, side) for row, side in TANGENT if (found := in_floats(row)) is not None]
+
+
+@pytest.mark.parametrize("row", [row for row, *_ in (*WITNESSES, *SYMMETRIC)], ids=str)
+def test_nearest_has_the_exact_position_and_tangency_of_hand_worked_pairs(row):
+    pair = TiltedPair.from_row(row)
+    decision, found = exact.decide(pair.lengths), nearest.nearest(pair)
+    assert found.position is decision.position
+    assert found.tangent == decision.tangent
+    assert nearest.position(pair) is decision.position
+
+
+def test_nearest_agrees_with_the_exact_decision_in_every_family():
+    for family, row in rows(list(FAMILIES), 140, seed=7):
+        pair = TiltedPair.from_row(row)
+        assert nearest.position(pair) is exact.position(pair.lengths), (family, row)
+
+
+def test_clearance_of_a_tangent_spheroid_shrunk_to_a_half_is_1():
+    assert len(FLOAT_TANGENT) >= 10
+    known = [(row, side) for row, position, side in SYMMETRIC if side is not None] + FLOAT_TANGENT
+    for row, side in known:
+        alpha, gamma, b, d, *rest = row
+        assert nearest.nearest(TiltedPair.from_row(row)).clearance == 0
+        found = nearest.nearest(TiltedPair(alpha, gamma, b / 2, d / 2, *rest))
+        assert found.position is side
+        assert found.clearance == 1
+        grown = nearest.nearest(TiltedPair(alpha, gamma, b * 2, d * 2, *rest))
+        assert (grown.position, grown.clearance) == (Position.CONTACT, -0.5)
+
+
+def test_clearance_with_a_vertical_axis_is_that_of_the_upright_oracle():
+    for _, row in rows(["uniform", "near"], 60, seed=8):
+        found = nearest.nearest(TiltedPair(*row[:7], 0, 0, -3))
+        expected = upright.nearest(Pair(*row[:7])).clearance
+        assert abs(found.clearance - expected) <= math.ulp(expected)
+
+
+def test_near_tangency_is_decided_beyond_the_first_precision():
+    row, side = FLOAT_TANGENT[0]
+    step = 2.0**-52
+    for factor, position in ((1 - step, side), (1 + step, Position.CONTACT)):
+        found = nearest.nearest(TiltedPair(*row[:2], row[2] * factor, row[3] * factor, *row[4:]))
+        assert found.position is position
+        assert 0 < abs(found.clearance) < 2 * step
+
+
+def test_tangency_is_not_taken_from_a_rational_that_is_only_near():
+    row, _ = FLOAT_TANGENT[0]
+    off = [*row[:6], math.nextafter(row[6], math.inf), *row[7:]]
+    found = nearest.nearest(TiltedPair.from_row(off))
+    assert not found.tangent
+    assert found.position is exact.position(TiltedPair.from_row(off).lengths)
+    assert Fraction(found.clearance) != 0
