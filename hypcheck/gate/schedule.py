@@ -71,6 +71,10 @@ class State:
     done: int = 0
     total: Result = field(default_factory=Result)
 
+    def allowance(self, limits: Allowance) -> Allowance:
+        """What the next task may spend: all of the limits, unless the implementation is asked no more."""
+        return replace(limits, over=self.left.over, hangs=self.left.hangs)
+
     def after(self, step: Step, done: TaskResult, limits: Allowance) -> State:
         """The state after one more step, whose task began with all of the limits."""
         before = self.total
@@ -145,7 +149,10 @@ def states(some: Iterable[Step], performing: Performing, state: State) -> Iterat
     Raises LostError where workers end before they are ready, and whatever a task raises.
     """
     line = _Line(islice(some, state.done, None), performing)
-    while line.fill(state):
+    while line.look_ahead(state):
+        for entry in line.due(state):
+            allowance = state.allowance(performing.limits)
+            entry.future = performing.executor.submit(performing.function, task=entry.task, allowance=allowance)
         if (found := line.take()) is None:
             line.wait()
             continue
@@ -199,32 +206,29 @@ class _Line:
                 entry.future.cancel()
             entry.future, entry.deaths = None, 0
 
-    def fill(self, state: State) -> bool:
-        """Submit the earliest tasks that can be; whether there are steps left behind this state.
-
-        Where one is suspected, it is submitted alone, when no other is running.
-        """
-        allowance = replace(self._performing.limits, over=state.left.over, hangs=state.left.hangs)
-        self._settle(allowance)
-        one_by_one = not self._performing.workers or state.left.hangs is not None  # hangs are counted in order
-        ahead, most = (1, 1) if one_by_one else (self._performing.workers * each for each in (AHEAD, IN_HAND))
-        self._look_ahead(ahead, state)
-        suspects = [entry for entry in self._entries if entry.deaths]
-        running = len(self._running)
-        for entry in suspects[:1] or self._entries:
-            if entry.future is None and entry.task is not None and running < (1 if suspects else most):
-                executor, function = self._performing.executor, self._performing.function
-                entry.future = executor.submit(function, task=entry.task, allowance=allowance)
-                entry.alone = bool(suspects)
-                running += 1
-        return bool(self._entries)
-
-    def _look_ahead(self, steps: int, state: State) -> None:
+    def look_ahead(self, state: State) -> bool:
+        """See what became of the tasks, and take in steps that can be performed; whether any are left."""
+        self._settle(state.allowance(self._performing.limits))
+        steps = 1 if self._one_by_one(state) else self._performing.workers * AHEAD
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
             self._entries.append(_Entry(step, None if isinstance(step, RetestStep) else step))
         for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
             if isinstance(entry.step, RetestStep) and entry.task is None:  # only now all of its cases are there
                 entry.task = entry.step.of(state.total.open)
+        return bool(self._entries)
+
+    def due(self, state: State) -> list[_Entry]:
+        """The earliest entries whose tasks can be submitted; a suspect alone, when no other is running."""
+        suspects = [entry for entry in self._entries if entry.deaths]
+        most = 1 if suspects or self._one_by_one(state) else self._performing.workers * IN_HAND
+        ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.task is not None]
+        due = ready[: max(0, most - len(self._running))]
+        for entry in due:
+            entry.alone = bool(suspects)
+        return due
+
+    def _one_by_one(self, state: State) -> bool:
+        return not self._performing.workers or state.left.hangs is not None  # hangs are counted in order
 
     @property
     def _running(self) -> list[Future[TaskResult]]:

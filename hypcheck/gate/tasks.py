@@ -45,13 +45,10 @@ class TaskResult:
 def perform(task: Task, implementation: Implementation | Crashed, rules: Rules, allowance: Allowance) -> TaskResult:
     """Perform a task, which may spend the allowance; the result depends on nothing else but the answers."""
     implementation.allow(allowance)
-    result = _result(task, implementation, rules)
-    return TaskResult(result, implementation.allowance)
-
-
-def _result(task: Task, implementation: Implementation | Crashed, rules: Rules) -> Result:
     if isinstance(task, Chunk):
-        return ask_chunk(task, implementation, rules)
-    if isinstance(task, RetestTask):
-        return retest(task, implementation, rules)
-    return ask_invalid(task, implementation)
+        result = ask_chunk(task, implementation, rules)
+    elif isinstance(task, RetestTask):
+        result = retest(task, implementation, rules)
+    else:
+        result = ask_invalid(task, implementation)
+    return TaskResult(result, implementation.allowance)
