@@ -18,6 +18,7 @@ from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.c import c_statements
 from hypcheck.kernel.printing.spelling import INFIX, Spelling, statements
 from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.kernel.programs import tilted as tilted_program
 from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
 from hypcheck.pairs import COLUMNS
 
@@ -27,6 +28,7 @@ COMMAND = "python -m hypcheck.kernel.core.generate"
 
 CONSTANTS = {
     **certified.CONSTANTS,
+    **tilted_program.CONSTANTS,
     "u_1536": single.CONSTANTS["u_1536"],
     "more": lines.MORE,
     "less": lines.LESS,
@@ -143,8 +145,22 @@ def _kilobytes() -> int:
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
 
+def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The program of a row that leans, before a multiplier is chosen, and after it."""
+    both = statements(tilted_program.TILTED, ("exterior", "interior", "decided"), VECTOR)
+    first = len([step for step in tilted_program.TILTED.steps if step.name in tilted_program.BEFORE])
+    return both[:first], both[first:]
+
+
 _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     **tilted.TEXTS,
+    "TILTED_LEVEL": lambda: _part("tilted_level.h").splitlines(),
+    "TILTED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in tilted_program.CONSTANTS],
+    "TILTED_INPUTS": lambda: [
+        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted_program.ROW)
+    ],
+    "TILTED_FORM": lambda: _tilted()[0],
+    "TILTED_AT_MULTIPLIER": lambda: _tilted()[1],
     "CONSTANTS": _constants,
     "CERTIFIED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in certified.CONSTANTS],
     "CERTIFIED_INPUTS": lambda: [

@@ -123,6 +123,8 @@ int hypcheck_use_level(const char *name);
 #define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
 #define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
 #define HC_AHEAD 512
+#define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
+#define HC_settled 1e-6 /* its last relative change */
 #define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
 
 #define HC_u_4 8.881792667330725e-16 /* 0x1.0000100000000p-50 */
@@ -133,6 +135,20 @@ int hypcheck_use_level(const char *name);
 #define HC_least 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
 #define HC_greatest 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
 #define HC_farthest 1.6069380442589903e+60 /* 0x1.0000000000000p+200 */
+#define HC_u_p_l 1.776358533466145e-15 /* 0x1.0000100000000p-49 */
+#define HC_u_k 6.2172548671315074e-15 /* 0x1.c0001c0000000p-48 */
+#define HC_u_d_l 7.993613400597652e-15 /* 0x1.2000120000000p-47 */
+#define HC_u_F 8.881792667330725e-15 /* 0x1.4000140000000p-47 */
+#define HC_u_psi 1.5987226801195305e-14 /* 0x1.2000120000000p-46 */
+#define HC_less_sure 0.9999990463256836 /* 0x1.ffffe00000000p-1 */
+#define HC_least_b 4.909093465297727e-91 /* 0x1.0000000000000p-300 */
+#define HC_greatest_b 2.037035976334486e+90 /* 0x1.0000000000000p+300 */
+#define HC_least_square 5.551115123125783e-17 /* 0x1.0000000000000p-54 */
+#define HC_greatest_square 1.8014398509481984e+16 /* 0x1.0000000000000p+54 */
+#define HC_farthest_square 3.2451855365842673e+32 /* 0x1.0000000000000p+108 */
+#define HC_least_axis 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
+#define HC_greatest_axis 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
+#define HC_greatest_l 1.152921504606847e+18 /* 0x1.0000000000000p+60 */
 #define HC_u_1536 3.4106083842549983e-13 /* 0x1.8000180000000p-42 */
 #define HC_more 1.000000000000007 /* 0x1.0000000000020p+0 */
 #define HC_less 0.9999999999999929 /* 0x1.fffffffffffc0p-1 */
@@ -179,6 +195,19 @@ static int hc_lowest_bit(uint64_t bits) {
         }
     return at;
 #endif
+}
+
+/* A root for choosing places: good to a few digits, no libm. */
+static double hc_rough_root(double square) {
+    uint64_t bits;
+    double root;
+    int i;
+    if (!(square > 0)) return 0;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits >> 1) + ((uint64_t)0x1ff8 << 48); /* half the exponent */
+    memcpy(&root, &bits, sizeof root);
+    for (i = 0; i < 3; i++) root = 0.5 * (root + square / root);
+    return root;
 }
 
 /* ---- exact integers: the last stage ---- */
@@ -849,7 +878,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_674947a49e90868c
+#ifndef HC_EDITION_91faff3c8fec8416
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -941,19 +970,6 @@ static int hc_position_of(const double row[7]) {
 }
 
 /* ---- one scene: the half planes of the first stage ---- */
-
-/* A root for choosing places: good to a few digits, no libm. */
-static double hc_rough_root(double square) {
-    uint64_t bits;
-    double root;
-    int i;
-    if (!(square > 0)) return 0;
-    memcpy(&bits, &square, sizeof bits);
-    bits = (bits >> 1) + ((uint64_t)0x1ff8 << 48); /* half the exponent */
-    memcpy(&root, &bits, sizeof root);
-    for (i = 0; i < 5; i++) root = 0.5 * (root + square / root);
-    return root;
-}
 
 /* The value cut to 26 significant bits, so that its square is exact; `up` takes the next such number. */
 static double hc_short(double value, int up) {
@@ -1150,7 +1166,7 @@ typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const d
 
 typedef struct {
     const char *name;
-    hc_bits (*certified)(const double *, size_t, int);
+    hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
 } hc_level_functions;
@@ -1158,7 +1174,7 @@ typedef struct {
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),
@@ -1323,21 +1339,79 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 
 /* ---- spheroids whose axis leans: the public functions ---- */
 
+typedef struct {
+    double columns[10 * HC_BLOCK];
+    size_t places[HC_BLOCK];
+    int count;
+} hc_tilted_waiting;
+
+/* The floats, and the integers for what they leave. */
+static void hc_tilted_settle(const hc_level_functions *level, hc_tilted_waiting *waiting, int8_t *positions) {
+    const hc_bits found = level->tilted(waiting->columns, HC_BLOCK, waiting->count);
+    int8_t answers[HC_BLOCK];
+    int i, k;
+    level->spread(answers, found.plus, found.minus);
+    for (i = 0; i < waiting->count; i++) {
+        int8_t answer = answers[i];
+        if (!(HC_FLOATS_DECIDE && found.decided >> i & 1)) {
+            double row[10];
+            for (k = 0; k < 10; k++) row[k] = waiting->columns[k * HC_BLOCK + i];
+            answer = (int8_t)(hc_tilted_valid(row) ? hc_exact_tilted_position(row) : 127);
+        }
+        positions[waiting->places[i]] = answer;
+    }
+    waiting->count = 0;
+}
+
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
+    const hc_level_functions *level = hc_level();
+    hc_tilted_waiting leaning;
+    hc_waiting upright;
     size_t i;
+    int k;
+    memset(&leaning, 0, sizeof leaning);
+    memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
         const double *const row = rows10 + 10 * i;
-        positions[i] = (int8_t)(hc_tilted_valid(row) ? hc_exact_tilted_position(row) : 127);
+        if (hc_is_upright(row) && hc_tilted_valid(row)) {
+            for (k = 0; k < 7; k++) upright.columns[k * HC_BLOCK + upright.count] = row[k];
+            upright.places[upright.count++] = i;
+            if (upright.count == HC_BLOCK) hc_settle(level, HYPCHECK_POSITION, &upright, positions);
+        } else {
+            for (k = 0; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
+            leaning.places[leaning.count++] = i;
+            if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
+        }
     }
+    hc_settle(level, HYPCHECK_POSITION, &upright, positions);
+    hc_tilted_settle(level, &leaning, positions);
 }
 
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions) {
+    const double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+    const hc_level_functions *level = hc_level();
+    hc_tilted_waiting leaning;
     size_t i;
-    for (i = 0; i < n; i++) {
-        const double row[10] = {sizes[0], sizes[1], sizes[2], sizes[3], x[i], y[i], z[i], axis[0], axis[1], axis[2]};
-        positions[i] = (int8_t)(hc_tilted_valid(row) ? hc_exact_tilted_position(row) : 127);
+    int k;
+    if (!hc_tilted_valid(probe)) {
+        memset(positions, 127, n);
+        return;
     }
+    if (hc_is_upright(probe)) {
+        hypcheck_classify_scene(sizes, n, x, y, z, positions);
+        return;
+    }
+    memset(&leaning, 0, sizeof leaning);
+    for (k = 0; k < 10 * HC_BLOCK; k++) leaning.columns[k] = probe[k / HC_BLOCK];
+    for (i = 0; i < n; i++) {
+        leaning.columns[4 * HC_BLOCK + leaning.count] = x[i];
+        leaning.columns[5 * HC_BLOCK + leaning.count] = y[i];
+        leaning.columns[6 * HC_BLOCK + leaning.count] = z[i];
+        leaning.places[leaning.count++] = i;
+        if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
+    }
+    hc_tilted_settle(level, &leaning, positions);
 }
 
 #if HC_PRECISE
@@ -1345,7 +1419,7 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_674947a49e90868c
+#define HC_EDITION_91faff3c8fec8416
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -1365,6 +1439,10 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #define HC_AND(a, b) ((HC_TRUTH)((a) & (b)))
 #define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
 #define HC_BITS(truth) ((uint64_t)(truth))
+#define HC_SQRT(a) _mm512_sqrt_pd(a)
+#define HC_MIN(a, b) _mm512_min_pd(a, b)
+#define HC_MAX(a, b) _mm512_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm512_mask_blend_pd(truth, b, a)
 #elif HC_LEVEL == 2
 #define HC_NAME(name) name##_avx2
 #define HC_TARGET __attribute__((target("avx2,fma,bmi2")))
@@ -1381,6 +1459,10 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #define HC_AND(a, b) _mm256_and_pd(a, b)
 #define HC_OR(a, b) _mm256_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
+#define HC_SQRT(a) _mm256_sqrt_pd(a)
+#define HC_MIN(a, b) _mm256_min_pd(a, b)
+#define HC_MAX(a, b) _mm256_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm256_blendv_pd(b, a, truth)
 #elif HC_LEVEL == 1
 #define HC_NAME(name) name##_sse2
 #define HC_TARGET
@@ -1397,6 +1479,10 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #define HC_AND(a, b) _mm_and_pd(a, b)
 #define HC_OR(a, b) _mm_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
+#define HC_SQRT(a) _mm_sqrt_pd(a)
+#define HC_MIN(a, b) _mm_min_pd(a, b)
+#define HC_MAX(a, b) _mm_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
 #else
 #define HC_NAME(name) name##_plain
 #define HC_TARGET
@@ -1413,6 +1499,10 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #define HC_AND(a, b) ((a) & (b))
 #define HC_OR(a, b) ((a) | (b))
 #define HC_BITS(truth) ((uint64_t)(truth))
+#define HC_SQRT(a) hc_rough_root(a)
+#define HC_MIN(a, b) ((a) < (b) ? (a) : (b))
+#define HC_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define HC_SELECT(truth, a, b) ((truth) ? (a) : (b))
 #endif
 
 HC_TARGET static int HC_NAME(hc_all_below)(HC_NUMBER numbers, double limit) {
@@ -2180,6 +2270,304 @@ HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int b
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
+/* Near the multiplier at which the dual function of a leaning spheroid is greatest. It proves nothing: any result is safe,
+   a good one leaves fewer rows to the integers. The poles are p = A1, A2 and B; C's components in the basis that both
+   matrices are diagonal in, squared, are P1, P2 and Q. With S = A1 P1/(A1+l)² + A2 P2/(A2+l)² and T = 1 + B Q/(B-l)²,
+   Newton's method solves 1/√S = 1/√T, whose sides are straight for a single term. */
+HC_TARGET static inline HC_NUMBER HC_NAME(hc_tilted_multiplier)(HC_NUMBER p, HC_NUMBER s, HC_NUMBER t, HC_NUMBER k0, HC_NUMBER k1,
+                                                         HC_NUMBER m, HC_NUMBER radius, HC_NUMBER height, HC_NUMBER P1) {
+    const HC_NUMBER root = HC_SQRT(k1 * k1 + HC_SET(4.0) * k0 * t);
+    const HC_NUMBER larger = HC_SET(0.5) * (HC_ABS(k1) + root);
+    const HC_NUMBER one_pole = larger / t, other_pole = k0 / larger;
+    const HC_TRUTH rising = HC_GE(k1, HC_SET(0.0));
+    const HC_NUMBER B = HC_SELECT(rising, one_pole, other_pole), A2 = HC_SELECT(rising, other_pole, one_pole);
+    const HC_NUMBER G = s * (radius - P1) - p * height, m_plane = m - t * P1, per_root = HC_SET(1.0) / root;
+    const HC_NUMBER a1 = p * P1, a2 = A2 * HC_ABS(G + A2 * m_plane) * per_root, b = B * HC_ABS(B * m_plane - G) * per_root;
+    const HC_NUMBER least = HC_SET(-0.999) * HC_MIN(p, A2), greatest = HC_SET(0.999) * B;
+    HC_NUMBER l = HC_SET(0.0);
+    int turn;
+    for (turn = 0; turn < HC_TURNS; turn++) {
+        const HC_NUMBER from_A1 = p + l, from_A2 = A2 + l, from_B = B - l, from_both = from_A1 * from_A2;
+        const HC_NUMBER inverse = HC_SET(1.0) / (from_both * from_B), inverse_B = inverse * from_B;
+        const HC_NUMBER i1 = inverse_B * from_A2, i2 = inverse_B * from_A1, i3 = inverse * from_both;
+        const HC_NUMBER S1 = a1 * i1 * i1, S2 = a2 * i2 * i2, T3 = b * i3 * i3;
+        const HC_NUMBER S = S1 + S2, T = HC_SET(1.0) + T3, root_S = HC_SQRT(S), root_T = HC_SQRT(T);
+        const HC_NUMBER slope = (S1 * i1 + S2 * i2) * T * root_T + T3 * i3 * S * root_S;
+        const HC_NUMBER moved = l + (root_S - root_T) * S * T / slope;
+        const HC_NUMBER next = HC_MIN(HC_MAX(moved, least), greatest); /* NaN becomes the first pole */
+        const HC_NUMBER change = HC_ABS(next - l);
+        l = next;
+        if (!HC_BITS(HC_GT(change, HC_SET(HC_settled) * HC_ABS(l)))) break;
+    }
+    return l;
+}
+
+/* Rows of ten that lean, by columns as in hc_certified. */
+HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride, int count) {
+    hc_bits found = {0, 0, 0};
+    int at;
+    const HC_NUMBER u_p_l = HC_SET(HC_u_p_l);
+    const HC_NUMBER u_k = HC_SET(HC_u_k);
+    const HC_NUMBER u_d_l = HC_SET(HC_u_d_l);
+    const HC_NUMBER u_F = HC_SET(HC_u_F);
+    const HC_NUMBER u_psi = HC_SET(HC_u_psi);
+    const HC_NUMBER less_sure = HC_SET(HC_less_sure);
+    const HC_NUMBER least_b = HC_SET(HC_least_b);
+    const HC_NUMBER greatest_b = HC_SET(HC_greatest_b);
+    const HC_NUMBER least_square = HC_SET(HC_least_square);
+    const HC_NUMBER greatest_square = HC_SET(HC_greatest_square);
+    const HC_NUMBER farthest_square = HC_SET(HC_farthest_square);
+    const HC_NUMBER least_axis = HC_SET(HC_least_axis);
+    const HC_NUMBER greatest_axis = HC_SET(HC_greatest_axis);
+    const HC_NUMBER greatest_l = HC_SET(HC_greatest_l);
+    for (at = 0; at < count; at += HC_WIDTH) {
+        const HC_NUMBER alpha = HC_LOAD(columns + 0 * stride + at);
+        const HC_NUMBER gamma = HC_LOAD(columns + 1 * stride + at);
+        const HC_NUMBER b = HC_LOAD(columns + 2 * stride + at);
+        const HC_NUMBER d = HC_LOAD(columns + 3 * stride + at);
+        const HC_NUMBER x = HC_LOAD(columns + 4 * stride + at);
+        const HC_NUMBER y = HC_LOAD(columns + 5 * stride + at);
+        const HC_NUMBER z = HC_LOAD(columns + 6 * stride + at);
+        const HC_NUMBER axis_x = HC_LOAD(columns + 7 * stride + at);
+        const HC_NUMBER axis_y = HC_LOAD(columns + 8 * stride + at);
+        const HC_NUMBER axis_z = HC_LOAD(columns + 9 * stride + at);
+        /* printed from the program "tilted", its first part */
+        const HC_NUMBER r = HC_SET(1.0) / b;
+        const HC_NUMBER alpha_r = alpha * r;
+        const HC_NUMBER p = alpha_r * alpha_r;
+        const HC_NUMBER gamma_r = gamma * r;
+        const HC_NUMBER s = gamma_r * gamma_r;
+        const HC_NUMBER d_r = d * r;
+        const HC_NUMBER t = d_r * d_r;
+        const HC_NUMBER x_r = x * r;
+        const HC_NUMBER y_r = y * r;
+        const HC_NUMBER z_r = z * r;
+        const HC_NUMBER axis_xx = axis_x * axis_x;
+        const HC_NUMBER axis_yy = axis_y * axis_y;
+        const HC_NUMBER level = axis_xx + axis_yy;
+        const HC_NUMBER upward = axis_z * axis_z;
+        const HC_NUMBER w = level + upward;
+        const HC_NUMBER h = level / w;
+        const HC_NUMBER c = upward / w;
+        const HC_NUMBER x_y = axis_x * y_r;
+        const HC_NUMBER y_x = axis_y * x_r;
+        const HC_NUMBER cross = x_y - y_x;
+        const HC_NUMBER x_x = axis_x * x_r;
+        const HC_NUMBER y_y = axis_y * y_r;
+        const HC_NUMBER z_z = axis_z * z_r;
+        const HC_NUMBER along_level = x_x + y_y;
+        const HC_NUMBER along_axis = along_level + z_z;
+        const HC_NUMBER cross_squared = cross * cross;
+        const HC_NUMBER cross_part = cross_squared / w;
+        const HC_NUMBER axis_squared = along_axis * along_axis;
+        const HC_NUMBER axis_part = axis_squared / w;
+        const HC_NUMBER xx = x_r * x_r;
+        const HC_NUMBER yy = y_r * y_r;
+        const HC_NUMBER radius = xx + yy;
+        const HC_NUMBER height = z_r * z_r;
+        const HC_NUMBER distance = radius + height;
+        const HC_NUMBER t_1 = t - HC_SET(1.0);
+        const HC_NUMBER s_p = s + p;
+        const HC_NUMBER t_1_s_p = t_1 * s_p;
+        const HC_NUMBER E = t_1_s_p * cross_part;
+        const HC_NUMBER s_radius = s * radius;
+        const HC_NUMBER p_height = p * height;
+        const HC_NUMBER G = s_radius - p_height;
+        const HC_NUMBER t_distance = t * distance;
+        const HC_NUMBER t_1_axis = t_1 * axis_part;
+        const HC_NUMBER m = t_distance - t_1_axis;
+        const HC_NUMBER k0 = p * s;
+        const HC_NUMBER t_h = t * h;
+        const HC_NUMBER along = t_h + c;
+        const HC_NUMBER t_c = t * c;
+        const HC_NUMBER across = t_c + h;
+        const HC_NUMBER s_along = s * along;
+        const HC_NUMBER p_across = p * across;
+        const HC_NUMBER k1 = s_along - p_across;
+        /* end of the program "tilted", its first part */
+        const HC_NUMBER l = HC_NAME(hc_tilted_multiplier)(p, s, t, k0, k1, m, radius, height, cross_squared / level);
+        /* printed from the program "tilted", the rest */
+        const HC_NUMBER p_l = p + l;
+        const HC_NUMBER t_l = t * l;
+        const HC_NUMBER k1_tl = k1 - t_l;
+        const HC_NUMBER k1_tl_l = k1_tl * l;
+        const HC_NUMBER k = k0 + k1_tl_l;
+        const HC_NUMBER m_l = m * l;
+        const HC_NUMBER g = G - m_l;
+        const HC_NUMBER E_l = E * l;
+        const HC_NUMBER p_l_g = p_l * g;
+        const HC_NUMBER N = E_l + p_l_g;
+        const HC_NUMBER l_N = l * N;
+        const HC_NUMBER d_l = p_l * k;
+        const HC_NUMBER one_l = HC_SET(1.0) + l;
+        const HC_NUMBER one_l_d = one_l * d_l;
+        const HC_NUMBER F = l_N - one_l_d;
+        const HC_NUMBER p_l_m = p_l * m;
+        const HC_NUMBER E_g = E + g;
+        const HC_NUMBER N_slope = E_g - p_l_m;
+        const HC_NUMBER k_slope = k1_tl - t_l;
+        const HC_NUMBER p_l_k_slope = p_l * k_slope;
+        const HC_NUMBER d_slope = k + p_l_k_slope;
+        const HC_NUMBER l_N_slope = l * N_slope;
+        const HC_NUMBER N_both = N + l_N_slope;
+        const HC_NUMBER N_both_d = N_both - d_l;
+        const HC_NUMBER gain = d_l * N_both_d;
+        const HC_NUMBER loss = l_N * d_slope;
+        const HC_NUMBER psi = gain - loss;
+        const HC_NUMBER magnitude_x = HC_ABS(x);
+        const HC_NUMBER magnitude_y = HC_ABS(y);
+        const HC_NUMBER magnitude_z = HC_ABS(z);
+        const HC_NUMBER magnitude_axis_x = HC_ABS(axis_x);
+        const HC_NUMBER magnitude_axis_y = HC_ABS(axis_y);
+        const HC_NUMBER magnitude_axis_z = HC_ABS(axis_z);
+        const HC_NUMBER magnitude_l = HC_ABS(l);
+        const HC_NUMBER magnitude_r = HC_SET(1.0) / b;
+        const HC_NUMBER magnitude_alpha_r = alpha * magnitude_r;
+        const HC_NUMBER magnitude_p = magnitude_alpha_r * magnitude_alpha_r;
+        const HC_NUMBER magnitude_gamma_r = gamma * magnitude_r;
+        const HC_NUMBER magnitude_s = magnitude_gamma_r * magnitude_gamma_r;
+        const HC_NUMBER magnitude_d_r = d * magnitude_r;
+        const HC_NUMBER magnitude_t = magnitude_d_r * magnitude_d_r;
+        const HC_NUMBER magnitude_x_r = magnitude_x * magnitude_r;
+        const HC_NUMBER magnitude_y_r = magnitude_y * magnitude_r;
+        const HC_NUMBER magnitude_z_r = magnitude_z * magnitude_r;
+        const HC_NUMBER magnitude_axis_xx = magnitude_axis_x * magnitude_axis_x;
+        const HC_NUMBER magnitude_axis_yy = magnitude_axis_y * magnitude_axis_y;
+        const HC_NUMBER magnitude_level = magnitude_axis_xx + magnitude_axis_yy;
+        const HC_NUMBER magnitude_upward = magnitude_axis_z * magnitude_axis_z;
+        const HC_NUMBER magnitude_w = magnitude_level + magnitude_upward;
+        const HC_NUMBER magnitude_h = magnitude_level / magnitude_w;
+        const HC_NUMBER magnitude_c = magnitude_upward / magnitude_w;
+        const HC_NUMBER magnitude_x_y = magnitude_axis_x * magnitude_y_r;
+        const HC_NUMBER magnitude_y_x = magnitude_axis_y * magnitude_x_r;
+        const HC_NUMBER magnitude_cross = magnitude_x_y + magnitude_y_x;
+        const HC_NUMBER magnitude_x_x = magnitude_axis_x * magnitude_x_r;
+        const HC_NUMBER magnitude_y_y = magnitude_axis_y * magnitude_y_r;
+        const HC_NUMBER magnitude_z_z = magnitude_axis_z * magnitude_z_r;
+        const HC_NUMBER magnitude_along_level = magnitude_x_x + magnitude_y_y;
+        const HC_NUMBER magnitude_along_axis = magnitude_along_level + magnitude_z_z;
+        const HC_NUMBER magnitude_cross_squared = magnitude_cross * magnitude_cross;
+        const HC_NUMBER magnitude_cross_part = magnitude_cross_squared / magnitude_w;
+        const HC_NUMBER magnitude_axis_squared = magnitude_along_axis * magnitude_along_axis;
+        const HC_NUMBER magnitude_axis_part = magnitude_axis_squared / magnitude_w;
+        const HC_NUMBER magnitude_xx = magnitude_x_r * magnitude_x_r;
+        const HC_NUMBER magnitude_yy = magnitude_y_r * magnitude_y_r;
+        const HC_NUMBER magnitude_radius = magnitude_xx + magnitude_yy;
+        const HC_NUMBER magnitude_height = magnitude_z_r * magnitude_z_r;
+        const HC_NUMBER magnitude_distance = magnitude_radius + magnitude_height;
+        const HC_NUMBER magnitude_t_1 = magnitude_t + HC_SET(1.0);
+        const HC_NUMBER magnitude_s_p = magnitude_s + magnitude_p;
+        const HC_NUMBER magnitude_t_1_s_p = magnitude_t_1 * magnitude_s_p;
+        const HC_NUMBER magnitude_E = magnitude_t_1_s_p * magnitude_cross_part;
+        const HC_NUMBER magnitude_s_radius = magnitude_s * magnitude_radius;
+        const HC_NUMBER magnitude_p_height = magnitude_p * magnitude_height;
+        const HC_NUMBER magnitude_G = magnitude_s_radius + magnitude_p_height;
+        const HC_NUMBER magnitude_t_distance = magnitude_t * magnitude_distance;
+        const HC_NUMBER magnitude_t_1_axis = magnitude_t_1 * magnitude_axis_part;
+        const HC_NUMBER magnitude_m = magnitude_t_distance + magnitude_t_1_axis;
+        const HC_NUMBER magnitude_k0 = magnitude_p * magnitude_s;
+        const HC_NUMBER magnitude_t_h = magnitude_t * magnitude_h;
+        const HC_NUMBER magnitude_along = magnitude_t_h + magnitude_c;
+        const HC_NUMBER magnitude_t_c = magnitude_t * magnitude_c;
+        const HC_NUMBER magnitude_across = magnitude_t_c + magnitude_h;
+        const HC_NUMBER magnitude_s_along = magnitude_s * magnitude_along;
+        const HC_NUMBER magnitude_p_across = magnitude_p * magnitude_across;
+        const HC_NUMBER magnitude_k1 = magnitude_s_along + magnitude_p_across;
+        const HC_NUMBER magnitude_p_l = magnitude_p + magnitude_l;
+        const HC_NUMBER magnitude_t_l = magnitude_t * magnitude_l;
+        const HC_NUMBER magnitude_k1_tl = magnitude_k1 + magnitude_t_l;
+        const HC_NUMBER magnitude_k1_tl_l = magnitude_k1_tl * magnitude_l;
+        const HC_NUMBER magnitude_k = magnitude_k0 + magnitude_k1_tl_l;
+        const HC_NUMBER magnitude_m_l = magnitude_m * magnitude_l;
+        const HC_NUMBER magnitude_g = magnitude_G + magnitude_m_l;
+        const HC_NUMBER magnitude_E_l = magnitude_E * magnitude_l;
+        const HC_NUMBER magnitude_p_l_g = magnitude_p_l * magnitude_g;
+        const HC_NUMBER magnitude_N = magnitude_E_l + magnitude_p_l_g;
+        const HC_NUMBER magnitude_l_N = magnitude_l * magnitude_N;
+        const HC_NUMBER magnitude_d_l = magnitude_p_l * magnitude_k;
+        const HC_NUMBER magnitude_one_l = HC_SET(1.0) + magnitude_l;
+        const HC_NUMBER magnitude_one_l_d = magnitude_one_l * magnitude_d_l;
+        const HC_NUMBER magnitude_F = magnitude_l_N + magnitude_one_l_d;
+        const HC_NUMBER magnitude_p_l_m = magnitude_p_l * magnitude_m;
+        const HC_NUMBER magnitude_E_g = magnitude_E + magnitude_g;
+        const HC_NUMBER magnitude_N_slope = magnitude_E_g + magnitude_p_l_m;
+        const HC_NUMBER magnitude_k_slope = magnitude_k1_tl + magnitude_t_l;
+        const HC_NUMBER magnitude_p_l_k_slope = magnitude_p_l * magnitude_k_slope;
+        const HC_NUMBER magnitude_d_slope = magnitude_k + magnitude_p_l_k_slope;
+        const HC_NUMBER magnitude_l_N_slope = magnitude_l * magnitude_N_slope;
+        const HC_NUMBER magnitude_N_both = magnitude_N + magnitude_l_N_slope;
+        const HC_NUMBER magnitude_N_both_d = magnitude_N_both + magnitude_d_l;
+        const HC_NUMBER magnitude_gain = magnitude_d_l * magnitude_N_both_d;
+        const HC_NUMBER magnitude_loss = magnitude_l_N * magnitude_d_slope;
+        const HC_NUMBER magnitude_psi = magnitude_gain + magnitude_loss;
+        const HC_NUMBER e_pl = u_p_l * magnitude_p_l;
+        const HC_NUMBER e_k = u_k * magnitude_k;
+        const HC_NUMBER e_d = u_d_l * magnitude_d_l;
+        const HC_NUMBER e_F = u_F * magnitude_F;
+        const HC_NUMBER e_psi = u_psi * magnitude_psi;
+        const HC_TRUTH alpha_positive = HC_GT(alpha, HC_SET(0.0));
+        const HC_TRUTH gamma_positive = HC_GT(gamma, HC_SET(0.0));
+        const HC_TRUTH d_positive = HC_GT(d, HC_SET(0.0));
+        const HC_TRUTH b_not_small = HC_GT(b, least_b);
+        const HC_TRUTH b_not_large = HC_LT(b, greatest_b);
+        const HC_TRUTH p_not_small = HC_GT(p, least_square);
+        const HC_TRUTH p_not_large = HC_LT(p, greatest_square);
+        const HC_TRUTH s_not_small = HC_GT(s, least_square);
+        const HC_TRUTH s_not_large = HC_LT(s, greatest_square);
+        const HC_TRUTH t_not_small = HC_GT(t, least_square);
+        const HC_TRUTH t_not_large = HC_LT(t, greatest_square);
+        const HC_TRUTH w_not_small = HC_GT(w, least_axis);
+        const HC_TRUTH w_not_large = HC_LT(w, greatest_axis);
+        const HC_TRUTH not_too_far = HC_LT(distance, farthest_square);
+        const HC_NUMBER size_l = HC_ABS(l);
+        const HC_TRUTH l_usable = HC_LT(size_l, greatest_l);
+        const HC_TRUTH b_usable = HC_AND(b_not_small, b_not_large);
+        const HC_TRUTH p_usable = HC_AND(p_not_small, p_not_large);
+        const HC_TRUTH s_usable = HC_AND(s_not_small, s_not_large);
+        const HC_TRUTH t_usable = HC_AND(t_not_small, t_not_large);
+        const HC_TRUTH w_usable = HC_AND(w_not_small, w_not_large);
+        const HC_TRUTH ps_usable = HC_AND(p_usable, s_usable);
+        const HC_TRUTH bt_usable = HC_AND(b_usable, t_usable);
+        const HC_TRUTH radial_positive = HC_AND(alpha_positive, gamma_positive);
+        const HC_TRUTH all_positive = HC_AND(radial_positive, d_positive);
+        const HC_TRUTH squares_usable = HC_AND(ps_usable, bt_usable);
+        const HC_TRUTH sizes_usable = HC_AND(squares_usable, all_positive);
+        const HC_TRUTH place_usable = HC_AND(not_too_far, l_usable);
+        const HC_TRUTH rest_usable = HC_AND(w_usable, place_usable);
+        const HC_TRUTH usable = HC_AND(sizes_usable, rest_usable);
+        const HC_TRUTH before_B_and_A2 = HC_GT(k, e_k);
+        const HC_TRUTH before_A1 = HC_GT(p_l, e_pl);
+        const HC_TRUTH between_poles = HC_AND(before_B_and_A2, before_A1);
+        const HC_TRUTH inside = HC_AND(usable, between_poles);
+        const HC_TRUTH phi_positive = HC_GT(F, e_F);
+        const HC_TRUTH clear = HC_AND(phi_positive, inside);
+        const HC_TRUTH on_side_of_B = HC_GT(l, HC_SET(0.0));
+        const HC_TRUTH on_side_of_A = HC_LT(l, HC_SET(0.0));
+        const HC_TRUTH exterior = HC_AND(clear, on_side_of_B);
+        const HC_TRUTH interior = HC_AND(clear, on_side_of_A);
+        const HC_NUMBER minus_F = -F;
+        const HC_NUMBER minus_F_least = minus_F - e_F;
+        const HC_TRUTH phi_negative = HC_GT(minus_F_least, HC_SET(0.0));
+        const HC_NUMBER d_least = d_l - e_d;
+        const HC_NUMBER room = minus_F_least * d_least;
+        const HC_NUMBER room_least = less_sure * room;
+        const HC_NUMBER size_psi = HC_ABS(psi);
+        const HC_NUMBER psi_most = size_psi + e_psi;
+        const HC_NUMBER B_most = s_along / t;
+        const HC_NUMBER width = p + B_most;
+        const HC_NUMBER slope_most = psi_most * width;
+        const HC_TRUTH below_tangent = HC_LT(slope_most, room_least);
+        const HC_TRUTH below = HC_AND(below_tangent, phi_negative);
+        const HC_TRUTH contact = HC_AND(below, inside);
+        const HC_TRUTH decided = HC_OR(clear, contact);
+        /* end of the program "tilted", the rest */
+        found.plus |= HC_BITS(exterior) << at;
+        found.minus |= HC_BITS(interior) << at;
+        found.decided |= HC_BITS(decided) << at;
+    }
+    return found;
+}
+
 #undef HC_NAME
 #undef HC_TARGET
 #undef HC_WIDTH
@@ -2195,5 +2583,9 @@ HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int b
 #undef HC_AND
 #undef HC_OR
 #undef HC_BITS
+#undef HC_SQRT
+#undef HC_MIN
+#undef HC_MAX
+#undef HC_SELECT
 
 #endif

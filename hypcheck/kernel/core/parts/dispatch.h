@@ -5,7 +5,7 @@ typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const d
 
 typedef struct {
     const char *name;
-    hc_bits (*certified)(const double *, size_t, int);
+    hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
 } hc_level_functions;
@@ -13,7 +13,7 @@ typedef struct {
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),

@@ -16,6 +16,10 @@
 #define HC_AND(a, b) ((HC_TRUTH)((a) & (b)))
 #define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
 #define HC_BITS(truth) ((uint64_t)(truth))
+#define HC_SQRT(a) _mm512_sqrt_pd(a)
+#define HC_MIN(a, b) _mm512_min_pd(a, b)
+#define HC_MAX(a, b) _mm512_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm512_mask_blend_pd(truth, b, a)
 #elif HC_LEVEL == 2
 #define HC_NAME(name) name##_avx2
 #define HC_TARGET __attribute__((target("avx2,fma,bmi2")))
@@ -32,6 +36,10 @@
 #define HC_AND(a, b) _mm256_and_pd(a, b)
 #define HC_OR(a, b) _mm256_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
+#define HC_SQRT(a) _mm256_sqrt_pd(a)
+#define HC_MIN(a, b) _mm256_min_pd(a, b)
+#define HC_MAX(a, b) _mm256_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm256_blendv_pd(b, a, truth)
 #elif HC_LEVEL == 1
 #define HC_NAME(name) name##_sse2
 #define HC_TARGET
@@ -48,6 +56,10 @@
 #define HC_AND(a, b) _mm_and_pd(a, b)
 #define HC_OR(a, b) _mm_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
+#define HC_SQRT(a) _mm_sqrt_pd(a)
+#define HC_MIN(a, b) _mm_min_pd(a, b)
+#define HC_MAX(a, b) _mm_max_pd(a, b)
+#define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
 #else
 #define HC_NAME(name) name##_plain
 #define HC_TARGET
@@ -64,6 +76,10 @@
 #define HC_AND(a, b) ((a) & (b))
 #define HC_OR(a, b) ((a) | (b))
 #define HC_BITS(truth) ((uint64_t)(truth))
+#define HC_SQRT(a) hc_rough_root(a)
+#define HC_MIN(a, b) ((a) < (b) ? (a) : (b))
+#define HC_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define HC_SELECT(truth, a, b) ((truth) ? (a) : (b))
 #endif
 
 HC_TARGET static int HC_NAME(hc_all_below)(HC_NUMBER numbers, double limit) {
@@ -126,6 +142,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
 /* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 @LINE_FUNCTIONS@
+@TILTED_LEVEL@
 #undef HC_NAME
 #undef HC_TARGET
 #undef HC_WIDTH
@@ -141,3 +158,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
 #undef HC_AND
 #undef HC_OR
 #undef HC_BITS
+#undef HC_SQRT
+#undef HC_MIN
+#undef HC_MAX
+#undef HC_SELECT

@@ -39,6 +39,8 @@
 #define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
 #define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
 #define HC_AHEAD 512
+#define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
+#define HC_settled 1e-6 /* its last relative change */
 #define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
 
 @CONSTANTS@
@@ -78,4 +80,17 @@ static int hc_lowest_bit(uint64_t bits) {
         }
     return at;
 #endif
+}
+
+/* A root for choosing places: good to a few digits, no libm. */
+static double hc_rough_root(double square) {
+    uint64_t bits;
+    double root;
+    int i;
+    if (!(square > 0)) return 0;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits >> 1) + ((uint64_t)0x1ff8 << 48); /* half the exponent */
+    memcpy(&root, &bits, sizeof root);
+    for (i = 0; i < 3; i++) root = 0.5 * (root + square / root);
+    return root;
 }

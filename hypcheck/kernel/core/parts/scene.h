@@ -27,19 +27,6 @@ static int hc_position_of(const double row[7]) {
 
 /* ---- one scene: the half planes of the first stage ---- */
 
-/* A root for choosing places: good to a few digits, no libm. */
-static double hc_rough_root(double square) {
-    uint64_t bits;
-    double root;
-    int i;
-    if (!(square > 0)) return 0;
-    memcpy(&bits, &square, sizeof bits);
-    bits = (bits >> 1) + ((uint64_t)0x1ff8 << 48); /* half the exponent */
-    memcpy(&root, &bits, sizeof root);
-    for (i = 0; i < 5; i++) root = 0.5 * (root + square / root);
-    return root;
-}
-
 /* The value cut to 26 significant bits, so that its square is exact; `up` takes the next such number. */
 static double hc_short(double value, int up) {
     const uint64_t low = ((uint64_t)1 << 27) - 1;
