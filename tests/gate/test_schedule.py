@@ -30,7 +30,7 @@ from tests.gate.killing import steps_of
 
 RIGHT = Opening("builtin:table-2-float32", Limits())
 DIES = Opening("python:tests.gate.subjects:dies_on_the_axis", Limits(restarts=2))
-KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("uniform/1/1/300", None, 9.0, "near"))
+KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("uniform/1/1/75", None, 9.0, "near"))
 
 
 class Shuffled(Executor):
@@ -61,8 +61,8 @@ def shuffled(it, rules, seed):
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
     """Chunks and rounds small enough that a test has many."""
-    monkeypatch.setattr(chunks, "SIZE", 1024)
-    monkeypatch.setattr(schedule, "ROUND", 3000)
+    monkeypatch.setattr(chunks, "SIZE", 256)
+    monkeypatch.setattr(schedule, "ROUND", 750)
 
 
 def rules_of(implementation):
@@ -87,10 +87,10 @@ def read_back(state):
 def test_results_add_up_in_any_order():
     with RIGHT.open() as it:
         rules = rules_of(it)
-        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 1500) if not isinstance(step, RetestStep)]
+        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 375) if not isinstance(step, RetestStep)]
         parts = [perform(step, it, rules, it.allowance).result for step in some]
     whole = saved_result(replace(merged(parts), open=()))
-    assert len(parts) == 6
+    assert len(parts) == 8
     assert whole.tallies["ring-neighbourhood"].counts["wrong"] > 100
     assert whole.excusing == [0]
     for seed in range(4):
@@ -100,7 +100,7 @@ def test_results_add_up_in_any_order():
 
 
 def test_the_order_in_which_steps_are_performed_makes_no_difference():
-    some = steps_of(["uniform", "flight", "ring"], 2500)
+    some = steps_of(["uniform", "flight", "ring"], 625)
     assert {(step.number, step.part) for step in some if isinstance(step, RetestStep)} >= {
         (0, 0),
         (0, 1),
@@ -118,7 +118,7 @@ def test_the_order_in_which_steps_are_performed_makes_no_difference():
 
 
 def test_every_open_case_is_asked_again_in_one_part_of_one_round():
-    some = steps_of(["uniform", "flight"], 5000)
+    some = steps_of(["uniform", "flight"], 1250)
     with RIGHT.open() as it:
         rules = rules_of(it)
         left = [perform(step, it, rules, it.allowance).result.open for step in some if isinstance(step, chunks.Chunk)]
@@ -129,13 +129,13 @@ def test_every_open_case_is_asked_again_in_one_part_of_one_round():
 
 def test_restarts_are_used_up_in_order_whoever_is_first():
     """Cases on the axis end the process: the first few do, and all others are not run."""
-    some = steps_of(["tower-body", "axis", "tower-rotors"], 1500)
+    some = steps_of(["tower-body", "axis", "tower-rotors"], 375)
     with DIES.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
         expected = last(in_this_process(some, it, rules, begun))
         counts = {family: each.counts for family, each in expected.total.tallies.items()}
-        assert counts["tower-body"]["right"] > 1000
+        assert counts["tower-body"]["right"] > 350
         assert counts["axis"]["crash"] == 3
         assert set(counts["tower-rotors"]) == {"not-run"}
         assert "2 restarts are used up" in expected.left.over
@@ -145,7 +145,7 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
 
 
 def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
-    some = steps_of(["flight", "ring", "uniform"], 2500)
+    some = steps_of(["flight", "ring", "uniform"], 625)
     with RIGHT.open() as it:
         rules = rules_of(it)
         passed = [state for _, state in in_this_process(some, it, rules)]
@@ -166,7 +166,7 @@ def _but_for_bins(state):
 
 
 def test_what_is_kept_of_a_run_does_not_grow_with_it():
-    some = steps_of(["uniform"], 36_000)
+    some = steps_of(["uniform"], 9000)
     with RIGHT.open() as it:
         passed = [state for _, state in in_this_process(some, it, rules_of(it))]
     sizes = [len(json.dumps(_but_for_bins(state))) for state in passed]
@@ -176,7 +176,7 @@ def test_what_is_kept_of_a_run_does_not_grow_with_it():
 
 
 def test_a_process_of_ours_that_is_killed_costs_nothing():
-    some = steps_of(["tower-body"], 6000)
+    some = steps_of(["tower-body"], 1500)
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = State(it.allowance)
@@ -243,9 +243,9 @@ def dies_of(rows):
 
 def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_chunk(tmp_path):
     """Two, then three of three that are allowed: the second chunk counts whole, and nothing behind it is asked."""
-    some = steps_of(["tower-body"], 6000)
+    some = steps_of(["tower-body"], 1500)
     drawn = [step for step in some if isinstance(step, chunks.Chunk) and step.seed is not None]
-    places = [(0, 10), (0, 800), (1, 3), (1, 4), (1, 700), (2, 9), (4, 4)]
+    places = [(0, 10), (0, 120), (1, 3), (1, 4), (1, 175), (2, 9), (4, 4)]
     rows = np.concatenate([chunks.cases(drawn[number]).rows[[index]] for number, index in places])
     (tmp_path / "dies.py").write_text(dies_of(rows))
     dies = Opening(f"python:{tmp_path / 'dies.py'}:f", Limits(restarts=3))
@@ -276,7 +276,7 @@ def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp
     """Several processes find it out at the same time, and the run comes to what one process makes of it."""
     (tmp_path / "hangs.py").write_text("import time\n\n\ndef f(rows):\n    time.sleep(60)\n")
     hangs = Opening(f"python:{tmp_path / 'hangs.py'}:f", Limits(timeout=0.3))
-    some = steps_of(["tower-body"], 2500)
+    some = steps_of(["tower-body"], 625)
     with hangs.open() as it:
         begun = State(it.allowance)
         expected = last(in_this_process(some, it, rules_of(it), begun))
