@@ -186,7 +186,7 @@ def test_it_is_judged_and_timed_as_the_others_are(before):
 
 def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp_path):
     *_, baseline = before
-    slower = subject(tmp_path, times=1000)
+    slower = subject(tmp_path, times=60)
     code, record = ended(tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", slower)
     compared = {(line.method, line.mode): line for line in record.of(Comparison) if line.gates}
     assert compared["subject", "batch"].verdict == "slower"
