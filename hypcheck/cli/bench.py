@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli.options import Number, Place, names_in
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.recording import perform, recording
 from hypcheck.cli.settings import in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import Exit, InputError, RunOutcome
 
 if TYPE_CHECKING:
-    from hypcheck.record import Recorder
+    pass
 
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
@@ -83,24 +83,16 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     import_all()
     unchanged = Unchanged(files) if files is not None else None
 
-    def parts(recorder: Recorder) -> list[Part]:
-        found = [Part(each.title, each.steps, each.run) for each in run.stages(here, recorder, outcome)]
+    title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
+    optional = {"files": files, "program": unchanged.program if unchanged else None, "settings": in_effect(context)}
+    with (
+        TemporaryDirectory(prefix="hypcheck-bench-") as folder,
+        recording(options["out"], plan.options, title, optional) as running,
+    ):
+        perform(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
         if unchanged is not None:
-            found.append(
-                Part("files", 0, lambda _: outcome.because[Exit.WRONG].extend(unchanged.record_changes(recorder)))
-            )
-        return found
-
-    with TemporaryDirectory(prefix="hypcheck-bench-") as folder:
-        here = replace(plan, folder=Path(folder))
-        record_and_report(
-            options["out"],
-            plan.options,
-            parts,
-            lambda: outcome.exit_code,
-            f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods",
-            {"files": files, "program": unchanged.program if unchanged else None, "settings": in_effect(context)},
-        )
+            outcome.because[Exit.WRONG].extend(unchanged.record_changes(running.recorder))
+        running.exit_code = outcome.exit_code
     if outcome.exit_code == Exit.INCONCLUSIVE:
         click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)
     context.exit(outcome.exit_code)

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli.options import limits_of, names_in
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.progress import watched
+from hypcheck.cli.recording import label, recording
 from hypcheck.cli.resuming import resumed
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.visible import printable
@@ -100,33 +101,16 @@ def _run(
 
     cases, files = size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
-    unchanged, changed = Unchanged(files), list[str]()
+    unchanged = Unchanged(files)
     begun = Resumed() if resume is None else resumed(resume, out, plan, shown, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, state, done = RunOutcome(), begun.state, begun.done(cases)
-
-    def code() -> Exit:
-        return Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
-
-    record = record_and_report(
-        out,
-        shown,
-        lambda recorder: [
-            Part(
-                "gate",
-                cases * len(plan.specs),
-                lambda advance: run.run(plan, recorder, outcome, advance, state),
-                "cases",
-                done,
-            ),
-            Part("files", 0, lambda _: changed.extend(unchanged.record_changes(recorder))),
-        ],
-        code,
-        title,
-        {"files": files, "program": unchanged.program, "settings": settings},
-        carried=begun.carried,
-    )
-    if updated is not None and not changed:
-        click.echo(printable(update(updated, record)))
-    return code()
+    outcome, optional = RunOutcome(), {"files": files, "program": unchanged.program, "settings": settings}
+    with recording(out, shown, title, optional, begun.carried) as running:
+        with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
+            run.run(plan, running.recorder, outcome, pace.advance, begun.state)
+        changed = unchanged.record_changes(running.recorder)
+        running.exit_code = Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
+    if updated is not None and running.record is not None and not changed:
+        click.echo(printable(update(updated, running.record)))
+    return running.exit_code

@@ -4,45 +4,57 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
 from hypcheck.cli.progress import in_lines, watched
 from hypcheck.cli.settings import announce
-from hypcheck.errors import HypcheckError, InputError, NothingJudgedError, system_reason
+from hypcheck.errors import Exit, HypcheckError, InputError, NothingJudgedError, system_reason
 from hypcheck.visible import printable, visible
 
 if TYPE_CHECKING:
     from hypcheck.record import Line, Record, Recorder
 
 
-class Part(NamedTuple):
-    """A part of a run: its title for the progress bar, how many steps it has, and what does them.
+class Stage(Protocol):
+    """A part of a run: its title for the progress bar, how many steps it has, and what does them."""
 
-    `unit` is what its steps are, where many of them pass in a second. Of a run that is gone on with, some are `done`.
-    """
+    @property
+    def title(self) -> str:
+        """For the progress bar."""
 
-    title: str
-    steps: int
-    run: Callable[[Callable[[int], object]], None]
-    unit: str = ""
-    done: int = 0
+    @property
+    def steps(self) -> int:
+        """How many there are."""
+
+    @property
+    def run(self) -> Callable[[Callable[[int], object]], None]:
+        """Does them, and tells the function that it is given how many are done."""
 
 
-def record_and_report(
+@dataclass
+class Recording:
+    """A run whose record is kept: its recorder, the code that it ends with, and its record once it has ended."""
+
+    recorder: Recorder
+    exit_code: int = Exit.HELD
+    record: Record | None = None
+
+
+@contextmanager
+def recording(
     out: Path,
     options: Mapping[str, Any],
-    parts: Callable[[Recorder], Sequence[Part]],
-    exit_code: Callable[[], int],
     title: str = "",
     optional: Mapping[str, Any] | None = None,
     carried: Sequence[Line] = (),
-) -> Record:
-    """Run the parts, keep their record in `out` with reports beside it, and print the summary.
+) -> Iterator[Recording]:
+    """Keep the record of a run in `out` while it lasts; then write the reports beside it, and print the summary.
 
     An interrupted run leaves what it finished, reported as truncated, on GitHub too. `optional` are the fields of the
     header that not every run has, of which None is left out. When the run begins, its `title` is told, if it has one,
@@ -66,29 +78,46 @@ def record_and_report(
             recorder = Recorder(stack.enter_context(Growing(growing)), options, known, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
+        running = Recording(recorder)
         try:
             remove_reports(out)
-            todo = parts(recorder)
             if title:
                 _say(title)
             announce(known.get("settings"))
-            _run(todo)
-            record = recorder.close(exit_code())
+            yield running
+            running.record = recorder.close(running.exit_code)
         except BaseException as error:
             if isinstance(error, OSError):
                 _require_folder(out, error)
             _ended_early(error, growing, recorder)
             raise
         _settle(recorder, growing, out / FILE)
-        try:
-            report(record, out)
-        except BaseException:
-            place = shlex.quote(str(out))
-            _say(
-                f"the record in {visible(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports"
-            )
-            raise
-    return record
+        _report_whole(running.record, out)
+
+
+def perform(stages: Sequence[Stage]) -> None:
+    """Every stage in turn, under a progress bar where a person is watching."""
+    with watched(sum(stage.steps for stage in stages), "") as pace:
+        for stage in stages:
+            pace.name(label(stage.title), "")
+            stage.run(pace.advance)
+
+
+def label(title: str) -> str:
+    """The title of a stage, as wide as all are beside the bar."""
+    return f"{title:28}"
+
+
+def _report_whole(record: Record, out: Path) -> None:
+    """Report, and tell where the record is should that be interrupted."""
+    from hypcheck.record.reader import FILE
+
+    try:
+        report(record, out)
+    except BaseException:
+        place = shlex.quote(str(out))
+        _say(f"the record in {visible(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports")
+        raise
 
 
 def _require_no_folder(*files: Path) -> None:
@@ -162,11 +191,3 @@ def _tell(record: Record, lines: Sequence[str]) -> None:
     trouble = github.append_summary(record, Path(summary)) if summary else None
     if trouble:
         click.echo(f"hypcheck: {printable(trouble)}", err=True)
-
-
-def _run(parts: Sequence[Part]) -> None:
-    """Every part in turn, under a progress bar where a person is watching."""
-    with watched(sum(part.steps for part in parts), "", done=sum(part.done for part in parts)) as pace:
-        for part in parts:
-            pace.name(f"{part.title:28}", part.unit)
-            part.run(pace.advance)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hypcheck.cli.options import names_in
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.recording import perform, recording
 from hypcheck.errors import Exit, InputError, RunOutcome
 
 
@@ -44,14 +44,9 @@ def self_check(
         tolerance=Fraction(tolerance),
     )
     outcome = RunOutcome()
-    record_and_report(
-        out,
-        run.options(plan),
-        lambda recorder: [Part(each.title, each.steps, each.run) for each in run.stages(plan, recorder, outcome)],
-        lambda: outcome.exit_code,
-        title,
-        {"settings": settings},
-    )
+    with recording(out, run.options(plan), title, {"settings": settings}) as running:
+        perform(run.stages(plan, running.recorder, outcome))
+        running.exit_code = outcome.exit_code
     return outcome.exit_code
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.recording import recording
 from hypcheck.record import Recorder
 from hypcheck.record.growing import Growing
 from hypcheck.record.reader import FILE, GROWING
@@ -26,14 +26,10 @@ def test_reports_of_an_earlier_run_are_gone_while_a_run_goes_on_and_its_record_i
     before = (held / FILE).read_bytes()
     (held / "notes.txt").write_text("of the user")
     assert '"passed": true' in (held / "summary.json").read_text()
-    found = []
-
-    def parts(recorder):
-        return [Part("", 1, lambda _: found.append({each.name: each.read_bytes() for each in held.iterdir()}))]
-
-    record_and_report(held, {}, parts, lambda: 0)
-    assert set(found[0]) == {FILE, GROWING, "notes.txt"}
-    assert found[0][FILE] == before
+    with recording(held, {}):
+        found = {each.name: each.read_bytes() for each in held.iterdir()}
+    assert set(found) == {FILE, GROWING, "notes.txt"}
+    assert found[FILE] == before
 
 
 @pytest.fixture

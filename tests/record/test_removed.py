@@ -9,7 +9,7 @@ import stat
 
 import pytest
 
-from hypcheck.cli.recording import Part, record_and_report
+from hypcheck.cli.recording import recording
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
 from hypcheck.record.fields import decoded
@@ -30,7 +30,7 @@ PROGRESS = Progress(number=0, declared=decoded(DESCRIPTION, Description), cases=
 def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gone, end):
     out = tmp_path / "out"
 
-    def removes(_):
+    def removes():
         if gone == "folder":
             shutil.rmtree(out)
         else:
@@ -40,12 +40,9 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
         if end:
             raise end
 
-    def parts(recorder):
-        recorder.add(Unavailable(oracle="mesh", reason="before"))
-        return [Part("", 1, removes)]
-
-    with contextlib.suppress(KeyboardInterrupt, NothingJudgedError):
-        record_and_report(out, {}, parts, lambda: 0)
+    with contextlib.suppress(KeyboardInterrupt, NothingJudgedError), recording(out, {}) as running:
+        running.recorder.add(Unavailable(oracle="mesh", reason="before"))
+        removes()
     assert not (out / GROWING).exists()
     if not isinstance(end, NothingJudgedError):
         record = read(out / FILE)
@@ -57,17 +54,15 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
 def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(tmp_path, keeps):
     out = tmp_path / "out"
 
-    def parts(recorder):
-        def replaces(_):
+    def run():
+        with recording(out, {}) as running:
             shutil.rmtree(out)
             out.write_text("a file")
             if keeps:
-                recorder.keep(PROGRESS)
-
-        return [Part("", 1, replaces)]
+                running.recorder.keep(PROGRESS)
 
     with pytest.raises(InputError, match="out is no folder any more: it was replaced or removed during the run"):
-        record_and_report(out, {}, parts, lambda: 0)
+        run()
     assert out.read_text() == "a file"
 
 
@@ -80,14 +75,9 @@ def test_links_planted_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_
         (out / name).symlink_to(precious)
     os.mkfifo(out / "junit.xml")
 
-    def plants(_):  # again, before the record is renewed once more
-        (out / f"{GROWING}.new").symlink_to(precious)
-
-    def parts(recorder):
-        recorder.keep(PROGRESS)
-        return [Part("", 1, plants)]
-
-    record_and_report(out, {}, parts, lambda: 0)
+    with recording(out, {}) as running:
+        running.recorder.keep(PROGRESS)
+        (out / f"{GROWING}.new").symlink_to(precious)  # again, before the record is renewed once more
     assert precious.read_text() == "precious"
     assert not [path.name for path in out.iterdir() if not stat.S_ISREG(path.lstat().st_mode)]
     assert read(out / FILE).footer
