@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib import import_module
 from pathlib import Path
 
@@ -79,3 +80,13 @@ def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     found = read_settings(Path(FILE)) if context.invoked_subcommand in SETTING else None
     if found is not None:
         context.obj, context.default_map = found, found.default_map
+
+
+def context_of(words: Iterable[str]) -> click.Context:
+    """A context of the command that these words name, to tell whose an option is."""
+    context = click.Context(hypcheck, info_name="hypcheck")
+    for word in words:
+        group = context.command
+        if isinstance(group, Group) and (command := group.get_command(context, word)) is not None:
+            context = click.Context(command, parent=context, info_name=word)
+    return context

@@ -55,6 +55,9 @@ def _said(error: BaseException) -> str:
     if isinstance(error, click.NoSuchOption):
         meant = advice(error.option_name, error.possibilities or (), most=1)
         return f"there is no option {error.option_name!r}" + f"; {meant}" * meant.startswith("did you mean")
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    if context is not None and isinstance(context.command, click.Group) and str(error) == "Missing command.":
+        return f"missing command; there are {', '.join(context.command.list_commands(context))}"
     return error.format_message() if isinstance(error, click.ClickException) else str(error)
 
 

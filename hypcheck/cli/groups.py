@@ -26,16 +26,3 @@ class Group(click.Group):
         if name in known or name.startswith("-") or ctx.resilient_parsing:
             return super().resolve_command(ctx, args)
         raise click.UsageError(f"there is no command {name!r}; {advice(name, known, most=1)}", ctx)
-
-    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - what the command returns
-        """As click does; an error tells what commands there are, or whose an option is, which click leaves out."""
-        try:
-            return super().invoke(ctx)
-        except click.UsageError as error:
-            name = ctx.invoked_subcommand
-            command = self.get_command(ctx, name) if name else None
-            if error.ctx is None and command is not None:
-                error.ctx = click.Context(command, parent=ctx, info_name=name)
-            if error.message != "Missing command.":
-                raise
-            raise click.UsageError(f"missing command; there are {', '.join(self.list_commands(ctx))}", ctx) from None

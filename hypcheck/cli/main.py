@@ -8,10 +8,13 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from hypcheck.cli import COMPLETE
 from hypcheck.errors import Terminated
+
+if TYPE_CHECKING:
+    import click
 
 INTERRUPTED = (130, 143)
 
@@ -56,10 +59,16 @@ def _is_closed(stream: int) -> bool:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (the process's own, unless `arguments` are given) and return the exit code."""
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words, code = list(sys.argv[1:] if arguments is None else arguments), 0
     try:
         with _terminable():
-            code = _run(words)
+            import click
+
+            try:
+                with _command_line(words) as context:
+                    context.command.invoke(context)
+            except click.exceptions.Exit as done:
+                code = done.exit_code
             if sys.stdout is not None:
                 sys.stdout.flush()
             return code
@@ -67,10 +76,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _end(error, debug="--debug" in words)
 
 
-def _run(words: list[str]) -> int:
+@contextmanager
+def _command_line(words: list[str]) -> Iterator[click.Context]:
+    """The context of the words, to invoke. Not click's own main(): it decides how errors and closed pipes end."""
     import click
 
-    from hypcheck.cli.commands import hypcheck
+    from hypcheck.cli.commands import context_of, hypcheck
 
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a terminal that cannot show α still gets an answer
@@ -79,14 +90,13 @@ def _run(words: list[str]) -> int:
         from hypcheck.cli.completion import answer
 
         answer(asked)
-        return 0
+        raise click.exceptions.Exit(0)
     try:
-        # Not click's own main(): it decides for itself how errors, interrupts and closed pipes end.
         with hypcheck.make_context("hypcheck", list(words)) as context:
-            hypcheck.invoke(context)
-    except click.exceptions.Exit as done:
-        return done.exit_code
-    return 0
+            yield context
+    except click.UsageError as error:
+        error.ctx = error.ctx or context_of(words)  # click leaves it out where an option lacks its value
+        raise
 
 
 def _end(error: BaseException, *, debug: bool) -> int:

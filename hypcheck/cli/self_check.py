@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -12,39 +13,41 @@ from hypcheck.cli.recording import perform, recording
 from hypcheck.errors import Exit, InputError, RunOutcome
 
 
-def self_check(
-    title: str,
-    settings: Mapping[str, Any] | None,
-    *,
-    out: Path,
-    families: str | None,
-    count: int,
-    seed: int,
-    tolerance: float,
-    oracles: str,
-    judged: int,
-    roots: int,
-    meshes: int,
-    workers: int | None,
-) -> Exit:
-    """Run it as the options of these names say, and write the reports. Raises InputError where one is wrong."""
+@dataclass(frozen=True, kw_only=True)
+class SelfCheckOptions:
+    """The options of this run, by the names that they have on the command line."""
+
+    out: Path
+    families: str | None
+    count: int
+    seed: int
+    tolerance: float
+    oracles: str
+    judged: int
+    roots: int
+    meshes: int
+    workers: int | None
+
+
+def self_check(options: SelfCheckOptions, title: str, settings: Mapping[str, Any] | None) -> Exit:
+    """Run it and write the reports. Raises InputError where an option is wrong."""
     from hypcheck.processes import usable_processors
     from hypcheck.verify import run
     from hypcheck.verify.plan import Plan
 
     plan = Plan(
-        families=names_in(families),
-        oracles=_oracles(oracles),
-        count=max(1, count),
-        judged=judged,
-        roots=roots,
-        meshes=meshes,
-        seed=seed,
-        workers=workers or usable_processors(),
-        tolerance=Fraction(tolerance),
+        families=names_in(options.families),
+        oracles=_oracles(options.oracles),
+        count=max(1, options.count),
+        judged=options.judged,
+        roots=options.roots,
+        meshes=options.meshes,
+        seed=options.seed,
+        workers=options.workers or usable_processors(),
+        tolerance=Fraction(options.tolerance),
     )
     outcome = RunOutcome()
-    with recording(out, run.options(plan), title, {"settings": settings}) as running:
+    with recording(options.out, run.options(plan), title, {"settings": settings}) as running:
         perform(run.stages(plan, running.recorder, outcome))
         running.exit_code = outcome.exit_code
     return outcome.exit_code

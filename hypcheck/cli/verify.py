@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
-from inspect import signature
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.conformance import conformance
+from hypcheck.cli.conformance import ConformanceOptions, conformance
 from hypcheck.cli.options import Number, Place, with_limits
 from hypcheck.cli.resuming import folder_of
-from hypcheck.cli.self_check import self_check
+from hypcheck.cli.self_check import SelfCheckOptions, self_check
 from hypcheck.cli.settings import FILE, Settings, in_effect
 from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import InputError
@@ -78,8 +78,7 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     the SPECs. Each option that weakens the gate is told at the start and in every report.
     """
     chosen = _chosen(context, specs, of_ourselves=options.pop("of_ourselves"))
-    run = conformance if chosen else self_check
-    unused = options.keys() - signature(run).parameters.keys()
+    unused = options.keys() - {each.name for each in fields(ConformanceOptions if chosen else SelfCheckOptions)}
     _refuse_others(context, unused, chosen=chosen, given=specs)
     if options["resume"] and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
         options["out"] = folder_of(options["resume"])
@@ -87,8 +86,9 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     used = {name: value for name, value in options.items() if name not in unused}
     if chosen:
         title = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
-        context.exit(conformance(title, settings, specs=chosen, **used))
-    context.exit(self_check("verifying hypcheck itself, no implementation", settings, **used))
+        context.exit(conformance(ConformanceOptions(specs=chosen, **used), title, settings))
+    title = "verifying hypcheck itself, no implementation"
+    context.exit(self_check(SelfCheckOptions(**used), title, settings))
 
 
 def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: bool) -> tuple[str, ...]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from hypcheck.errors import RunOutcome
@@ -42,9 +43,11 @@ def run(plan: GatePlan, recorder: Recorder, outcome: RunOutcome, advance: Advanc
     with connected(plan.cluster) if plan.cluster else nullcontext() as client:
         for number in range(recorder.concluded, len(plan.specs)):
             try:
-                with plan.opening(number).open() as implementation:
-                    keeper = Keeper(recorder, number=number, declared=as_recorded(implementation.declared), cases=cases)
-                    _gate(implementation, plan.opening(number), plan, listed, keeper, advance, state, client)
+                with _gating(plan, number, listed, recorder, state, client) as gating:
+                    for step, after in states(gating.steps, gating.performing, gating.state):
+                        gating.state = after
+                        advance(_cases_of(step))
+                        gating.keeper.offer(after)
             except StartError as error:
                 spec = plan.specs[number]
                 recorder.add(NotStarted(spec=spec, name=spec, trouble=str(error)))
@@ -53,36 +56,51 @@ def run(plan: GatePlan, recorder: Recorder, outcome: RunOutcome, advance: Advanc
     outcome_of(recorder.lines, outcome)
 
 
-def _gate(
-    implementation: Implementation,
-    opening: Opening,
+@dataclass
+class _Gating:
+    """An implementation that is being asked: the steps, what performs them, and how far it is."""
+
+    steps: Iterable[Step]
+    performing: Performing
+    keeper: Keeper
+    state: State
+
+
+@contextmanager
+def _gating(
     plan: GatePlan,
+    number: int,
     listed: tuple[KnownFailure, ...],
-    keeper: Keeper,
-    advance: Advance,
+    recorder: Recorder,
     begun: State | None,
     client: Client | None,
-) -> None:
-    used = implementation.description
-    rules = rules_of(plan, used, listed)
-    lines = Lines(plan, opening.spec, implementation.declared, used, rules)
-    state = begun = begun or State(implementation.allowance)
-    asked = steps_of(plan, used)
-    with _performing(implementation, opening, plan, rules, client) as performing:
-        try:
-            for step, after in states(asked, performing, begun):
-                state = after
-                advance(_cases_of(step))
-                keeper.offer(state)
-        except StartError:
-            raise
-        except BaseException:
-            with interrupts_deferred(), suppress(OSError):  # of a full disk: what was kept last is gone on from
-                keeper.keep(state)
-            lines.add(state, keeper.recorder, finished=False)
-            raise
-    require_all_tallied(state.total.tallies, planned(plan, used.domain, refuses=used.refuses))
-    lines.add(state, keeper.recorder, finished=True)
+) -> Iterator[_Gating]:
+    """The implementation of that number, from its beginning or from the state; its lines are recorded when it ends.
+
+    Where it is interrupted, how far it is is kept too. Raises StartError where it cannot be started.
+    """
+    opening = plan.opening(number)
+    with opening.open() as implementation:
+        used = implementation.description
+        rules = rules_of(plan, used, listed)
+        lines = Lines(plan, opening.spec, implementation.declared, used, rules)
+        declared = as_recorded(implementation.declared)
+        keeper = Keeper(recorder, number=number, declared=declared, cases=size(plan))
+        begun = begun or State(implementation.allowance)
+        with _performing(implementation, opening, plan, rules, client) as performing:
+            gating = _Gating(steps_of(plan, used), performing, keeper, begun)
+            try:
+                yield gating
+            except StartError:
+                raise
+            except BaseException:
+                with interrupts_deferred(), suppress(OSError):  # of a full disk: what was kept last is gone on from
+                    keeper.keep(gating.state)
+                lines.add(gating.state, recorder, finished=False)
+                raise
+        tallies = gating.state.total.tallies
+        require_all_tallied(tallies, planned(plan, used.domain, refuses=used.refuses))
+        lines.add(gating.state, recorder, finished=True)
 
 
 def _cases_of(step: Step) -> int:
