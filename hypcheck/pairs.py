@@ -20,6 +20,9 @@ COLUMNS = SIZES + CENTER
 RADIAL = ("alpha", "b", "x", "y")
 AXIAL = ("gamma", "d", "z")
 
+Sizes = tuple[float, float, float, float]
+"""α, γ, b, d of one pair."""
+
 
 class Position(IntEnum):
     """Where the spheroid stands to the hyperboloid; the sign speaks. Tangency is contact."""

@@ -16,6 +16,8 @@ from hypcheck.visible import counted, visible
 Floats = NDArray[np.float64]
 Rows = NDArray[np.float64]
 Positions = NDArray[np.int8]
+Columns = tuple[Floats, Floats, Floats]
+"""x, y, z of shape (n,), with any strides."""
 
 _ROWS_WANTED = f"an array (n, 7) of numbers: {', '.join(COLUMNS)}"
 

@@ -27,8 +27,19 @@ from hypcheck.suggesting import advice
 
 FAMILIES: dict[str, Family] = {
     family.name: family
-    for module in (scenes, everyday, changes, tangency, ladder, ring, borders, stiff, whole_domain, extremes)
-    for family in module.FAMILIES
+    for group in (
+        scenes.FAMILIES,
+        everyday.FAMILIES,
+        changes.FAMILIES,
+        tangency.FAMILIES,
+        ladder.FAMILIES,
+        ring.FAMILIES,
+        borders.FAMILIES,
+        stiff.FAMILIES,
+        whole_domain.FAMILIES,
+        extremes.FAMILIES,
+    )
+    for family in group
 }
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""

@@ -9,7 +9,6 @@ from hypcheck.pairs import Pair
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.nearest import nearest
 from hypcheck.truth.prove import prove
 
 
@@ -25,6 +24,8 @@ class Answer:
 
 def answer(pair: Pair) -> Answer:
     """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict."""
+    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath
+
     decision = exact.decide(pair.lengths)
     measured = nearest(pair)
     require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))

@@ -76,7 +76,8 @@ def opened(
         )
 
 
-_HELP = """Look for answers of SPEC that are wrong by much: thin sets of rows first, then ever worse ones next to these.
+_HELP = """\
+Look for answers of SPEC that are wrong by much: thin sets of rows first, then ever worse ones next to these.
 
 \b
 hypcheck hunt library:./libcollide.so --budget 300 --out our-cases.json

@@ -10,7 +10,8 @@ import click
 from hypcheck.cli.hunt import about_one_implementation, opened
 from hypcheck.visible import printable
 
-_HELP = """Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
+_HELP = """\
+Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
 
 CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z, or RECORD:N, as for `hypcheck replay`.
 

@@ -12,7 +12,8 @@ from hypcheck.cli.settings import announce_file
 from hypcheck.errors import Exit
 from hypcheck.visible import printable
 
-_HELP = """Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
+_HELP = """\
+Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
 
 CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats, or
 RECORD:N, the N-th case that a record.jsonl (or the folder of its run) has kept, as reports number them.

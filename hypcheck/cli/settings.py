@@ -90,10 +90,10 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str,
 def announce(settings: Mapping[str, Any] | None) -> None:
     """Tell on standard error what in_effect says."""
     from hypcheck.record.fields import decoded
-    from hypcheck.record.lines import Settings
+    from hypcheck.record.lines import Settings as RecordedSettings
     from hypcheck.report.claims import settings_facts
 
-    for fact in settings_facts(None if settings is None else decoded(settings, Settings)):
+    for fact in settings_facts(None if settings is None else decoded(settings, RecordedSettings)):
         click.echo(f"hypcheck: {visible(fact)}", err=True)
 
 

@@ -27,7 +27,7 @@ from hypcheck.methods.faults import Outcome
 from hypcheck.methods.implementation import FAULTS
 from hypcheck.methods.questions import allowed
 from hypcheck.methods.runs import HANGS
-from hypcheck.record.fields import Line
+from hypcheck.record import Line
 from hypcheck.record.lines import Group, Implementation
 from hypcheck.rows import CANNOT_SAY
 from hypcheck.tally import FAULTS_KEPT, WORST_KEPT, Tally, Worst

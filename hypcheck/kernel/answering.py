@@ -4,19 +4,10 @@ from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.question import Question
-from hypcheck.rows import Positions, Rows
-
-Sizes = tuple[float, float, float, float]
-"""alpha, gamma, b, d."""
-
-Floats = NDArray[np.float64]
-Columns = tuple[Floats, Floats, Floats]
-"""x, y, z of shape (n,), with any strides."""
+from hypcheck.pairs import Sizes
+from hypcheck.rows import Columns, Positions, Rows
 
 
 class Kernel(Protocol):

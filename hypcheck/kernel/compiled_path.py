@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hypcheck.kernel.answering import Columns, Sizes
 from hypcheck.kernel.choice import compiled, most_threads
 from hypcheck.kernel.question import NUMBER_OF, Question
-from hypcheck.rows import Positions, Rows
+from hypcheck.pairs import Sizes
+from hypcheck.rows import Columns, Positions, Rows
 
 ROWS_A_THREAD = 1 << 20
 """Fewer rows are not worth a thread: to start one takes as long as some 10⁵ rows."""
@@ -23,7 +23,7 @@ CHUNK = 1 << 16
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-    """As answering.Kernel has it."""
+    """As classify.Kernel has it."""
     ask, number = compiled().ask, NUMBER_OF[question]
     aligned = rows if rows.flags.aligned else rows.copy()
     answers = np.empty(len(rows), dtype=np.int8)
@@ -37,7 +37,7 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
 def answer_scene(
     sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
 ) -> tuple[Positions, int]:
-    """As answering.Kernel has it."""
+    """As classify.Kernel has it."""
     answers = np.empty(len(columns[0]), dtype=np.int8)
     return answers, fill_scene(sizes, columns, answers, question, threads)
 

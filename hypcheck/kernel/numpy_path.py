@@ -14,15 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.kernel import integers, scene_lines
-from hypcheck.kernel.answering import Columns, Sizes
 from hypcheck.kernel.printed import chunks
 from hypcheck.kernel.programs.certified import CONSTANTS
 from hypcheck.kernel.programs.lines import CAP
 from hypcheck.kernel.programs.parallel_lines import CAP as CAP_OF_SINGLES
 from hypcheck.kernel.question import POSITION_OF, Question
 from hypcheck.kernel.scene_lines import SceneLines
-from hypcheck.pairs import REFUSED, Pair
-from hypcheck.rows import Positions, Rows, invalid
+from hypcheck.pairs import REFUSED, Pair, Sizes
+from hypcheck.rows import Columns, Positions, Rows, invalid
 
 CHUNK = 8192
 """Rows at a time: the buffers of one chunk stay in the cache, and the calls of ufuncs are few."""
@@ -67,7 +66,7 @@ def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Positio
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:  # noqa: ARG001
-    """As answering.Kernel has it; always one thread."""
+    """As classify.Kernel has it; always one thread."""
     return _answers(positions(rows), question)
 
 
@@ -77,7 +76,7 @@ def answer_scene(
     question: Question,
     threads: int | None = None,  # noqa: ARG001 - numpy holds the interpreter too often for threads to pay
 ) -> tuple[Positions, int]:
-    """As answering.Kernel has it; always one thread."""
+    """As classify.Kernel has it; always one thread."""
     return _answers(positions_of_scene(sizes, *columns), question)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
 from hypcheck.kernel import numpy_path
-from hypcheck.kernel.answering import Floats, Sizes, kernel
+from hypcheck.kernel.answering import kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.methods.domain import EVERYWHERE, Domain
 from hypcheck.methods.dual import dual_positions
@@ -18,7 +18,8 @@ from hypcheck.methods.fcl_naive import ellipsoid_mesh, point_mesh, sphere_mesh
 from hypcheck.methods.formula import by_rows
 from hypcheck.methods.measured import measured_methods
 from hypcheck.methods.method import Answers, Method
-from hypcheck.rows import Rows
+from hypcheck.pairs import Sizes
+from hypcheck.rows import Floats, Rows
 from hypcheck.suggesting import advice
 from hypcheck.truth.mesh import availability as fcl_trouble
 

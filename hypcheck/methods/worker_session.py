@@ -30,7 +30,12 @@ main(sys.argv[2:])
 """Python puts the working directory first on the path, where a struct.py of the user's would stand in for Python's; it
 is taken off until our own modules and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
 
-_OURS = (f"{os.sep}hypcheck{os.sep}methods{os.sep}", '"<string>"', "Extension modules: ", "(most recent call first)")
+_OURS = (
+    f"{os.sep}hypcheck{os.sep}{Path(__file__).parent.name}{os.sep}",
+    '"<string>"',
+    "Extension modules: ",
+    "(most recent call first)",
+)
 """What lines hold that speak of the worker and not of what runs in it, when Python tells where it crashed."""
 
 _LANGUAGES = {"python": "python", "library": ""}

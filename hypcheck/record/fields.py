@@ -112,7 +112,12 @@ class Part(Struct, frozen=True, kw_only=True):
     """A value within a line."""
 
 
-class Line(Part, frozen=True, kw_only=True, tag_field="type", tag=str.lower):
+def _type_of(name: str) -> str:
+    """The type of a line from the name of its struct: speed for SpeedLine."""
+    return name.removesuffix("Line").lower()
+
+
+class Line(Part, frozen=True, kw_only=True, tag_field="type", tag=_type_of):
     """A line; the first of its fields is its type."""
 
     @property

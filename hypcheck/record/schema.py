@@ -67,8 +67,8 @@ def _json(value: object) -> str:
 
 
 def _named(name: str) -> str:
-    """wrong_answer for WrongAnswer: the definition of a type of line has its name."""
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+    """wrong_answer for WrongAnswer, speed for SpeedLine: the definition of a type of line has its name."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", re.sub(r"(Line|Part)$", "", name)).lower()
 
 
 def _untitled(definition: Json) -> Json:

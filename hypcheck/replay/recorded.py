@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hypcheck.record import Record
 from hypcheck.record.lines import Fault, Group, WrongAnswer
+from hypcheck.record.reader import Record
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,8 +14,8 @@ _BLOCK_START = re.compile(r"^(?:[-+=#]|\d+(?=[.)](?:\s|$)))")
 
 def text(foreign: object) -> str:
     """The text as running text that means itself, in a table's cell as elsewhere."""
-    escaped = _SPECIAL.sub(lambda found: _ENTITIES.get(found[0], "\\" + found[0]), visible(foreign))
-    return _BLOCK_START.sub(lambda found: "".join(f"&#{ord(c)};" for c in found[0]), escaped)
+    safe = _SPECIAL.sub(lambda found: _ENTITIES.get(found[0], "\\" + found[0]), visible(foreign))
+    return _BLOCK_START.sub(lambda found: "".join(f"&#{ord(c)};" for c in found[0]), safe)
 
 
 def code(foreign: object) -> str:

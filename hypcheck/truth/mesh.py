@@ -13,7 +13,7 @@ from hypcheck.truth.mesh_fcl import availability, distance_to_mesh, require_fcl,
 from hypcheck.truth.mesh_refine import RESOLUTION, Outcome, Refinement, refine
 from hypcheck.truth.mesh_window import meridian_of
 
-__all__ = ["MeshVerdict", "Outcome", "availability", "verdict"]
+__all__ = ["MeshVerdict", "availability", "verdict"]
 
 
 @dataclass(frozen=True, slots=True)

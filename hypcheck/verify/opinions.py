@@ -82,7 +82,8 @@ def ask_roots(rows: Rows) -> list[Opinion]:
 
 def ask_mesh(rows: Rows) -> list[Opinion]:
     """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
-    from hypcheck.truth.mesh import Outcome, verdict  # noqa: PLC0415
+    from hypcheck.truth.mesh import verdict  # noqa: PLC0415
+    from hypcheck.truth.mesh_refine import Outcome  # noqa: PLC0415
 
     def opinion(row: list[float]) -> Opinion:
         found = verdict(Pair.from_row(row))

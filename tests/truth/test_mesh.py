@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from hypcheck.errors import UnavailableError
 from hypcheck.pairs import Pair, Position
 from hypcheck.truth import mesh, mesh_refine
-from hypcheck.truth.mesh import Outcome, availability, verdict
+from hypcheck.truth.mesh import availability, verdict
+from hypcheck.truth.mesh_refine import Outcome
 from tests.fractions_truth import everyday, exact_position, grown, near_contact_rows, rows_of, steps_at, tangent_rows
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")

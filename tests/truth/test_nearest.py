@@ -16,8 +16,9 @@ from mpmath import mp, mpf
 from hypcheck.errors import InputError
 from hypcheck.pairs import Pair, Position
 from hypcheck.rows import invalid
-from hypcheck.truth.nearest import STAGES, Stage, clearances, nearest, positions
+from hypcheck.truth.nearest import STAGES, clearances, nearest, positions
 from hypcheck.truth.nearest_dual import Squares, tangency
+from hypcheck.truth.nearest_precise import Stage
 from tests.nearest_reference import mismatches, mixed_rows, reference, ulps
 
 

@@ -12,8 +12,9 @@ from mpmath import mp, mpf
 from hypcheck.pairs import Pair
 from hypcheck.truth import nearest_double as dd
 from hypcheck.truth import nearest_float, nearest_precise
-from hypcheck.truth.nearest import Stage, clearances, nearest
+from hypcheck.truth.nearest import clearances, nearest
 from hypcheck.truth.nearest_dual import Squares
+from hypcheck.truth.nearest_precise import Stage
 from tests.nearest_reference import mismatches, mixed_rows, reference
 
 

@@ -15,6 +15,7 @@ from hypcheck.truth import roots as oracle
 from hypcheck.truth import roots_isolation as isolation
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients
+from hypcheck.truth.roots_patterns import Place
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
 # (λ + A)(λ² − (B + Q − 1) λ − B): roots, places and kinds below follow by hand.
@@ -119,7 +120,7 @@ def test_prescribed_roots_are_found(case):
         assert found.lower < root < found.upper or found.lower == root == found.upper
         assert found.multiplicity == roots.count(root)
         marks = [root < -pair.A, root == -pair.A, -pair.A < root < 0, 0 < root < pair.B, root == pair.B, root > pair.B]
-        assert list(oracle.Place).index(found.place) == marks.index(True)
+        assert list(Place).index(found.place) == marks.index(True)
     for left, right in pairwise(report.roots):
         assert left.upper <= right.lower
     for found in report.roots:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hypcheck.kernel.world.scene import Scene
 from hypcheck.pairs import Lengths, Position, to_integers
-from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, Region, Span
+from hypcheck.scene.model import Scene as SceneModel
 from hypcheck.truth import exact
 
 ROOM = 25.0
@@ -40,11 +40,11 @@ class Forest:
     kinds: NDArray[np.int64]
 
     @cached_property
-    def model(self) -> model.Scene:
+    def model(self) -> SceneModel:
         """The forest as a scene that asks whether the walker is clear of it, on a plain."""
         pairs = zip(self.kinds.tolist(), self.places.tolist(), strict=True)
         trees = tuple(_tree(number, kind, (x, y)) for number, (kind, (x, y)) in enumerate(pairs, start=1))
-        return model.Scene("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))
+        return SceneModel("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))
 
     def clear(self, centre: Point) -> bool:
         """The truth, from rational arithmetic, about every tree that is not metres away."""

@@ -15,11 +15,10 @@ from hypcheck.bench.kernel.rows import SIZES, touching, uniform
 from hypcheck.bench.kernel.target import Target, measured, rate, times_as_fast, worked
 from hypcheck.bench.memory import forget_peak, peak
 from hypcheck.bench.rounds import Entry, Samples, clocked
-from hypcheck.kernel.answering import Columns
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_path import fill_scene, in_parts
 from hypcheck.record.measurements import Kernel
-from hypcheck.rows import Positions
+from hypcheck.rows import Columns, Positions
 
 MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
 AGAIN = 200

@@ -7,7 +7,8 @@ import numpy as np
 from hypcheck.casebook.families import FAMILIES
 from hypcheck.casebook.placing import beside_surface
 from hypcheck.casebook.scenes import BODY, TOWER
-from hypcheck.kernel.answering import Columns, Sizes
+from hypcheck.pairs import Sizes
+from hypcheck.rows import Columns
 
 SIZES: Sizes = (*TOWER, *BODY)
 SEED = 1

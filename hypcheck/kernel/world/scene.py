@@ -25,7 +25,7 @@ from hypcheck.kernel.world.reach import in_reach, reaches
 from hypcheck.kernel.world.step import Body, position_beside
 from hypcheck.pairs import CENTER, trouble_with
 from hypcheck.rows import CANNOT_SAY, Positions, as_columns, as_numbers
-from hypcheck.scene import model
+from hypcheck.scene.model import Scene as SceneModel
 from hypcheck.scene.reading import parse_scene, read_scene
 
 Floats = NDArray[np.float64]
@@ -48,7 +48,7 @@ _OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT)
 class Scene:
     """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`."""
 
-    model: model.Scene
+    model: SceneModel
 
     def __post_init__(self) -> None:
         if not self.model.hyperboloids:
