@@ -57,29 +57,29 @@ paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 	$(BIN)/hypcheck derive --only ledger --only costs --format markdown --output docs/paper.md
 
 schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, from the classes that hold it
-	$(BIN)/python -m tests.published_schemas
+	$(BIN)/python -m tests.tools.published_schemas
 
 figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
-	$(BIN)/python -m tests.paper_figures
+	$(BIN)/python -m tests.tools.paper_figures
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
-	$(BIN)/python -m tests.mutants --out docs/mutants.md
+	$(BIN)/python -m tests.tools.mutants --out docs/mutants.md
 
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
-	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/emission
+	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/kernel/emission
 
 wheel: $(VENV)/ready-dev ## every command of the installed wheel and sdist, with and without a C compiler (five minutes)
 	HYPCHECK_WHEEL=all $(BIN)/python -m pytest -n auto tests/test_wheel.py
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
-	$(BIN)/python -m tests.attack
+	$(BIN)/python -m tests.tools.attack
 
 pace: $(VENV)/ready-dev ## rows a second of verify from 1e6 to 1e9 rows; ends with 1 where they differ by over 15 %
-	$(BIN)/python -m tests.pace
+	$(BIN)/python -m tests.tools.pace
 
 soak: $(VENV)/ready-dev ## a million damaged inputs for all readers, ten minutes of verify against what crashes and hangs
-	$(BIN)/python -m tests.fuzz --count 1000000
-	$(BIN)/python -m tests.soak --seconds 600
+	$(BIN)/python -m tests.tools.fuzz --count 1000000
+	$(BIN)/python -m tests.tools.soak --seconds 600
 
 lint: $(VENV)/ready-dev ## lint, format, strict types and import layers alone
 	$(BIN)/ruff check .

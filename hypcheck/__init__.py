@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import classify, classify_scene
     from hypcheck.kernel.scalar import position
-    from hypcheck.kernel.world.scene import Scene
+    from hypcheck.kernel.scene import Scene
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
 __all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "position"]
@@ -26,7 +26,7 @@ __all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
     "InputError": ("hypcheck.errors", "InputError"),
-    "Scene": ("hypcheck.kernel.world.scene", "Scene"),
+    "Scene": ("hypcheck.kernel.scene", "Scene"),
     "classify": ("hypcheck.kernel.classify", "classify"),
     "classify_scene": ("hypcheck.kernel.classify", "classify_scene"),
     "position": ("hypcheck.kernel.scalar", "position"),

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import IntEnum
 
-from hypcheck.visible import sentence
+from hypcheck.messages import sentence
 
 
 class Exit(IntEnum):

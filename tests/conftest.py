@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.undrawn import draw_nothing
+from tests.support.without_drawing import draw_nothing
 
 # In CI the examples are the same in every run, so that a red build means the change and not the dice.
 settings.register_profile("ci", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -27,29 +27,32 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 gc.disable()
 
 SLOW = {
-    "": "processes reference_bench settings wheel",
+    "": "processes wheel",
     "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
-    "casebook": "razor",
-    "cases": "cli files labels reading",
-    "classify": "blocks processes tables",
-    "cli": "completion exits leaving startup",
+    "cli": "completion detach exits settings startup",
     "derivation": "formulas proofs repaired_formulas rounding",
-    "emission": "extremes foreign_text gated kernels limits prefix scenes text",
-    "fuzz": "fuzz",
-    "gate": "cluster cluster_interrupted cluster_refused cluster_versions consistency extremes gate interrupted "
-    "local_cluster reports resume resume_refused retest schedule unchanged workers",
-    "hunt": "cli minimise search",
-    "kernel": "attack header parallel_lines printing_languages sanitizers",
-    "methods": "commands fcl_naive functions libraries processes",
-    "mutants": "mutants",
+    "implementations": "commands fcl_naive functions libraries processes",
+    "kernel": "header parallel_lines printing_languages sanitizers",
+    "kernel/emission": "conformance extremes foreign_text kernels limits prefix scenes text",
     "paper": "ledger_cli ledger_formats ledger_search motion simulate_cli tower",
     "record": "integrity",
-    "replay": "replay",
-    "report": "browser cli_report github hostile junit markdown page plots scene_map simulation_pictures svg write",
+    "report": "browser cli_report github hostile junit markdown page plots reference_bench scene_map "
+    "simulation_pictures svg write",
+    "runs": "self_check self_check_interrupted",
+    "runs/cluster": "cluster cluster_interrupted cluster_refused cluster_versions local_cluster",
+    "runs/conformance": "conformance conformance_reports extremes retest schedule unchanged workers",
+    "runs/hunt": "hunt_cli minimise search",
+    "runs/replay": "replay",
+    "runs/resume": "consistency interrupted resume resume_refused",
     "scaffold": "adapters requirement shared",
-    "soak": "soak",
+    "tables": "blocks processes tables",
+    "tools/attack": "attack",
+    "tools/fuzz": "fuzz",
+    "tools/mutants": "mutants",
+    "tools/soak": "soak",
     "truth": "mesh motion nearest nearest_bounds roots_table",
-    "verify": "interrupted run",
+    "vectors": "razor",
+    "vectors/frozen": "cases_cli files labels reading",
 }
 """Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import HypcheckError, InputError
-from hypcheck.record.scanning import DamagedError
-from hypcheck.visible import LONGEST, sentence
+from hypcheck.messages import LONGEST, sentence
+from hypcheck.record.integrity import DamagedError
 
 
 @given(st.text())

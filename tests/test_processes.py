@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.miniatures import all_gone, needs_proc, token  # noqa: F401
+from tests.tools.miniatures import all_gone, needs_proc, token  # noqa: F401
 
 STARTS = """
 import signal, sys, threading, time

@@ -27,7 +27,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.cli.commands import COMMANDS
-from hypcheck.cli.emit import LANGUAGES
+from hypcheck.cli.scene import LANGUAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 ALL = os.environ.get("HYPCHECK_WHEEL") == "all"

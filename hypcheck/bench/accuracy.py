@@ -1,33 +1,41 @@
-"""Every method's answers to every workload's rows against the exact ones, by the distance at which these flip."""
+"""The answers of every method to every workload, against the exact ones; and how much memory they take.
+
+Every method's answers to every workload's rows against the exact ones, by the distance at which these flip.
+
+How much a process grows while a method answers a batch: each in a process of its own.
+"""
 
 from __future__ import annotations
 
+import ctypes
+import gc
 import hashlib
 import math
+import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck import judge
-from hypcheck.bench.contenders import Contender, contenders
-from hypcheck.bench.contenders.ways import Way
-from hypcheck.bench.plan import BenchPlan, chosen
-from hypcheck.bench.workloads import WORKLOADS, Workload
-from hypcheck.judge import Criterion, Mistake, Status
-from hypcheck.methods.asking import Answered
-from hypcheck.methods.method import Answers
-from hypcheck.processes import perform
+from hypcheck.bench.contender import Contender, LoadedMethod
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import WORKLOADS, BenchPlan, Workload, chosen_names
+from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.method import Answers
+from hypcheck.processes import one_each, perform
 from hypcheck.record.fields import Unsigned
-from hypcheck.record.measurements import Accuracy, Mistaken
-from hypcheck.rows import Positions, Rows
-from hypcheck.score import Score, score
-from hypcheck.tally import CODES, by_exponent
-from hypcheck.truth import batch
+from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
+from hypcheck.runs import judge
+from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.runs.score import Score, score
+from hypcheck.runs.tally import STATUS_CODES, by_exponent
+from hypcheck.truth import float_filter
 
 Floats = NDArray[np.float64]
 
@@ -71,10 +79,10 @@ class MethodAnswers:
 
 def chosen_workloads(plan: BenchPlan) -> list[Workload]:
     """The workloads of the plan. Raises InputError naming one that does not exist."""
-    return [WORKLOADS[name] for name in chosen(list(WORKLOADS), plan.workloads, "workload")]
+    return [WORKLOADS[name] for name in chosen_names(list(WORKLOADS), plan.workloads, "workload")]
 
 
-def known(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
+def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
     """What is true of each workload; the flip distances are found in pieces, on all processors."""
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, plan.amounts.judged)
@@ -82,14 +90,14 @@ def known(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]
         octaves = np.empty(len(rows))
         for (start, piece), found in perform(_octaves, pieces, executor):
             octaves[start : start + len(piece)] = found
-        yield WorkloadTruth(workload, rows, batch.positions(rows), octaves)
+        yield WorkloadTruth(workload, rows, float_filter.positions(rows), octaves)
 
 
 def _octaves(piece: tuple[int, Rows]) -> Floats:
-    return judge.flip_octaves(piece[1])
+    return judge.flip_exponents(piece[1])
 
 
-def asked(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[MethodAnswers]]:
+def method_answers(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[MethodAnswers]]:
     """The answers of each method, as they come."""
     for _, answered in perform(_ask, [(plan, name) for name in names], executor):
         yield answered
@@ -102,7 +110,7 @@ def _ask(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
         return [_answered(plan, contender, way, workload) for workload in chosen_workloads(plan)]
 
 
-def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workload) -> MethodAnswers:
+def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload: Workload) -> MethodAnswers:
     rows = _rows(workload.name, plan.seed, plan.amounts.judged)
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
@@ -111,8 +119,8 @@ def _answered(plan: BenchPlan, contender: Contender, way: Way, workload: Workloa
         workload.name,
         places,
         way.answer(rows[places]),
-        print_of(way.answer(part)),
-        print_of(way.answer(part[: contender.singles])),
+        answers_print(way.answer(part)),
+        answers_print(way.answer(part[: contender.singles])),
         way.trouble,
     )
 
@@ -137,17 +145,17 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
     return rows[: contender.timed]
 
 
-def print_of(answers: Answers) -> str:
+def answers_print(answers: Answers) -> str:
     """A short text that tells these answers from others."""
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
-def line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> Accuracy:
+def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> AccuracyLine:
     """The record's line about one method and one workload; `given` holds at least one answer."""
     places, criterion = given.places, Criterion(contender.question, contender.precision)
     scored = score(truth.rows[places], truth.positions[places], Answered.of(given.answers), criterion)
     octaves, mistakes = truth.octaves[places], scored.mistakes
-    return Accuracy(
+    return AccuracyLine(
         method=contender.name,
         workload=given.workload,
         asked=len(places),
@@ -155,7 +163,7 @@ def line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> Ac
         false_clear=mistakes[Mistake.FALSE_CLEAR],
         false_contact=mistakes[Mistake.FALSE_CONTACT],
         wrong_side=mistakes[Mistake.WRONG_SIDE],
-        abstained=int(np.count_nonzero(scored.status == CODES[Status.ABSTAINED])),
+        abstained=int(np.count_nonzero(scored.status == STATUS_CODES[Status.ABSTAINED])),
         octaves=[
             (
                 int(exponent) if math.isfinite(float(exponent)) else exponent,
@@ -164,7 +172,7 @@ def line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> Ac
             )
             for exponent, counts in by_exponent(octaves, scored.status).items()
         ],
-        reliable_above=Unsigned(reliable_above(octaves, scored.status != CODES[Status.RIGHT])),
+        reliable_above=Unsigned(reliable_above(octaves, scored.status != STATUS_CODES[Status.RIGHT])),
         worst=_worst(scored, octaves, given),
     )
 
@@ -205,3 +213,53 @@ def _worst(scored: Score, octaves: Floats, given: MethodAnswers) -> list[Mistake
         for row, answer in [(scored.rows[index].tolist(), int(scored.answers[index]))]
     ]
     return sorted(cases, key=lambda case: -case.flip_distance)[:WORST_KEPT]
+
+
+MEMORY_WORKLOAD = "uniform"
+
+
+def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
+    """A line for each of the methods, as they come."""
+    for _, line in one_each(_memory_line, [(plan, name) for name in names], plan.workers):
+        yield line
+
+
+def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
+    plan, name = task
+    contender = contenders(plan)[name]
+    rows = timed_rows(plan, contender, WORKLOADS[MEMORY_WORKLOAD])
+    first = contender.load()
+    first.answer(rows[:1])  # what is loaded when it is called for the first time is no part of answering
+    first.close()
+    way = contender.load()
+    before = forget_peak()
+    ready = way.batch(rows)
+    if ready is not None:
+        ready.answers()
+    grown = peak() - before
+    way.close()
+    return MemoryLine(method=name, rows=len(rows), peak_bytes=max(0, grown))
+
+
+def forget_peak() -> int:
+    """The peak from now on, which is what is resident now where the system lets go of it (Linux).
+
+    What was freed goes back to the system first: answers that are put where something else was do not show.
+    """
+    gc.collect()
+    with suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).malloc_trim(0)
+    with suppress(OSError):
+        Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+    return peak()
+
+
+def peak() -> int:
+    """The largest resident size so far, in bytes."""
+    with suppress(OSError, StopIteration):
+        status = Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines()
+        words = next(line for line in status if line.startswith("VmHWM:")).split()
+        return int(words[1]) * 1024
+    import resource  # noqa: PLC0415 - not on Windows, nor needed on Linux
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)

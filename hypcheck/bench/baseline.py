@@ -10,16 +10,16 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contenders import Contender
-from hypcheck.bench.contenders.foreign import Foreign
+from hypcheck.bench.contender import Contender
+from hypcheck.bench.foreign import ForeignMethod
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.statistics import CONFIDENCE, LEAST_NS, ratios, resampled_medians
+from hypcheck.bench.timing import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
-from hypcheck.record import Line, read
-from hypcheck.record.measurements import Comparison, Noise, Speed
+from hypcheck.record import RecordLine, read
+from hypcheck.record.measurements import ComparisonLine, NoiseLine, SpeedLine
 from hypcheck.record.reader import file_of
 
-Key = tuple[str, str, str]
+SpeedKey = tuple[str, str, str]
 """A method, a workload and a mode."""
 
 _SEEDS = (1, 2)
@@ -30,13 +30,13 @@ _SEEDS = (1, 2)
 class Baseline:
     """A run's speeds that have a ratio to the reference, these ratios, and the noise."""
 
-    speeds: dict[Key, Speed]
-    ratios: dict[Key, float]
+    speeds: dict[SpeedKey, SpeedLine]
+    ratios: dict[SpeedKey, float]
     floors: dict[tuple[str, str], float]
 
 
 @dataclass(frozen=True)
-class Change:
+class SpeedChange:
     """How a ratio changed from one run to the other: the quotient, its interval, and both runs' noise as one factor."""
 
     change: float
@@ -75,22 +75,22 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
     return baseline
 
 
-def speeds_of(lines: Iterable[Line]) -> Baseline:
+def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
     """The speeds among lines of a record that have a ratio, and the noise.
 
     Earlier versions wrote LEAST_NS where an empty call was no shorter; what has no other time is held to nothing.
     """
     baseline = Baseline({}, {}, {})
     for line in lines:
-        if isinstance(line, Speed) and line.ratio is not None and median(chain(*line.samples_ns)) > LEAST_NS:
+        if isinstance(line, SpeedLine) and line.ratio is not None and median(chain(*line.samples_ns)) > LEAST_NS:
             key = line.method, line.workload, line.mode
             baseline.speeds[key], baseline.ratios[key] = line, line.ratio
-        elif isinstance(line, Noise):
+        elif isinstance(line, NoiseLine):
             baseline.floors[line.workload, line.mode] = line.floor
     return baseline
 
 
-def alike(before: Baseline, found: Iterable[Foreign]) -> tuple[Foreign, ...]:
+def alike(before: Baseline, found: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
     """The SPECs' implementations, each to be timed on as many rows as it was: a call about few costs more for each."""
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
@@ -117,13 +117,13 @@ def require_common(before: Baseline, names: set[str]) -> None:
         raise InputError(f"--baseline: holds no speed of what is to be held to it: {told}")
 
 
-def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[Comparison]:
+def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[ComparisonLine]:
     """A line for each method, workload and mode that both runs timed."""
     for key in after.speeds:
         method, workload, mode = key
         if key in before.speeds and method != REFERENCE:
             change = change_of(before, after, key)
-            yield Comparison(
+            yield ComparisonLine(
                 method=method,
                 workload=workload,
                 mode=mode,
@@ -137,16 +137,16 @@ def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[s
             )
 
 
-def change_of(before: Baseline, after: Baseline, key: Key) -> Change:
+def change_of(before: Baseline, after: Baseline, key: SpeedKey) -> SpeedChange:
     """How one ratio changed."""
     draws = [_medians(run, key, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()
     change = after.ratios[key] / before.ratios[key]
     noise = (1 + before.floors.get(key[1:], 0.0)) * (1 + after.floors.get(key[1:], 0.0))
-    return Change(change, min(low, change), max(high, change), noise)
+    return SpeedChange(change, min(low, change), max(high, change), noise)
 
 
-def _medians(run: Baseline, key: Key, seed: int) -> NDArray[np.float64]:
+def _medians(run: Baseline, key: SpeedKey, seed: int) -> NDArray[np.float64]:
     reference = run.speeds[REFERENCE, key[1], key[2]].samples_ns
     return resampled_medians(ratios(run.speeds[key].samples_ns, reference), seed)

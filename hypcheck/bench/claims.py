@@ -9,23 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
-from hypcheck.bench.contenders.c_library import InC, bodies_asked, place_of
-from hypcheck.bench.contenders.c_procedures import NAMES
-from hypcheck.bench.contenders.ways import InPython, Prepared
-from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.rounds import clocked
-from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.casebook.draw import Draw
-from hypcheck.casebook.scenes import ARM, BODY, ROTOR, TOWER
+from hypcheck.bench.c_library import InC, bodies_asked, place_of
+from hypcheck.bench.c_source import NAMES
+from hypcheck.bench.contender import InPython, PreparedWork
+from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.bench.timing import clocked
 from hypcheck.derivation.costs import cost_of
-from hypcheck.derivation.counting import Operations, count
-from hypcheck.derivation.formulas import FORMULAS, Formula
-from hypcheck.derivation.repaired_formulas import REPAIRED
-from hypcheck.derivation.root_formulas import ROOTS_TRIGONOMETRIC
-from hypcheck.methods import roots
-from hypcheck.methods.formula import by_rows, by_scene
-from hypcheck.methods.procedures import CRAFT, PROCEDURES, Flight, hull_programs, procedure_2b
-from hypcheck.methods.reciprocals import RECIPROCAL
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula
+from hypcheck.derivation.program import Operations, count
+from hypcheck.implementations import alternatives
+from hypcheck.implementations.method import RECIPROCAL, by_rows, by_scene
+from hypcheck.implementations.procedures import CRAFT, PROCEDURES, CraftPath, hull_programs, procedure_2b
+from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.scenes import ARM, BODY, ROTOR, TOWER
 
 TABLE_2, PROCEDURE_1 = FORMULAS["table-2"], REPAIRED["procedure-1-repaired"]
 PRINTED_A, PRINTED_B, OURS = "Procedure 2.a", "Procedure 2.b", "ours: certified, the body first"
@@ -41,7 +37,7 @@ _ROOTS_TIMED = 96
 
 
 @dataclass(frozen=True)
-class Claim:
+class CostClaim:
     """A claim about cost and where it stands; what is compared on which scene, in which tier.
 
     `compared` makes the ways ready for the clock, by name, the printed one first; `operations` are those of each
@@ -52,11 +48,11 @@ class Claim:
     text: str
     scene: str
     tier: str
-    compared: Callable[[BenchPlan], dict[str, Prepared]]
+    compared: Callable[[BenchPlan], dict[str, PreparedWork]]
     operations: dict[str, Operations]
 
 
-def claims(plan: BenchPlan) -> list[Claim]:
+def cost_claims(plan: BenchPlan) -> list[CostClaim]:
     """What is measured in this run: everything in numpy, and in C where it was compiled."""
     if plan.methods or plan.workloads:
         return []  # a run of a few methods is about these
@@ -64,18 +60,18 @@ def claims(plan: BenchPlan) -> list[Claim]:
     return [make(tier) for make in (_procedures, _divisions, _roots) for tier in tiers]
 
 
-def flight_of(seed: int, number: int) -> Flight:
+def flight_of(seed: int, number: int) -> CraftPath:
     """Positions along random flights in the paper's cooling tower, with headings."""
     x, y, z = np.ascontiguousarray(WORKLOADS["flight"].rows(seed, number)[:, 4:].T)
     cosine, sine = Draw("bench-headings", 1, seed).circle(number)
-    return Flight(dict(zip(CRAFT, (*TOWER, *BODY, *ROTOR, ARM), strict=True)), x, y, z, cosine, sine)
+    return CraftPath(dict(zip(CRAFT, (*TOWER, *BODY, *ROTOR, ARM), strict=True)), x, y, z, cosine, sine)
 
 
-def share_touching(flight: Flight) -> float:
+def share_touching(flight: CraftPath) -> float:
     """How often Δ ≤ 0 for the bounding spheroid, so that Procedure 2.b asks the rotors."""
     asked = 0
 
-    def counting(part: Flight) -> None:
+    def counting(part: CraftPath) -> None:
         nonlocal asked
         asked += len(part)
 
@@ -83,9 +79,9 @@ def share_touching(flight: Flight) -> float:
     return asked / len(flight)
 
 
-def _procedures(tier: str) -> Claim:
+def _procedures(tier: str) -> CostClaim:
     where = "in numpy, 8,192 positions at a time" if tier == "numpy" else "in C, one position a call"
-    return Claim(
+    return CostClaim(
         "procedures",
         "Section 4: Δ(g_i) costs much, so asking the bounding spheroid first and the rotors only where Δ ≤ 0 "
         "(Procedure 2.b) costs less than asking the four rotors (2.a)",
@@ -101,24 +97,24 @@ def hull_operations() -> Operations:
     return count(hull_programs()[1].steps)
 
 
-def _procedures_in_numpy(plan: BenchPlan) -> dict[str, Prepared]:
+def _procedures_in_numpy(plan: BenchPlan) -> dict[str, PreparedWork]:
     flight = flight_of(plan.seed, plan.amounts.bodies)
     ways = zip(BODIES, PROCEDURES.values(), strict=True)
     return {
-        name: Prepared(len(flight), clocked(work), work)
+        name: PreparedWork(len(flight), clocked(work), work)
         for name, procedure in ways
         for work in [partial(procedure, flight)]
     }
 
 
-def _procedures_in_c(plan: BenchPlan) -> dict[str, Prepared]:
+def _procedures_in_c(plan: BenchPlan) -> dict[str, PreparedWork]:
     flight = flight_of(plan.seed, plan.amounts.bodies)
     places = enumerate(NAMES[1:], start=1)
     return {name: bodies_asked(_library(plan), place, flight) for name, (place, _) in zip(BODIES, places, strict=True)}
 
 
-def _divisions(tier: str) -> Claim:
-    return Claim(
+def _divisions(tier: str) -> CostClaim:
+    return CostClaim(
         "divisions",
         "Section 3.1: in Table 2 only additions or products are performed, so the computational cost is very low",
         f"uniform around the cooling tower, in {tier}, in a batch",
@@ -132,9 +128,9 @@ def _divisions(tier: str) -> Claim:
     )
 
 
-def _roots(tier: str) -> Claim:
+def _roots(tier: str) -> CostClaim:
     of_roots = cost_of(ROOTS_TRIGONOMETRIC).query
-    return Claim(
+    return CostClaim(
         "roots",
         "Section 3.1: coefficients alone cost less than the roots of [13], which take trigonometric functions where "
         "Δ > 0",
@@ -146,19 +142,19 @@ def _roots(tier: str) -> Claim:
     )
 
 
-def _roots_in_numpy(plan: BenchPlan) -> dict[str, Prepared]:
+def _roots_in_numpy(plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     found = _formulas(plan, tier="numpy", listed={PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC})
-    return {**found, EIGENVALUES: InPython(roots.by_numpy).batch(rows[:_ROOTS_TIMED])}
+    return {**found, EIGENVALUES: InPython(alternatives.numpy_roots).batch(rows[:_ROOTS_TIMED])}
 
 
-def _roots_in_c(plan: BenchPlan) -> dict[str, Prepared]:
+def _roots_in_c(plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     names = {PRINTED: "table-2-float64", TRIGONOMETRIC: "trigonometric-float64"}
     return {name: InC(_library(plan), place_of(body)).batch(rows) for name, body in names.items()}
 
 
-def _formulas(plan: BenchPlan, *, tier: str, listed: dict[str, Formula]) -> dict[str, Prepared]:
+def _formulas(plan: BenchPlan, *, tier: str, listed: dict[str, Formula]) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if tier == "C":
         places = {name: place_of(f"{formula.name}-float64") for name, formula in listed.items()}
@@ -173,6 +169,6 @@ def _library(plan: BenchPlan) -> Path:
     return plan.compiled
 
 
-def shown(operations: Operations) -> dict[str, int]:
+def shown_operations(operations: Operations) -> dict[str, int]:
     """The operations that there are, by kind."""
     return {name: number for name, number in asdict(operations).items() if number}

@@ -1,26 +1,48 @@
-"""What methods need and may be absent here: looked for once, before anything is measured."""
+"""Conditions of a measurement: load and frequency of the machine, and which compilers and packages are absent.
+
+Under which conditions times are taken: what a reader of a record wants to know before believing them.
+
+What methods need and may be absent here: looked for once, before anything is measured.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, replace
+from pathlib import Path
 from types import MappingProxyType
 
-from hypcheck.bench.contenders import contenders, foreign
-from hypcheck.bench.contenders.c_library import compiled
-from hypcheck.bench.contenders.c_tier import COMPILER
+from hypcheck.bench import foreign
+from hypcheck.bench.c_library import compiled
+from hypcheck.bench.contenders import COMPILER, contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import UnavailableError
-from hypcheck.methods.engines import COAL, FCL, Engine
-from hypcheck.methods.faults import StartError
+from hypcheck.implementations.meshes import COAL, FCL, Engine
+from hypcheck.implementations.session import StartError
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import NotStarted
-from hypcheck.record.measurements import Absent
-from hypcheck.record.measurements import Compiler as CompilerLine
+from hypcheck.record.lines import NotStartedLine
+from hypcheck.record.measurements import AbsentLine, CompilerLine
 
 
-def prepared(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+def governor() -> str | None:
+    """What sets the processor's frequency, where the system tells: at other than "performance" times wander."""
+    with suppress(OSError):
+        return Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").read_text(encoding="utf-8").strip()
+    return None
+
+
+def load() -> tuple[float, float, float] | None:
+    """How many processes wanted a processor, on average of 1, 5 and 15 minutes, where the system tells."""
+    with suppress(OSError, AttributeError):
+        short, middle, long = (round(average, 2) for average in os.getloadavg())
+        return short, middle, long
+    return None
+
+
+def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     """The plan with what is here and what is missing, which the record says too.
 
     Raises InputError where the plan names a method that does not exist.
@@ -30,25 +52,25 @@ def prepared(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     return plan
 
 
-def met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPlan:
+def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPlan:
     """The plan with what its SPECs are; those that cannot be started are left out, recorded and added to the list.
 
     Raises InputError where one is no SPEC.
     """
-    found: list[foreign.Foreign] = []
+    found: list[foreign.ForeignMethod] = []
     for spec in plan.specs:
         try:
-            found.append(foreign.met(spec, plan.limits, [*contenders(plan), *(each.name for each in found)]))
+            found.append(foreign.foreign_method(spec, plan.limits, [*contenders(plan), *(each.name for each in found)]))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
-            recorder.add(NotStarted(spec=spec, name=spec, trouble=str(error)))
+            recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
             not_started.append(str(error))
     return replace(plan, foreign=tuple(found))
 
 
 def note_absent(recorder: Recorder, what: str, reason: str) -> None:
     """Record that something is not here, and why; once."""
-    if not any(isinstance(line, Absent) and line.what == what for line in recorder.lines):
-        recorder.add(Absent(what=what, reason=reason))
+    if not any(isinstance(line, AbsentLine) and line.what == what for line in recorder.lines):
+        recorder.add(AbsentLine(what=what, reason=reason))
 
 
 def _looked_for(need: str, plan: BenchPlan, recorder: Recorder) -> BenchPlan:

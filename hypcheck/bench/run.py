@@ -7,38 +7,34 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from hypcheck.bench import (
-    accuracy,
-    convergence,
-    costs,
-    forest,
-    kernel,
-    memory,
-    places,
-    scenes,
-    shapes,
-    speed,
-    stability,
-)
+from hypcheck.bench import accuracy, error_maps, forest, scene, speed, targets
 from hypcheck.bench.accuracy import MethodAnswers, WorkloadTruth, chosen_workloads
 from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_baseline, require_common, speeds_of
-from hypcheck.bench.conditions import governor, load
-from hypcheck.bench.contenders import Contender, contenders
-from hypcheck.bench.needs import met, prepared
-from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.workloads import scene_of
+from hypcheck.bench.contender import Contender
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
+from hypcheck.bench.plan import BenchPlan, scene_of
 from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
-from hypcheck.methods.engines import FCL
+from hypcheck.implementations.meshes import FCL
 from hypcheck.processes import processes, usable_processors
-from hypcheck.record import Line, Recorder
-from hypcheck.record.measurements import Absent, Conditions, Forest, Kernel, Method, Refused, Scene, Workload
+from hypcheck.record import Recorder, RecordLine
+from hypcheck.record.measurements import (
+    AbsentLine,
+    ConditionsLine,
+    ForestLine,
+    KernelLine,
+    MethodLine,
+    RefusedLine,
+    SceneLine,
+    WorkloadLine,
+)
 from hypcheck.scene.reading import shipped_scenes
 
 Advance = Callable[[int], object]
 
 
 @dataclass(frozen=True)
-class Stage:
+class BenchStage:
     """A part of the run: its title for the progress bar, how many steps it has, and what does them."""
 
     title: str
@@ -56,7 +52,7 @@ class _Run:
     found: dict[str, Contender]
     answers: list[MethodAnswers] = field(default_factory=list)
     baseline: Baseline | None = None
-    speeds: list[Line] = field(default_factory=list)
+    speeds: list[RecordLine] = field(default_factory=list)
 
     @property
     def timed(self) -> list[str]:
@@ -74,64 +70,68 @@ class _Run:
         return any(each.kind == "bounding" for each in self.found.values())
 
 
-def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
+def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[BenchStage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
     if plan.kernel:
-        return (Stage("the fast path", kernel.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
+        return (
+            BenchStage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),
+        )
     if plan.forest:
         return (_forest(plan, recorder, outcome),)
     if plan.scenes:
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
-    plan = met(prepared(plan, recorder), recorder, outcome.because[Exit.NOT_STARTED])
+    plan = needs_met(plan_with_needs(plan, recorder), recorder, outcome.because[Exit.NOT_STARTED])
     if before is not None:
         plan = replace(plan, foreign=alike(before, plan.foreign))
     run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
     if before is not None:
         require_common(before, gated(plan, run.found))
-    maps = len(stability.mapped(run.found)) + len(places.mapped(run.found))
+    maps = len(error_maps.stability_methods(run.found)) + len(error_maps.place_methods(run.found))
     return (
-        Stage("methods", 1, lambda advance: _introduce(run, advance)),
-        Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
-        Stage("maps", maps, lambda advance: _map(run, advance)),
-        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
-        Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
-        Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
-        Stage("meshes", convergence.steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
-        Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
+        BenchStage("methods", 1, lambda advance: _introduce(run, advance)),
+        BenchStage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
+        BenchStage("maps", maps, lambda advance: _map(run, advance)),
+        BenchStage("bounding volumes", 1, lambda advance: _bound(run, advance)),
+        BenchStage("speed", plan.processes, lambda advance: _measure(run, advance)),
+        BenchStage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
+        BenchStage(
+            "meshes", error_maps.convergence_steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)
+        ),
+        BenchStage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
         *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
     )
 
 
-def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
+def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> BenchStage:
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
         for line in recorder.lines:
-            if isinstance(line, Forest) and line.exact and line.wrong:
+            if isinstance(line, ForestLine) and line.exact and line.wrong:
                 outcome.because[Exit.WRONG].append(
                     f"{line.method} promises to be exact and is not, among {line.trees:,} trees"
                 )
 
     sizes = forest.sizes(plan)
-    return Stage("forest", len(sizes), measure)
+    return BenchStage("forest", len(sizes), measure)
 
 
-def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
+def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> BenchStage:
     def measure(advance: Advance) -> None:
-        outcome.because[Exit.WRONG].extend(scenes.run(plans, recorder, advance, plan.folder, quick=plan.quick))
-        if plan.scenes and not any(isinstance(line, Scene) for line in recorder.lines):
-            reasons = [line.reason for line in recorder.lines if isinstance(line, Absent)]
+        outcome.because[Exit.WRONG].extend(scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick))
+        if plan.scenes and not any(isinstance(line, SceneLine) for line in recorder.lines):
+            reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 
-    plans = scenes.plans_of(names)
-    return Stage("scenes", len(plans), measure)
+    plans = scene.plans_of(names)
+    return BenchStage("scenes", len(plans), measure)
 
 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
-    kernel.run(recorder, advance, plan.quick)
+    targets.run(recorder, advance, plan.quick)
     for line in recorder.lines:
-        if isinstance(line, Kernel) and not line.met:
+        if isinstance(line, KernelLine) and not line.met:
             low, high = line.ci95 or (line.measured, line.measured)
             reasons = outcome.because[Exit.INCONCLUSIVE] if low <= line.wanted <= high else outcome.because[Exit.SLOWER]
             reasons.append(f"{line.name}: {line.says}")
@@ -143,7 +143,7 @@ def _introduce(run: _Run, advance: Advance) -> None:
     for workload in chosen_workloads(run.plan):
         count = run.plan.amounts.timed if workload.timed else run.plan.amounts.judged
         run.recorder.add(
-            Workload(
+            WorkloadLine(
                 workload=workload.name,
                 title=workload.title,
                 text=workload.text,
@@ -156,31 +156,31 @@ def _introduce(run: _Run, advance: Advance) -> None:
     advance(1)
 
 
-def introduction(contender: Contender) -> Method:
+def introduction(contender: Contender) -> MethodLine:
     """The record's line about what a method is."""
     names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
-    return Method(method=contender.name, **{name: getattr(contender, name) for name in names})
+    return MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names})
 
 
 def _judge(run: _Run, advance: Advance) -> None:
     truths: dict[str, WorkloadTruth] = {}
     with processes(run.plan.workers) as executor:
-        for truth in accuracy.known(run.plan, executor):
+        for truth in accuracy.workload_truths(run.plan, executor):
             truths[truth.workload.name] = truth
             advance(1)
         slowest_first = sorted(run.found, key=lambda name: run.found[name].timed or math.inf)  # they would end last
-        for answered in accuracy.asked(run.plan, slowest_first, executor):
+        for answered in accuracy.method_answers(run.plan, slowest_first, executor):
             run.answers += answered
             advance(1)
     methods, workloads = list(run.found), list(truths)
     run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
     for each in run.answers:
         if each.trouble:
-            run.recorder.add(Refused(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
+            run.recorder.add(RefusedLine(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
             run.outcome.because[Exit.WRONG].append(f"{each.method}: {each.trouble}")
         if not len(each.places):
             continue
-        line = accuracy.line(run.found[each.method], each, truths[each.workload])
+        line = accuracy.accuracy_line(run.found[each.method], each, truths[each.workload])
         run.recorder.add(line)
         if run.found[each.method].exact and (line.wrong or line.abstained):
             run.outcome.because[Exit.WRONG].append(f"{each.method} promises to be exact and is not, on {each.workload}")
@@ -188,8 +188,10 @@ def _judge(run: _Run, advance: Advance) -> None:
 
 def _map(run: _Run, advance: Advance) -> None:
     with processes(run.plan.workers) as executor:
-        bins = list(_counted(stability.lines(run.plan, stability.mapped(run.found), executor), advance))
-        maps = list(_counted(places.lines(run.plan, places.mapped(run.found), executor), advance))
+        bins = list(
+            _counted(error_maps.stability_lines(run.plan, error_maps.stability_methods(run.found), executor), advance)
+        )
+        maps = list(_counted(error_maps.place_lines(run.plan, error_maps.place_methods(run.found), executor), advance))
     order = list(run.found).index
     for line in sorted(bins, key=lambda each: order(each.method)):
         run.recorder.add(line)
@@ -200,23 +202,23 @@ def _map(run: _Run, advance: Advance) -> None:
 
 def _bound(run: _Run, advance: Advance) -> None:
     if run.shapes:
-        for line in shapes.lines(run.plan):
+        for line in error_maps.bounding_lines(run.plan):
             run.recorder.add(line)
     advance(1)
 
 
 def _measure(run: _Run, advance: Advance) -> None:
     before = load()
-    found = speed.measured(run.plan, speed.expected(run.answers), advance)
+    found = speed.measurements_of(run.plan, speed.expected_prints(run.answers), advance)
     run.recorder.add(
-        Conditions(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
+        ConditionsLine(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
     )
-    for line in speed.lines(found):
+    for line in speed.speed_lines(found):
         run.recorder.add(line)
         run.speeds.append(line)
-        if isinstance(line, Refused):
+        if isinstance(line, RefusedLine):
             run.outcome.because[Exit.WRONG].append(f"{line.method}: {line.reason}")
-    for claim in costs.lines(run.plan, found):
+    for claim in speed.cost_lines(run.plan, found):
         run.recorder.add(claim)
 
 
@@ -240,13 +242,13 @@ def _compare(run: _Run, advance: Advance) -> None:
 
 def _refine(run: _Run, advance: Advance) -> None:
     if run.meshes:
-        for line in _counted(convergence.lines(run.plan), advance):
+        for line in _counted(error_maps.convergence_lines(run.plan), advance):
             run.recorder.add(line)
 
 
 def _weigh(run: _Run, advance: Advance) -> None:
     if run.plan.amounts.memory:
-        for line in _counted(memory.lines(run.plan, run.timed), advance):
+        for line in _counted(accuracy.memory_lines(run.plan, run.timed), advance):
             run.recorder.add(line)
 
 

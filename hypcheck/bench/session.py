@@ -7,26 +7,25 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hypcheck.bench.accuracy import chosen_workloads, print_of, timed_rows
-from hypcheck.bench.claims import Claim, claims
-from hypcheck.bench.contenders import Contender, contenders
-from hypcheck.bench.contenders.ways import Empty, Prepared, Way
-from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.rounds import Entry, Samples, measure
-from hypcheck.bench.workloads import Workload
-from hypcheck.rows import Rows
+from hypcheck.bench.accuracy import answers_print, chosen_workloads, timed_rows
+from hypcheck.bench.claims import CostClaim, cost_claims
+from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import REFERENCE, BenchPlan, Workload
+from hypcheck.bench.timing import Samples, TimingEntry, measure
+from hypcheck.geometry.rows import Rows
 
-MODES: Mapping[str, Callable[[Way, Rows], Prepared | None]] = {
+MODES: Mapping[str, Callable[[LoadedMethod, Rows], PreparedWork | None]] = {
     "batch": lambda way, rows: way.batch(rows),
     "single": lambda way, rows: way.single(rows),
     "build": lambda way, rows: way.build(rows),
 }
 """What is timed of a method: many rows by one call, rows one by one, and what is built before."""
 
-AGAIN = f"{REFERENCE} again"
+REFERENCE_AGAIN = f"{REFERENCE} again"
 """The reference a second time: what separates it from itself is noise."""
 
-ON: Mapping[str, tuple[str, ...]] = {"single": ("uniform", "near-contact"), "build": ("uniform",)}
+MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {"single": ("uniform", "near-contact"), "build": ("uniform",)}
 """The workloads on which a mode is timed, if not all: a row on its own has no neighbours, and a mesh is the scene's."""
 
 BUILDS = 2
@@ -35,7 +34,7 @@ BUILDS = 2
 NOT_ANSWERED = "not answered"
 """Stands in place of a print: it failed when it was judged, which is recorded already."""
 
-COST = "cost of "
+COST_OF = "cost of "
 """What the name of a claim stands behind in place of a workload."""
 
 FIRST_AGAIN = "the first again"
@@ -43,12 +42,12 @@ FIRST_AGAIN = "the first again"
 
 EMPTY_CALL = "an empty call"
 
-Key = tuple[str, str, str]
+MeasurementKey = tuple[str, str, str]
 """A method, a workload and a mode."""
 
 
 @dataclass(frozen=True)
-class Session:
+class MeasuringSession:
     """What one process is to measure.
 
     `expected` are the prints of the answers by method, workload and mode; a method whose answers have another print is
@@ -57,19 +56,19 @@ class Session:
 
     plan: BenchPlan
     number: int
-    expected: Mapping[Key, str]
-    loops: Mapping[Key, tuple[int, int]]
+    expected: Mapping[MeasurementKey, str]
+    loops: Mapping[MeasurementKey, tuple[int, int]]
 
 
 @dataclass(frozen=True)
-class Measured:
+class Measurement:
     """What one process measured of one method, workload and mode; `empty_ns` is taken off the samples already.
 
     What is left of them may be less than nothing, where noise made the call that does nothing take longer. `calls_ns`
     are the samples of that call, in nanoseconds a row of the method.
     """
 
-    key: Key
+    key: MeasurementKey
     samples: Samples
     empty_ns: float
     timed_by: str
@@ -77,18 +76,18 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class _Field:
+class _MeasuredTogether:
     """Those that are measured together: ready, and the empty calls that are taken off them, by their names."""
 
     where: tuple[str, str]
-    ready: dict[str, Prepared]
-    empties: dict[str, Prepared]
+    ready: dict[str, PreparedWork]
+    empties: dict[str, PreparedWork]
     empty_of: dict[str, str]
-    refused: list[Measured]
+    refused: list[Measurement]
     sums: dict[str, int] = field(default_factory=dict)
 
 
-def run(session: Session) -> list[Measured]:
+def run_session(session: MeasuringSession) -> list[Measurement]:
     """Everything, in the order of workloads and modes."""
     found = contenders(session.plan)
     ways = {name: each.load() for name, each in found.items() if not each.accuracy_only}
@@ -98,7 +97,7 @@ def run(session: Session) -> list[Measured]:
             for mode in _modes(workload):
                 here = _field(session, found, ways, workload, mode)
                 measured += [*here.refused, *_measured(session, here)]
-        for claim in claims(session.plan):
+        for claim in cost_claims(session.plan):
             measured += _measured(session, _compared(session, claim))
     finally:
         for way in ways.values():
@@ -106,22 +105,28 @@ def run(session: Session) -> list[Measured]:
     return measured
 
 
-def _compared(session: Session, claim: Claim) -> _Field:
+def _compared(session: MeasuringSession, claim: CostClaim) -> _MeasuredTogether:
     """The ways that a claim about cost compares, and the first of them again."""
     ready = claim.compared(session.plan)
     again = {FIRST_AGAIN: next(iter(ready.values()))}
-    return _Field((f"{COST}{claim.name}-{claim.tier}", "batch"), {**ready, **again}, {}, {}, [])
+    return _MeasuredTogether((f"{COST_OF}{claim.name}-{claim.tier}", "batch"), {**ready, **again}, {}, {}, [])
 
 
 def _modes(workload: Workload) -> Sequence[str]:
     """What is timed on a workload: what would only say the same again is left out."""
-    return tuple(mode for mode in MODES if workload.timed and workload.name in ON.get(mode, (workload.name,)))
+    return tuple(
+        mode for mode in MODES if workload.timed and workload.name in MODE_WORKLOADS.get(mode, (workload.name,))
+    )
 
 
 def _field(
-    session: Session, found: Mapping[str, Contender], ways: Mapping[str, Way], workload: Workload, mode: str
-) -> _Field:
-    here = _Field((workload.name, mode), {}, {}, {}, [])
+    session: MeasuringSession,
+    found: Mapping[str, Contender],
+    ways: Mapping[str, LoadedMethod],
+    workload: Workload,
+    mode: str,
+) -> _MeasuredTogether:
+    here = _MeasuredTogether((workload.name, mode), {}, {}, {}, [])
     for name, way in ways.items():
         rows = timed_rows(session.plan, found[name], workload)
         if mode == "single":
@@ -132,45 +137,45 @@ def _field(
         if ready is None:
             continue
         answers = ready.answers()
-        if told is not None and print_of(answers) != told:
+        if told is not None and answers_print(answers) != told:
             reason = "its answers, when it was about to be timed, were not those that were judged"
-            here.refused.append(Measured(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
+            here.refused.append(Measurement(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
             continue
         here.ready[name], here.sums[name] = ready, int(answers.sum(dtype=np.int64))
         _with_empty(here, name, way.empty(rows, mode))
     return here
 
 
-def _with_empty(here: _Field, name: str, empty: Empty | None) -> None:
+def _with_empty(here: _MeasuredTogether, name: str, empty: EmptyCall | None) -> None:
     if empty is not None:
         here.empty_of[name] = f"{EMPTY_CALL} of {empty.name}"
         here.empties.setdefault(here.empty_of[name], empty.ready)
 
 
-def _measured(session: Session, here: _Field) -> Iterator[Measured]:
+def _measured(session: MeasuringSession, here: _MeasuredTogether) -> Iterator[Measurement]:
     if not here.ready:
         return
-    todo = {**here.ready, **({AGAIN: here.ready[REFERENCE]} if REFERENCE in here.ready else {})}
+    todo = {**here.ready, **({REFERENCE_AGAIN: here.ready[REFERENCE]} if REFERENCE in here.ready else {})}
     samples = _rounds(session, here, {**todo, **here.empties})
     for name, ready in todo.items():
         found = samples[name]
-        empty = samples.get(here.empty_of.get(REFERENCE if name == AGAIN else name, ""))
+        empty = samples.get(here.empty_of.get(REFERENCE if name == REFERENCE_AGAIN else name, ""))
         empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
         share = 1 if here.where[1] == "single" else 1 / ready.rows
         found.samples_ns = [sample - share * empty_ns for sample in found.samples_ns]
         calls = () if empty is None else tuple(share * sample for sample in empty.samples_ns)
-        yield Measured((name, *here.where), found, empty_ns, ready.timed_by, calls)
+        yield Measurement((name, *here.where), found, empty_ns, ready.timed_by, calls)
     for name in here.empties:
-        yield Measured((name, *here.where), samples[name], 0.0, "process")
+        yield Measurement((name, *here.where), samples[name], 0.0, "process")
 
 
-def _rounds(session: Session, here: _Field, todo: Mapping[str, Prepared]) -> dict[str, Samples]:
+def _rounds(session: MeasuringSession, here: _MeasuredTogether, todo: Mapping[str, PreparedWork]) -> dict[str, Samples]:
     where, entries = here.where, []
     for name, each in todo.items():
-        total = here.sums.get(REFERENCE if name == AGAIN else name)
+        total = here.sums.get(REFERENCE if name == REFERENCE_AGAIN else name)
         total = int(each.answers().sum(dtype=np.int64)) if total is None else total
         loops, takes = session.loops.get((name, *where), (None, 1))
-        entries.append(Entry(name, each.rows, each.run, total, loops, takes))
+        entries.append(TimingEntry(name, each.rows, each.run, total, loops, takes))
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
     rounds = BUILDS if where[1] == "build" else session.plan.rounds

@@ -1,4 +1,9 @@
-"""From what the processes measured to the record's lines: medians, ratios to the reference, and the noise floor."""
+"""Times as lines of the record: medians, ratios to the reference, the noise floor, verdicts on claims about cost.
+
+From what the processes measured to the record's lines: medians, ratios to the reference, and the noise floor.
+
+What came of the paper's claims about cost: ratios to the printed way, and a verdict where noise allows one.
+"""
 
 from __future__ import annotations
 
@@ -7,38 +12,59 @@ from statistics import median
 
 from msgspec import UNSET
 
-from hypcheck.bench import session
+from hypcheck.bench import claims, session
 from hypcheck.bench.accuracy import MethodAnswers
+from hypcheck.bench.claims import (
+    OURS,
+    PRINTED,
+    PRINTED_A,
+    PRINTED_B,
+    RECIPROCALS,
+    REPAIRED_1,
+    REPAIRED_A,
+    REPAIRED_B,
+    TRIGONOMETRIC,
+    CostClaim,
+)
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.session import AGAIN, COST, EMPTY_CALL, NOT_ANSWERED, Key, Measured, Session
-from hypcheck.bench.statistics import LEAST_NS, Estimate, estimate, ratios
+from hypcheck.bench.session import (
+    COST_OF,
+    EMPTY_CALL,
+    FIRST_AGAIN,
+    NOT_ANSWERED,
+    REFERENCE_AGAIN,
+    Measurement,
+    MeasurementKey,
+    MeasuringSession,
+)
+from hypcheck.bench.timing import LEAST_NS, Estimate, estimate, ratios
 from hypcheck.processes import fresh, perform
-from hypcheck.record.measurements import Noise, Refused, Speed, Unmeasured
+from hypcheck.record.measurements import Compared, CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
 
 UNLIKE = 0.1
 """Relative to a call that does nothing: through ctypes it takes 200 ns, and 7 ns more or less by its arguments."""
 
 Advance = Callable[[int], object]
-Found = dict[Key, list[Measured]]
+Measurements = dict[MeasurementKey, list[Measurement]]
 """What each process measured, by method, workload and mode."""
 
 
-def expected(answers: list[MethodAnswers]) -> dict[Key, str]:
+def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
     """The prints of the answers that were judged, by method, workload and mode."""
-    found: dict[Key, str] = {}
+    found: dict[MeasurementKey, str] = {}
     for each in answers:
         found[each.method, each.workload, "batch"] = NOT_ANSWERED if each.trouble else each.batch_print
         found[each.method, each.workload, "single"] = NOT_ANSWERED if each.trouble else each.single_print
     return found
 
 
-def measured(plan: BenchPlan, prints: Mapping[Key, str], advance: Advance) -> Found:
+def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advance: Advance) -> Measurements:
     """What the processes measured, one process after the other; the first calibrates for all."""
-    found: Found = {}
-    loops: dict[Key, tuple[int, int]] = {}
+    found: Measurements = {}
+    loops: dict[MeasurementKey, tuple[int, int]] = {}
     for number in range(plan.processes):
         with fresh(1) as executor:
-            ((_, results),) = perform(session.run, [Session(plan, number, prints, loops)], executor)
+            ((_, results),) = perform(session.run_session, [MeasuringSession(plan, number, prints, loops)], executor)
         for each in results:
             found.setdefault(each.key, []).append(each)
             loops.setdefault(each.key, (each.samples.loops, each.samples.takes))
@@ -46,26 +72,26 @@ def measured(plan: BenchPlan, prints: Mapping[Key, str], advance: Advance) -> Fo
     return found
 
 
-def lines(found: Found) -> Iterator[Noise | Speed | Unmeasured | Refused]:
+def speed_lines(found: Measurements) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
     """The record's lines: noise before the speeds it belongs to; those without a time last."""
-    found = {key: parts for key, parts in found.items() if not key[1].startswith(COST)}
+    found = {key: parts for key, parts in found.items() if not key[1].startswith(COST_OF)}
     refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
     timed = {key: parts for key, parts in found.items() if key not in refused and key not in hidden}
     for name, workload, mode in timed:
-        if name == AGAIN and (REFERENCE, workload, mode) in timed:
+        if name == REFERENCE_AGAIN and (REFERENCE, workload, mode) in timed:
             yield _noise(timed, workload, mode)
     for key in timed:
-        if key[0] != AGAIN and not key[0].startswith(EMPTY_CALL):
-            yield _line(timed, key)
+        if key[0] != REFERENCE_AGAIN and not key[0].startswith(EMPTY_CALL):
+            yield _speed_line(timed, key)
     for (name, workload, mode), reason in hidden.items():
-        if name != AGAIN:
-            yield Unmeasured(method=name, workload=workload, mode=mode, reason=reason)
+        if name != REFERENCE_AGAIN:
+            yield UnmeasuredLine(method=name, workload=workload, mode=mode, reason=reason)
     for (name, workload, mode), reason in refused.items():
-        yield Refused(method=name, workload=workload, mode=mode, reason=reason)
+        yield RefusedLine(method=name, workload=workload, mode=mode, reason=reason)
 
 
-def _hidden(parts: list[Measured]) -> str | None:
+def _hidden(parts: list[Measurement]) -> str | None:
     """Why the time cannot be told from that of a call that does nothing, which is taken off; None where it can.
 
     It can where the 95 % intervals of the two medians, before anything is taken off, lie apart by more than UNLIKE: so
@@ -78,32 +104,32 @@ def _hidden(parts: list[Measured]) -> str | None:
     if call.low > (1 + UNLIKE) * empty.high and any(map(_possible, parts)):
         return None
     return (
-        f"its time, {_told(call)}, cannot be told from that of a call that does nothing, {_told(empty)}, which must be "
-        "taken off"
+        f"its time, {_time_text(call)}, cannot be told from that of a call that does nothing, "
+        f"{_time_text(empty)}, which must be taken off"
     )
 
 
-def _told(time: Estimate) -> str:
+def _time_text(time: Estimate) -> str:
     return f"{time.median:.3g} ns ({time.low:.3g} to {time.high:.3g})"
 
 
-def _possible(part: Measured) -> list[float]:
+def _possible(part: Measurement) -> list[float]:
     """The samples of a process of which something is left; no clock tells more than six digits of them."""
     return [float(f"{sample:.6g}") for sample in part.samples.samples_ns if sample > LEAST_NS]
 
 
-def _refusal(parts: list[Measured]) -> str | None:
+def _refusal(parts: list[Measurement]) -> str | None:
     return next((each.samples.refused for each in parts if each.samples.refused), None)
 
 
-def _line(found: Found, key: Key) -> Speed:
+def _speed_line(found: Measurements, key: MeasurementKey) -> SpeedLine:
     name, workload, mode = key
     parts = found[key]
     first = parts[0].samples
     samples = [possible for part in parts if (possible := _possible(part))]
     dropped = sum(len(part.samples.samples_ns) for part in parts) - sum(map(len, samples))
     time, ratio = estimate(samples), _ratio(found, key)
-    return Speed(
+    return SpeedLine(
         method=name,
         workload=workload,
         mode=mode,
@@ -121,7 +147,7 @@ def _line(found: Found, key: Key) -> Speed:
     )
 
 
-def _ratio(found: Found, key: Key) -> Estimate | None:
+def _ratio(found: Measurements, key: MeasurementKey) -> Estimate | None:
     _, workload, mode = key
     reference = found.get((REFERENCE, workload, mode))
     if reference is None or _refusal(reference):
@@ -130,11 +156,11 @@ def _ratio(found: Found, key: Key) -> Estimate | None:
     return estimate(pairs) if any(pairs) else None
 
 
-def _noise(found: Found, workload: str, mode: str) -> Noise:
-    ratio = _ratio(found, (AGAIN, workload, mode))
+def _noise(found: Measurements, workload: str, mode: str) -> NoiseLine:
+    ratio = _ratio(found, (REFERENCE_AGAIN, workload, mode))
     if ratio is None:
-        raise ValueError(f"{AGAIN} was measured in {workload}, {mode} without {REFERENCE}")
-    return Noise(
+        raise ValueError(f"{REFERENCE_AGAIN} was measured in {workload}, {mode} without {REFERENCE}")
+    return NoiseLine(
         workload=workload,
         mode=mode,
         ratio=ratio.median,
@@ -143,6 +169,93 @@ def _noise(found: Found, workload: str, mode: str) -> Noise:
     )
 
 
-def samples_of(parts: list[Measured]) -> list[list[float]]:
+def samples_of(parts: list[Measurement]) -> list[list[float]]:
     """Nanoseconds a row of each round, process by process; no clock tells more than six digits of them."""
     return [[float(f"{sample:.6g}") for sample in each.samples.samples_ns] for each in parts]
+
+
+HOLDS, DOES_NOT_HOLD, INCONCLUSIVE = "holds", "does not hold", "inconclusive"
+
+Ratios = Mapping[str, Estimate]
+
+
+def cost_lines(plan: BenchPlan, found: Measurements) -> Iterator[CostLine]:
+    """A line for each claim."""
+    for claim in claims.cost_claims(plan):
+        where = f"{COST_OF}{claim.name}-{claim.tier}"
+        samples = {
+            name: samples_of(parts) for (name, workload, _), parts in found.items() if workload == where and parts
+        }
+        first = next(iter(samples))
+        to_first = {name: estimate(ratios(each, samples[first])) for name, each in samples.items()}
+        noise = 1 + to_first.pop(FIRST_AGAIN).half_width
+        verdict, says = _SAYS[claim.name](plan, claim, to_first, noise)
+        yield CostLine(
+            claim=claim.text,
+            scene=claim.scene,
+            compared=[
+                Compared(
+                    name=name,
+                    operations=claims.shown_operations(claim.operations[name]) if name in claim.operations else None,
+                    median_ns=estimate(samples[name]).median,
+                    ratio=ratio.median,
+                    ratio_ci95=(ratio.low, ratio.high),
+                )
+                for name, ratio in to_first.items()
+            ],
+            verdict=verdict,
+            says=says,
+        )
+
+
+def _procedures(plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
+    second, ours = found[PRINTED_B], found[OURS]
+    share = claims.share_touching(claims.flight_of(plan.seed, plan.amounts.bodies))
+    four, hull = claim.operations[PRINTED_A].rounded, claims.hull_operations().rounded
+    return cheaper(second, noise), (
+        f"2.b takes {_ratio_text(second)} of 2.a's time and ours {_ratio_text(ours)}; put right, 2.a takes "
+        f"{_ratio_text(found[REPAIRED_A])} and 2.b {_ratio_text(found[REPAIRED_B])}; Δ ≤ 0 at {100 * share:.1f} % of "
+        f"positions; 2.a rounds {four} times a position, 2.b {hull} times and, where Δ ≤ 0, {four} times more."
+    )
+
+
+def _divisions(_plan: BenchPlan, claim: CostClaim, found: Ratios, _noise: float) -> tuple[str, str]:
+    divisions = claim.operations[PRINTED].divisions
+    return (HOLDS if divisions == 0 else DOES_NOT_HOLD), (
+        f"The loop takes {divisions} divisions a position, by b² and by d; with their reciprocals kept outside it "
+        f"takes {claim.operations[RECIPROCALS].divisions} and {_ratio_text(found[RECIPROCALS])} of the time. "
+        f"Put right, Procedure 1 takes {_ratio_text(found[REPAIRED_1])} of it."
+    )
+
+
+def _roots(_plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
+    others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in found.items() if name != PRINTED)
+    counted = claim.operations.get(TRIGONOMETRIC)
+    functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
+    return dearer(found[TRIGONOMETRIC], noise), (
+        f"Of Table 2's time take: {others}. Trigonometric functions: {functions} for the roots, none for "
+        "the coefficients."
+    )
+
+
+_SAYS = {"procedures": _procedures, "divisions": _divisions, "roots": _roots}
+
+
+def cheaper(ratio: Estimate, noise: float) -> str:
+    """Whether it takes less time than the first, for certain, whatever the noise."""
+    if ratio.high * noise < 1:
+        return HOLDS
+    return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
+
+
+def dearer(ratio: Estimate, noise: float) -> str:
+    """Whether it takes more time than the first."""
+    if ratio.low / noise > 1:
+        return HOLDS
+    return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE
+
+
+def _ratio_text(ratio: Estimate) -> str:
+    values = (ratio.median, ratio.low, ratio.high)
+    middle, low, high = (f"{value:.3g}" if value < 1000 else f"{value:,.0f}" for value in values)
+    return f"{middle} ({low} to {high})"

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.options import Number, Place, names_in
+from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, names_in
 from hypcheck.cli.recording import perform, recording
 from hypcheck.cli.settings import in_effect
-from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
 from hypcheck.errors import Exit, InputError, RunOutcome
 
 if TYPE_CHECKING:
@@ -19,18 +18,20 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option("--out", type=Place(), default=Path("reports/bench"), show_default=True)
+@click.option("--out", type=OutputPath(), default=Path("reports/bench"), show_default=True)
 @click.option(
     "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
 )
 @click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
-@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--processes", type=Whole(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
-@click.option("--rounds", type=Whole(1), help="Rounds in each process.  [default: 5; quick: 3]")
-@click.option("--workers", type=Whole(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]")
+@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--processes", type=IntegerOption(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
+@click.option("--rounds", type=IntegerOption(1), help="Rounds in each process.  [default: 5; quick: 3]")
+@click.option(
+    "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]"
+)
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to be held to.")
-@click.option("--max-slowdown", type=Number(1), help="What --baseline allows.  [default: 1.1]")
+@click.option("--max-slowdown", type=NumberOption(1), help="What --baseline allows.  [default: 1.1]")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
 @click.option(
@@ -53,10 +54,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
-    from hypcheck.gate.fingerprint import fingerprints
-    from hypcheck.gate.ourselves import Unchanged
     from hypcheck.processes import usable_processors
     from hypcheck.report.write import import_all
+    from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
 
     quick = options["quick"]
     if options["max_slowdown"] is not None and options["baseline"] is None:
@@ -81,7 +81,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     outcome = RunOutcome()
     files = fingerprints(specs) if specs else None
     import_all()
-    unchanged = Unchanged(files) if files is not None else None
+    unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
     optional = {"files": files, "program": unchanged.program if unchanged else None, "settings": in_effect(context)}

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
-from hypcheck.cli.groups import Group
-from hypcheck.cli.whole import LARGEST_SEED, Whole
+from hypcheck.cli.commands import CommandGroup
+from hypcheck.cli.options import LARGEST_SEED, IntegerOption
 from hypcheck.errors import InputError
-from hypcheck.visible import counted, printable
+from hypcheck.messages import counted, printable
 
 _FORMATS = ("json", "csv", "npy")
 
 
-@click.group(cls=Group, short_help="List, show, generate and check certified test vectors.")
+@click.group(cls=CommandGroup, short_help="List, show, generate and check certified test vectors.")
 def cases() -> None:
     """Certified test vectors: rows, right answers, and a proof of each answer.
 
@@ -26,7 +26,7 @@ def cases() -> None:
 @cases.command("list", short_help="Say what families there are, and how many cases of each are frozen.")
 def list_() -> None:
     """Say what families there are, and how many cases of each are frozen."""
-    from hypcheck.casebook.frozen.showing import list_lines
+    from hypcheck.vectors.showing import list_lines
 
     for line in list_lines():
         click.echo(printable(line))
@@ -37,7 +37,7 @@ def list_() -> None:
 @click.option("--json", "as_json", is_flag=True, help="As it stands in the file.")
 def show(name: str, as_json: bool) -> None:
     """Show a family, a frozen case (ring-0007) or a generated one (ring/1/42/7)."""
-    from hypcheck.casebook.frozen.showing import show as lines_of
+    from hypcheck.vectors.showing import show as lines_of
 
     for line in lines_of(name, as_json=as_json):
         click.echo(printable(line))
@@ -45,8 +45,8 @@ def show(name: str, as_json: bool) -> None:
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
 @click.argument("family")
-@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--count", type=Whole(1), default=100, show_default=True, help="Rows.")
+@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Rows.")
 @click.option("--format", "said", type=click.Choice(_FORMATS), help="By default what --output ends in, or json.")
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:
@@ -56,7 +56,7 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
 
     As json they are a vector file, every row labelled and proved; csv has ids and rows, npy rows alone, float64 (n, 7).
     """
-    from hypcheck.casebook.frozen.generating import generate as write
+    from hypcheck.vectors.showing import generate as write
 
     write(family, seed, count, said or _format_of(target), target)
 
@@ -78,14 +78,14 @@ def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
 
     Ends with 1 where a label or a head is wrong, 2 where a file is not as its schema demands.
     """
-    from hypcheck.casebook.frozen.examining import examine, shipped
     from hypcheck.errors import Exit
     from hypcheck.proofs.build import run_checker
+    from hypcheck.vectors.examining import examine, shipped_files
 
     if checker == "coq":
-        context.exit(run_checker(list(files) or shipped()))
+        context.exit(run_checker(list(files) or shipped_files()))
     checked, faulty, heads = 0, 0, 0
-    for report in examine(files or shipped()):
+    for report in examine(files or shipped_files()):
         for wrong in report.head:
             click.echo(printable(f"{report.path}, line {wrong.line}: {wrong.sentence}"))
         for fault in report.faults:
@@ -107,8 +107,8 @@ def freeze(names: tuple[str, ...], into: Path) -> None:
 
     Everything takes about two minutes, most of them the search for the worst cancellation.
     """
-    from hypcheck.casebook.frozen.freezing import NAMES
-    from hypcheck.casebook.frozen.freezing import freeze as write
+    from hypcheck.vectors.freezing import NAMES
+    from hypcheck.vectors.freezing import freeze as write
 
     write(names or NAMES, into, lambda name: click.echo(printable(into / f"{name}.json")))
 

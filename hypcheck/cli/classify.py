@@ -10,9 +10,9 @@ import click
 
 from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
-from hypcheck.pairs import CENTER, SIZES, Pair
+from hypcheck.geometry.pair import CENTER, SIZES, Pair
 from hypcheck.tables.numbers import number_of_text
-from hypcheck.tables.route import FORMATS, Route, route
+from hypcheck.tables.streams import FORMATS, Route, route
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,22 +90,22 @@ def classify(
 
 def answer_pair(question: OnePair) -> None:
     """Print the answer about one pair."""
-    from hypcheck.classification.answer import answer
+    from hypcheck.answer import answer
 
     found = answer(question.pair)
     if question.as_json:
-        from hypcheck.classification.as_json import answer_as_json
+        from hypcheck.answer import answer_as_json
 
         click.echo(answer_as_json(found))
     else:
-        from hypcheck.classification.text import answer_as_text
+        from hypcheck.answer import answer_as_text
 
         click.echo(answer_as_text(found))
 
 
 def answer_table(question: OneTable) -> None:
     """Write the answers about a table."""
-    from hypcheck.classification.table import classify_table
+    from hypcheck.answers import classify_table
 
     classify_table(question.route, mark=question.mark, watch=_watch)
 

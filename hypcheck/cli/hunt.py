@@ -1,4 +1,11 @@
-"""`hypcheck hunt`: options into a plan, the hunt under a progress bar, what it found, the exit code."""
+"""`hypcheck hunt`, `minimise` and `replay`: wrong answers are found, made simple, and shown beside the truth.
+
+`hypcheck hunt`: options into a plan, the hunt under a progress bar, what it found, the exit code.
+
+`hypcheck minimise`: from a wrong answer to the simplest row that is answered wrongly in the same way.
+
+`hypcheck replay`: one case asked of one implementation, with the truth, its proof and the formula's values.
+"""
 
 from __future__ import annotations
 
@@ -6,29 +13,30 @@ import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.options import Command, Number, Place, limits_of, with_limits
+from hypcheck.cli.options import LARGEST_SEED, Command, IntegerOption, NumberOption, OutputPath, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import announce_file
-from hypcheck.cli.whole import LARGEST_SEED, Whole
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
-from hypcheck.visible import counted, printable
+from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
-    from hypcheck.hunt.hunting import Hunt, Target
-    from hypcheck.hunt.search import Progress
+    from hypcheck.runs.hunt import Hunt, HuntTarget
+    from hypcheck.runs.hunt_search import Progress
 
-SUBJECT = (
+
+IMPLEMENTATION_OPTIONS = (
     click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
     click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
     click.option("--domain", metavar="JSON", help="Where it is asked, in place of what it declares."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="In units u."),
+    click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u."),
     with_limits,
 )
 """How an implementation is opened and judged: options that every command that asks one alone has."""
@@ -36,7 +44,7 @@ SUBJECT = (
 
 def about_one_implementation(command: Command) -> Command:
     """The command with the options of SUBJECT, for `opened`."""
-    for option in reversed(SUBJECT):
+    for option in reversed(IMPLEMENTATION_OPTIONS):
         command = option(command)
     return command
 
@@ -51,12 +59,12 @@ def opened(
     regimes: str | None,
     tolerance: float,
     **limits: Any,  # noqa: ANN401 - of with_limits
-) -> Iterator[Target]:
+) -> Iterator[HuntTarget]:
     """The implementation that SPEC names, running, and what the options say of it. Raises InputError, StartError."""
-    from hypcheck.hunt.hunting import target_of
-    from hypcheck.judge import DEFAULT_TOLERANCE
-    from hypcheck.methods.description import parse_domain
-    from hypcheck.methods.opening import open_implementation
+    from hypcheck.implementations.description import parse_domain
+    from hypcheck.implementations.implementation import open_implementation
+    from hypcheck.runs.hunt import target_of
+    from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
     said = {"question": question, "precision": precision, "domain": domain, "regimes": regimes}
     options = [(f"--{name}", value) for name, value in said.items() if value is not None]
@@ -76,7 +84,7 @@ def opened(
         )
 
 
-_HELP = """\
+_HUNT_HELP = """\
 Look for answers of SPEC that are wrong by much: thin sets of rows first, then ever worse ones next to these.
 
 \b
@@ -87,13 +95,15 @@ Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing)
 """
 
 
-@click.command(help=_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
+@click.command(help=_HUNT_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
-@click.option("--budget", type=Number(0, excluded=True), help="Seconds.  [default: 60, or none with --queries]")
-@click.option("--queries", type=Whole(1), help="Rows asked at most; with no --budget the same is found again.")
-@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--show", type=Whole(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
-@click.option("--out", type=Place(), metavar="FILE", help="A vector file to which the worst row of each kind is added.")
+@click.option("--budget", type=NumberOption(0, excluded=True), help="Seconds.  [default: 60, or none with --queries]")
+@click.option("--queries", type=IntegerOption(1), help="Rows asked at most; with no --budget the same is found again.")
+@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--show", type=IntegerOption(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
+@click.option(
+    "--out", type=OutputPath(), metavar="FILE", help="A vector file to which the worst row of each kind is added."
+)
 @about_one_implementation
 @click.pass_context
 def hunt(
@@ -108,13 +118,13 @@ def hunt(
     **subject: Any,  # noqa: ANN401 - the options of SUBJECT
 ) -> None:
     """Hunt for the budget, and tell what was found; interrupted, what was found until then."""
-    from hypcheck.hunt.hunting import Hunt, Plan
+    from hypcheck.runs.hunt import Hunt, HuntPlan
 
     if out is not None:
-        from hypcheck.hunt.keep import require_keepable
+        from hypcheck.runs.keep import require_keepable
 
         require_keepable(str(out))
-    plan = Plan(60.0 if budget is None and queries is None else budget, queries, seed)
+    plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
         run = Hunt(target, plan)
         try:
@@ -126,16 +136,16 @@ def hunt(
 
 def _pursue(run: Hunt) -> None:
     """Hunt, under a progress bar where a person is watching."""
-    from hypcheck.hunt.search import hunt as pursue
+    from hypcheck.runs.hunt_search import run_hunt as pursue
 
     if not is_terminal(sys.stderr):
         pursue(run)
         return
     with click.progressbar(length=1000, label="hunt", file=sys.stderr, show_pos=False, show_eta=False) as bar:
-        pursue(run, _shown(bar))
+        pursue(run, _progress_shown(bar))
 
 
-def _shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public name for its bars
+def _progress_shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public name for its bars
     def show(run: Hunt) -> None:
         kinds = len(run.findings.worst_first())
         bar.label = f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers"
@@ -145,16 +155,16 @@ def _shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public name for
 
 
 def _tell(run: Hunt, show: int, out: Path | None) -> None:
-    from hypcheck.hunt.text import hunt_lines
+    from hypcheck.runs.hunt_text import hunt_lines
 
     for line in hunt_lines(run, show):
         click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
-        from hypcheck.hunt.keep import keep
+        from hypcheck.runs.keep import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
-        added = keep(str(out), [cluster.worst.case.row for cluster in found], made_by)
+        added = keep_rows(str(out), [cluster.worst.case.row for cluster in found], made_by)
         click.echo(
             f"\n{printable(out)}: {counted(added, 'row')} added"
             f"{'' if added == len(found) else ', the others were there'}"
@@ -163,7 +173,7 @@ def _tell(run: Hunt, show: int, out: Path | None) -> None:
 
 def _exit_code(run: Hunt) -> Exit:
     """Raises NothingJudgedError where no row was answered, for a reason that is no fault of the implementation."""
-    from hypcheck.judge import Status
+    from hypcheck.runs.judge import Status
 
     broken = not run.answered and set(run.faults) - {Status.NOT_RUN} == {Status.PROTOCOL}
     if run.answered == run.counts[Status.ABSTAINED.value] and not run.faults:
@@ -176,3 +186,102 @@ def _regimes(text: str | None) -> tuple[str, ...] | None:
     if text is None:
         return None
     return () if text == "any" else tuple(name.strip() for name in text.split(","))
+
+
+_MINIMISE_HELP = """\
+Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
+
+CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z, or RECORD:N, as for `hypcheck replay`.
+
+\b
+hypcheck minimise builtin:table-2-float64 ring/1/0/3
+hypcheck minimise library:./libcollide.so "2.1,17.8,0.25,0.15,1.31,-0.4,7"
+
+Ends with 0 when the simplest row is shown, 2 where the answer to CASE is not wrong, 5 when SPEC cannot be started.
+"""
+
+
+@click.command(help=_MINIMISE_HELP, short_help="Simplify a row that an implementation answers wrongly.")
+@click.argument("spec")
+@click.argument("case")
+@about_one_implementation
+def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of SUBJECT
+    """Simplify, and tell what came of it."""
+    from hypcheck.answer import answer, answer_as_text
+    from hypcheck.geometry.pair import Pair
+    from hypcheck.runs.hunt_text import minimised_lines
+    from hypcheck.runs.minimise import minimise as simplify
+    from hypcheck.runs.replay import case_of
+    from hypcheck.vectors.families import is_extreme
+
+    given = case_of(case)
+    with opened(spec, **subject) as target:
+        run = simplify(replace(target, extreme=is_extreme(given.name)), Pair.from_row(given.row))
+    for line in minimised_lines(run):
+        click.echo(printable(line))
+    click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(run.last.case.row)))}")
+
+
+_REPLAY_HELP = """\
+Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
+
+CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats, or
+RECORD:N, the N-th case that a record.jsonl (or the folder of its run) has kept, as reports number them.
+
+\b
+hypcheck replay ring-0007 builtin:table-2-float64
+hypcheck replay 2,5,1,1,3,0,0 library:./libcollide.so
+hypcheck replay reports/latest/record.jsonl:3 "command:./adapter --fast"
+
+The values of a formula are those of a straight-line program, in the implementation's precision beside exact arithmetic.
+>> marks the first decision that rounding turned, and > the number it was taken from.
+
+Ends with 0 when the answer is right or tolerated, 1 when it is not, 5 when SPEC cannot be started.
+"""
+
+
+@click.command(help=_REPLAY_HELP, short_help="Show an implementation's answer to one case, and where it goes wrong.")
+@click.argument("case")
+@click.argument("spec")
+@click.option("--formula", metavar="NAME", help="Whose values to show.  [default: its own, or one that answers alike]")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
+@click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]")
+@click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
+@click.option("--domain", metavar="JSON", help="Where it claims to be right, in place of what it declares.")
+@click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u.")
+@with_limits
+@click.pass_context
+def replay(
+    context: click.Context,
+    /,
+    case: str,
+    spec: str,
+    formula: str | None,
+    as_json: bool,
+    precision: str | None,
+    question: str | None,
+    domain: str | None,
+    tolerance: float,
+    **limits: Any,  # noqa: ANN401 - of with_limits
+) -> None:
+    """Replay, and tell what came of it."""
+    from hypcheck.implementations.description import parse_domain
+    from hypcheck.implementations.implementation import open_implementation
+    from hypcheck.runs.intermediates import require_formula
+    from hypcheck.runs.judge import Criterion
+    from hypcheck.runs.replay import case_of
+    from hypcheck.runs.replay import replay as run
+    from hypcheck.runs.replay_results import replay_as_json, replay_lines
+
+    asked = case_of(case)
+    require_formula(formula)
+    claimed = None if domain is None else parse_domain(domain)
+    announce_file()
+    with open_implementation(
+        spec, limits_of(**limits), precision=precision, question=question, domain=claimed
+    ) as implementation:
+        used = implementation.description
+        done = run(asked, implementation, Criterion(used.question, used.precision, Fraction(tolerance)), formula)
+    for line in [replay_as_json(done)] if as_json else replay_lines(done):
+        click.echo(printable(line))
+    context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)

@@ -87,7 +87,7 @@ def _command_line(words: list[str]) -> Iterator[click.Context]:
         if isinstance(stream, TextIOWrapper):  # a terminal that cannot show α still gets an answer
             stream.reconfigure(errors="backslashreplace")
     if asked := os.environ.get(COMPLETE):
-        from hypcheck.cli.completion import answer
+        from hypcheck.cli.commands import answer
 
         answer(asked)
         raise click.exceptions.Exit(0)
@@ -100,7 +100,7 @@ def _command_line(words: list[str]) -> Iterator[click.Context]:
 
 
 def _end(error: BaseException, *, debug: bool) -> int:
-    from hypcheck.cli.exits import ending_of
+    from hypcheck.cli.commands import ending_of
     from hypcheck.errors import Exit
 
     ending = ending_of(error)

@@ -1,27 +1,77 @@
-"""Options that several commands have, and what they are read as."""
+"""Options that several commands have, and the values that they are read as.
+
+Whole numbers as a person writes them on the command line: in digits, or large ones as 1e9, 2.5e6 or 1_000_000.
+
+Options that several commands have, and what they are read as.
+"""
 
 from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from hypcheck.cli.whole import Whole
 from hypcheck.errors import InputError
 from hypcheck.tables.numbers import is_number, shown
-from hypcheck.tables.route import STREAM
+from hypcheck.tables.streams import STREAM
 
 if TYPE_CHECKING:
-    from hypcheck.methods.limits import Limits
+    from hypcheck.implementations.session import Limits
+
+
+LARGEST_SEED = 2**63 - 1
+
+LARGEST_COUNT = 10**15
+"""More than anybody can wait for."""
+
+MOST_PROCESSES = 1024
+"""More would only take each other's time, and the system's memory."""
+
+_INTEGER = re.compile(r"\d{1,20}(_\d{1,20}){0,9}(\.\d{1,20})?([eE]\+?\d{1,2})?", re.ASCII)
+"""Of few digits, and with a small exponent: the number itself has as many digits as that says."""
+
+
+class IntegerOption(click.types.IntParamType):
+    """A whole number from `least` to `greatest`."""
+
+    def __init__(self, least: int, greatest: int = LARGEST_COUNT) -> None:
+        self.least = least
+        self.greatest = greatest
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:  # noqa: ANN401 - click's
+        """The number. Raises click.BadParameter."""
+        number = integer_of(str(value))
+        if number is None or not self.least <= number <= self.greatest:
+            self.fail(f"{shown(str(value))} must be {integer_wanted(self.least, self.greatest)}.", param, ctx)
+        return number
+
+
+def integer_of(text: str) -> int | None:
+    """The whole number that a text writes, exactly; None where it writes none."""
+    from fractions import Fraction
+
+    if not _INTEGER.fullmatch(text):
+        return None
+    number = Fraction(text.replace("_", ""))
+    return number.numerator if number.denominator == 1 else None
+
+
+def integer_wanted(least: int, greatest: int) -> str:
+    """What a number must be, for the end of a sentence."""
+    digits = str(greatest)
+    power = len(digits) > 6 and not digits[1:].strip("0") and digits[0] == "1"
+    return f"a whole number, at least {least} and at most {f'1e{len(digits) - 1}' if power else digits}"
+
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Number(click.types.FloatParamType):
+class NumberOption(click.types.FloatParamType):
     """A finite number from `least` to `greatest`; greater than `least` where that is `excluded`."""
 
     def __init__(self, least: float, greatest: float = math.inf, *, excluded: bool = False) -> None:
@@ -40,7 +90,7 @@ class Number(click.types.FloatParamType):
         return number
 
 
-class Place(click.Path):
+class OutputPath(click.Path):
     """Where files are written to: a path that is not empty, and "-" only where that is standard output (`stream`)."""
 
     def __init__(self, *, stream: bool = False) -> None:
@@ -57,14 +107,14 @@ class Place(click.Path):
 
 _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}
 
-_SECONDS = Number(0, excluded=True)
+_SECONDS = NumberOption(0, excluded=True)
 
 _LIMITS = (
     click.option(
         "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it is ready."
     ),
     click.option("--timeout", type=_SECONDS, default=10.0, show_default=True, help="Seconds without progress."),
-    click.option("--restarts", type=Whole(0), default=20, show_default=True, help="After crashes and hangs."),
+    click.option("--restarts", type=IntegerOption(0), default=20, show_default=True, help="After crashes and hangs."),
     click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
 )
 
@@ -78,7 +128,7 @@ def with_limits(command: Command) -> Command:
 
 def limits_of(startup_timeout: float, timeout: float, restarts: int, memory: str) -> Limits:
     """What these options say. Raises InputError."""
-    from hypcheck.methods.limits import Limits
+    from hypcheck.implementations.session import Limits
 
     return Limits(startup_timeout, timeout, restarts, bytes_of(memory))
 

@@ -1,21 +1,58 @@
-"""How far long work is: a bar with the rate and the time left where a person is watching, nothing in a pipe."""
+"""A terminal that may be closed while somebody's work goes on in it.
+
+How far long work is: a bar with the rate and the time left where a person is watching, nothing in a pipe.
+"""
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
 import click
 
-from hypcheck.cli.leaving import Leaving
-
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
+
+
+class DetachableTerminal(io.TextIOBase):
+    """Writes to a terminal while it is there, and then to nowhere: a bar that nobody can see is no reason to end."""
+
+    def __init__(self, terminal: TextIO) -> None:
+        super().__init__()
+        self._terminal = terminal
+
+    def isatty(self) -> bool:
+        """As the terminal has it."""
+        return self._terminal.isatty()
+
+    def write(self, text: str) -> int:
+        """Write it, if anybody can still see it."""
+        try:
+            return self._terminal.write(text)
+        except OSError:
+            self._leave()
+            return len(text)
+
+    def flush(self) -> None:
+        """Let it be seen."""
+        try:
+            self._terminal.flush()
+        except OSError:
+            self._leave()
+
+    def _leave(self) -> None:
+        """Let what is held back, which Python would try to write once more as it ends, go to nowhere."""
+        with suppress(OSError):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, self._terminal.fileno())
+            os.close(nowhere)
+
 
 _SOONEST, _FIRST = 0.1, 1.0
 """Seconds between two looks of a bar, and until it foretells anything."""
@@ -51,7 +88,7 @@ def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> It
         map(str, repeat("")) if length is None else None,  # it has no length, by which click knows of none
         length=length,
         label=label,
-        file=cast("TextIO", Leaving(sys.stderr)),
+        file=cast("TextIO", DetachableTerminal(sys.stderr)),
         show_eta=False,
         item_show_func=lambda said: said,
     ) as bar:

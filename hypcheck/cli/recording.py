@@ -1,4 +1,9 @@
-"""Running stages under a progress bar, with a record that keeps what was finished, and reports at the end."""
+"""Stages run under a progress bar, with a record that `--resume` continues, and reports at the end.
+
+Running stages under a progress bar, with a record that keeps what was finished, and reports at the end.
+
+`--resume`: what the record of an interrupted run has to go on with, or that there is nothing left to do.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +20,13 @@ import click
 from hypcheck.cli.progress import in_lines, watched
 from hypcheck.cli.settings import announce
 from hypcheck.errors import Exit, HypcheckError, InputError, NothingJudgedError, system_reason
-from hypcheck.visible import printable, visible
+from hypcheck.messages import escaped, printable
+from hypcheck.tables.streams import STREAM, same_file
 
 if TYPE_CHECKING:
-    from hypcheck.record import Line, Record, Recorder
+    from hypcheck.record import Record, Recorder, RecordLine
+    from hypcheck.runs.plan import ConformancePlan
+    from hypcheck.runs.resume import ResumedRun
 
 
 class Stage(Protocol):
@@ -52,7 +60,7 @@ def recording(
     options: Mapping[str, Any],
     title: str = "",
     optional: Mapping[str, Any] | None = None,
-    carried: Sequence[Line] = (),
+    carried: Sequence[RecordLine] = (),
 ) -> Iterator[Recording]:
     """Keep the record of a run in `out` while it lasts; then write the reports beside it, and print the summary.
 
@@ -63,9 +71,8 @@ def recording(
     `out` cannot be written, or another run is writing there.
     """
     from hypcheck.record import Recorder
-    from hypcheck.record.growing import Growing
-    from hypcheck.record.owning import owning
     from hypcheck.record.reader import FILE, GROWING
+    from hypcheck.record.writer import GrowingFile, folder_locked
     from hypcheck.report.write import remove_reports
 
     growing = out / GROWING
@@ -74,8 +81,8 @@ def recording(
         try:
             out.mkdir(parents=True, exist_ok=True)
             _require_no_folder(out / FILE, growing)
-            stack.enter_context(owning(out))
-            recorder = Recorder(stack.enter_context(Growing(growing)), options, known, carried)
+            stack.enter_context(folder_locked(out))
+            recorder = Recorder(stack.enter_context(GrowingFile(growing)), options, known, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
         running = Recording(recorder)
@@ -116,7 +123,7 @@ def _report_whole(record: Record, out: Path) -> None:
         report(record, out)
     except BaseException:
         place = shlex.quote(str(out))
-        _say(f"the record in {visible(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports")
+        _say(f"the record in {escaped(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports")
         raise
 
 
@@ -160,13 +167,13 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
             write_reports(record, out)
             _tell(record, [])
     finally:  # who interrupts twice is told too
-        _say(f"what was finished is in {visible(path)}; the same command {then}")
+        _say(f"what was finished is in {escaped(path)}; the same command {then}")
 
 
 def _say(sentence: str) -> None:
     """Tell whoever watches, if anybody still does."""
     with suppress(OSError):
-        click.echo(f"hypcheck: {visible(sentence)}", err=True)
+        click.echo(f"hypcheck: {escaped(sentence)}", err=True)
 
 
 def report(record: Record, out: Path) -> None:
@@ -191,3 +198,57 @@ def _tell(record: Record, lines: Sequence[str]) -> None:
     trouble = github.append_summary(record, Path(summary)) if summary else None
     if trouble:
         click.echo(f"hypcheck: {printable(trouble)}", err=True)
+
+
+def folder_of(path: Path) -> Path:
+    """Where a run goes on whose record or folder this is."""
+    return path if path.is_dir() else path.parent
+
+
+def resumed(
+    path: Path, out: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str], cases: int
+) -> ResumedRun | int:
+    """What the plan's run goes on with; of a finished run the code it ended with, which is told. Nothing is changed.
+
+    `path` is a record, or the folder of a run. Raises InputError where the record cannot be read, is being written, or
+    is not one of just this run, saying what differs.
+    """
+    from hypcheck.record.reader import GROWING, interrupted_in, read
+    from hypcheck.record.writer import folder_locked
+    from hypcheck.runs.resume import require_same_run, resume
+
+    if str(path) == STREAM:
+        raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
+    file = interrupted_in(path)
+    if file.name == GROWING:
+        with folder_locked(file.parent):
+            record = read(file)
+    else:
+        record = read(file)
+    require_same_run(record, file, plan, options, files)
+    if record.footer is None:
+        return resume(record, file, plan, cases)
+    code = record.footer.exit_code
+    click.echo(f"{escaped(file)} is the record of a finished run, which ended with {code}")
+    _make_reports(record, file, out)
+    return code
+
+
+def _make_reports(record: Record, file: Path, out: Path) -> None:
+    """Make the reports of a finished record in `out` that its run had no time, or no room, for."""
+    from hypcheck.record.reader import FILE, GROWING, read
+    from hypcheck.report.write import files_of
+
+    path = out / FILE
+    if same_file(str(file), str(out / GROWING)):
+        file.replace(path)
+    elif not same_file(str(file), str(path)) or all(
+        map(_is_newer_than(path), (out / name for name in files_of(record)))
+    ):
+        return
+    report(read(path), out)
+
+
+def _is_newer_than(record: Path) -> Callable[[Path], bool]:
+    """Whether a report was written after the record."""
+    return lambda file: file.is_file() and file.stat().st_mtime_ns >= record.stat().st_mtime_ns

@@ -19,10 +19,9 @@ import click
 from click.core import ParameterSource
 
 from hypcheck import toml
-from hypcheck.cli.whole import LARGEST_COUNT, LARGEST_SEED, wanted
+from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, integer_wanted
 from hypcheck.errors import InputError
-from hypcheck.suggesting import advice
-from hypcheck.visible import visible
+from hypcheck.messages import escaped, suggestion
 
 FILE = "hypcheck.toml"
 
@@ -38,7 +37,7 @@ _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class ProjectSettings:
     """What a file says: `specs` for verify where none is named, and values by the names of options' parameters."""
 
     specs: tuple[str, ...]
@@ -74,7 +73,7 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str,
 
     None where there is neither; options that the run does not use are `unused`.
     """
-    settings, weakened = context.find_object(Settings), []
+    settings, weakened = context.find_object(ProjectSettings), []
     for option in context.command.params:
         name = str(option.name)
         value, default = context.params.get(name), _UNSET.get(name, option.default)
@@ -90,11 +89,11 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str,
 def announce(settings: Mapping[str, Any] | None) -> None:
     """Tell on standard error what in_effect says."""
     from hypcheck.record.fields import decoded
-    from hypcheck.record.lines import Settings as RecordedSettings
-    from hypcheck.report.claims import settings_facts
+    from hypcheck.record.lines import SettingsPart as RecordedSettings
+    from hypcheck.report.messages import settings_facts
 
     for fact in settings_facts(None if settings is None else decoded(settings, RecordedSettings)):
-        click.echo(f"hypcheck: {visible(fact)}", err=True)
+        click.echo(f"hypcheck: {escaped(fact)}", err=True)
 
 
 def announce_file() -> None:
@@ -119,7 +118,7 @@ def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any
 
 def _leaves_out_families(value: str) -> bool:
     """Whether this choice lacks a family that is asked by default; one that names nothing is refused later on."""
-    from hypcheck.casebook.families import select
+    from hypcheck.vectors.families import select
 
     try:
         return not set(select()) <= set(select([name for name in map(str.strip, value.split(",")) if name]))
@@ -131,7 +130,7 @@ def _as_text(value: object) -> str:
     return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
-def read_settings(path: Path) -> Settings | None:
+def read_settings(path: Path) -> ProjectSettings | None:
     """The settings in a file, None where there is no such file. Raises InputError naming file, line and key."""
     try:
         text = toml.text_of(str(path))
@@ -139,14 +138,14 @@ def read_settings(path: Path) -> Settings | None:
         return None
     content = toml.parsed(text, str(path))
     checked = {key: _checked(path, text, key, value) for key, value in content.items()}
-    return Settings(checked.pop("specs", ()), checked)
+    return ProjectSettings(checked.pop("specs", ()), checked)
 
 
 def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - of the type its option wants
     where = f"{path}{_line_of(text, key)}"
     check = _KEYS.get(key)
     if check is None:
-        raise InputError(f"{where}: there is no setting {key!r}; {advice(key, _KEYS, most=1)}")
+        raise InputError(f"{where}: there is no setting {key!r}; {suggestion(key, _KEYS, most=1)}")
     try:
         return check(value)
     except ValueError as error:
@@ -192,13 +191,13 @@ def _path(value: object) -> str:
     return value
 
 
-def _whole(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], int]:
+def _integer(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], int]:
     def check(value: object) -> int:
         if isinstance(value, float) and value.is_integer():  # 1e9 is a float in TOML
             value = int(value)
         if isinstance(value, int) and not isinstance(value, bool) and least <= value <= greatest:
             return value
-        raise ValueError(wanted(least, greatest))
+        raise ValueError(integer_wanted(least, greatest))
 
     return check
 
@@ -240,20 +239,20 @@ def _one_of(choices: Callable[[], tuple[str, ...]]) -> Callable[[object], str]:
 
 
 def _precisions() -> tuple[str, ...]:
-    from hypcheck.methods.questions import PRECISIONS
+    from hypcheck.implementations.description import PRECISIONS
 
     return PRECISIONS
 
 
 def _questions() -> tuple[str, ...]:
-    from hypcheck.methods.questions import QUESTIONS
+    from hypcheck.implementations.description import QUESTIONS
 
     return QUESTIONS
 
 
 def _domain(value: object) -> str:
     """A table as the option has it, in JSON. Raises InputError too."""
-    from hypcheck.methods.description import parse_domain
+    from hypcheck.implementations.description import parse_domain
 
     if not isinstance(value, dict):
         raise ValueError('a table such as { regimes = ["a>=1"], ratio = [1e-3, 1e3], magnitude = [1e-6, 1e6] }')  # noqa: TRY004
@@ -267,19 +266,19 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "specs": _texts,
         "out": _path,
         "families": _names,
-        "count": _whole(0),
-        "seed": _whole(0, LARGEST_SEED),
+        "count": _integer(0),
+        "seed": _integer(0, LARGEST_SEED),
         "tolerance": _number,
         "precision": _one_of(_precisions),
         "question": _one_of(_questions),
         "domain": _domain,
-        "max_abstained": _whole(0),
+        "max_abstained": _integer(0),
         "fail_on": _one_of(lambda: ("wrong", "false-clear")),
         "deterministic": _truth,
         "known_failures": _path,
         "startup_timeout": _seconds,
         "timeout": _seconds,
-        "restarts": _whole(0),
+        "restarts": _integer(0),
         "memory": _bytes,
     }
 )

@@ -1,48 +1,210 @@
-"""`hypcheck verify`: which of its two runs is meant, and the options that this run has: its parameters."""
+"""`hypcheck verify`: with SPEC a conformance run of implementations, without it a self-check of hypcheck.
+
+A run of `hypcheck verify SPEC`: implementations are gated against the frozen vectors and exact decisions.
+
+A run of `hypcheck verify` without SPEC: hypcheck itself is derived, proved, cross-checked, judged and timed.
+
+`hypcheck verify`: which of its two runs is meant, and the options that this run has: its parameters.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
-from dataclasses import fields
+from collections.abc import Collection, Mapping
+from dataclasses import asdict, dataclass, fields
+from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli.conformance import ConformanceOptions, conformance
-from hypcheck.cli.options import Number, Place, with_limits
-from hypcheck.cli.resuming import folder_of
-from hypcheck.cli.self_check import SelfCheckOptions, self_check
-from hypcheck.cli.settings import FILE, Settings, in_effect
-from hypcheck.cli.whole import LARGEST_SEED, MOST_PROCESSES, Whole
-from hypcheck.errors import InputError
-from hypcheck.visible import visible
+from hypcheck.cli.options import (
+    LARGEST_SEED,
+    MOST_PROCESSES,
+    IntegerOption,
+    NumberOption,
+    OutputPath,
+    limits_of,
+    names_in,
+    with_limits,
+)
+from hypcheck.cli.progress import watched
+from hypcheck.cli.recording import folder_of, label, perform, recording, resumed
+from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
+from hypcheck.errors import Exit, InputError, RunOutcome
+from hypcheck.messages import escaped, printable
 
-_COUNT = Whole(1)
+if TYPE_CHECKING:
+    from hypcheck.runs.plan import ConformancePlan
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConformanceOptions:
+    """The options of this run, by the names that they have on the command line."""
+
+    specs: tuple[str, ...]
+    out: Path
+    families: str | None
+    count: int
+    seed: int
+    tolerance: float
+    max_abstained: int
+    fail_on: str
+    deterministic: bool
+    known_failures: Path | None
+    update: bool
+    precision: str | None
+    question: str | None
+    domain: str | None
+    startup_timeout: float
+    timeout: float
+    restarts: int
+    memory: str
+    workers: int | None
+    cluster: str | None
+    resume: Path | None
+
+    def plan(self) -> ConformancePlan:
+        """The plan of the run. Raises InputError where an option is wrong."""
+        from hypcheck.implementations.description import parse_domain
+        from hypcheck.runs.plan import ConformancePlan
+
+        to_make = self.update and self.known_failures is not None and not self.known_failures.exists()
+        plan = ConformancePlan(
+            specs=self.specs,
+            families=names_in(self.families),
+            count=self.count,
+            seed=self.seed,
+            tolerance=Fraction(self.tolerance),
+            max_abstained=self.max_abstained,
+            fail_on=self.fail_on,
+            deterministic=self.deterministic,
+            known_failures=None if to_make else self.known_failures,
+            precision=self.precision,
+            question=self.question,
+            domain=None if self.domain is None else parse_domain(self.domain),
+            limits=limits_of(self.startup_timeout, self.timeout, self.restarts, self.memory),
+            workers=self.workers,
+            cluster=self.cluster,
+        )
+        if self.update and (self.known_failures is None or plan.filtered):
+            raise InputError(
+                "--update needs --known-failures and a run of all families, or it would forget what it skipped"
+            )
+        return plan
+
+
+def conformance(options: ConformanceOptions, title: str, settings: Mapping[str, Any] | None) -> int:
+    """Run it, begun anew or gone on with, write the reports, and give the exit code.
+
+    Raises InputError where an option is wrong.
+    """
+    from hypcheck.report.write import import_all
+    from hypcheck.runs import conformance as run
+    from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
+    from hypcheck.runs.known_failures import update
+    from hypcheck.runs.plan import planned_size
+    from hypcheck.runs.resume import ResumedRun
+
+    plan, out = options.plan(), options.out
+    shown = {**asdict(plan), "tolerance": options.tolerance, "known_failures": str(plan.known_failures or "")}
+    cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
+    import_all()
+    unchanged = FileSnapshot(files)
+    begun = ResumedRun() if options.resume is None else resumed(options.resume, out, plan, shown, files, cases)
+    if isinstance(begun, int):
+        return begun
+    outcome, optional = RunOutcome(), {"files": files, "program": unchanged.program, "settings": settings}
+    with recording(out, shown, title, optional, begun.carried) as running:
+        with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
+            run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state)
+        changed = unchanged.record_changes(running.recorder)
+        running.exit_code = Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
+    if options.update and options.known_failures is not None and running.record is not None and not changed:
+        click.echo(printable(update(options.known_failures, running.record)))
+    return running.exit_code
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelfCheckOptions:
+    """The options of this run, by the names that they have on the command line."""
+
+    out: Path
+    families: str | None
+    count: int
+    seed: int
+    tolerance: float
+    oracles: str
+    judged: int
+    roots: int
+    meshes: int
+    workers: int | None
+
+
+def self_check(options: SelfCheckOptions, title: str, settings: Mapping[str, Any] | None) -> Exit:
+    """Run it and write the reports. Raises InputError where an option is wrong."""
+    from hypcheck.processes import usable_processors
+    from hypcheck.runs import self_check as run
+    from hypcheck.runs.findings import SelfCheckPlan
+
+    plan = SelfCheckPlan(
+        families=names_in(options.families),
+        oracles=_oracles(options.oracles),
+        count=max(1, options.count),
+        judged=options.judged,
+        roots=options.roots,
+        meshes=options.meshes,
+        seed=options.seed,
+        workers=options.workers or usable_processors(),
+        tolerance=Fraction(options.tolerance),
+    )
+    outcome = RunOutcome()
+    with recording(options.out, run.options(plan), title, {"settings": settings}) as running:
+        perform(run.stages(plan, running.recorder, outcome))
+        running.exit_code = outcome.exit_code
+    return outcome.exit_code
+
+
+def _oracles(text: str) -> tuple[str, ...]:
+    from hypcheck.runs.oracles import ORACLES
+
+    names = names_in(text)
+    unknown = [name for name in names if name not in ORACLES]
+    if unknown or not names:
+        raise InputError(f"--oracles: {unknown[0] if unknown else text!r} is no oracle; there are {', '.join(ORACLES)}")
+    return names
+
+
+_COUNT = IntegerOption(1)
 
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option("--out", type=Place(), default=Path("reports/latest"), show_default=True, help="For the reports.")
+@click.option("--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="For the reports.")
 @click.option(
     "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
 )
-@click.option("--count", type=Whole(0), default=400, show_default=True, help="Generated rows of each family.")
-@click.option("--seed", type=Whole(0, LARGEST_SEED), default=1, show_default=True, help="Of the generated rows.")
-@click.option("--tolerance", type=Number(0), default=8.0, show_default=True, help="Backward error that passes, in u.")
+@click.option("--count", type=IntegerOption(0), default=400, show_default=True, help="Generated rows of each family.")
+@click.option(
+    "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Of the generated rows."
+)
+@click.option(
+    "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
+)
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
 @click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
 @click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
 @click.option(
-    "--workers", type=Whole(1, MOST_PROCESSES), help="Processes.  [default: one a processor; with SPEC, of large runs]"
+    "--workers",
+    type=IntegerOption(1, MOST_PROCESSES),
+    help="Processes.  [default: one a processor; with SPEC, of large runs]",
 )
 @click.option("--precision", help="With SPEC: stands for the precision it declares.")
 @click.option("--question", help="With SPEC: stands for the question it declares.")
 @click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
-@click.option("--max-abstained", type=Whole(0), default=0, show_default=True, help="Cases it may not answer.")
+@click.option("--max-abstained", type=IntegerOption(0), default=0, show_default=True, help="Cases it may not answer.")
 @click.option(
     "--fail-on",
     type=click.Choice(["wrong", "false-clear"]),
@@ -95,9 +257,9 @@ def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: boo
     """The SPECs to gate; none where hypcheck itself is verified. Raises InputError where nobody chose that."""
     if of_ourselves:
         if specs:
-            raise InputError(f"--self verifies hypcheck itself and takes no SPEC; {visible(specs[0])} is one")
+            raise InputError(f"--self verifies hypcheck itself and takes no SPEC; {escaped(specs[0])} is one")
         return ()
-    settings = context.find_object(Settings)
+    settings = context.find_object(ProjectSettings)
     chosen = specs or (settings.specs if settings is not None else ())
     if not chosen and os.environ.get("CI", "").lower() not in ("", "0", "false"):
         raise InputError(

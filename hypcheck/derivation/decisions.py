@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import product
 
-from hypcheck.derivation.rotor_listings import ROTORS
+from hypcheck.derivation.paper_listings import ROTORS
 
 SIGNS = (-1, 0, 1)
 
 
 @dataclass(frozen=True)
-class Decision:
+class DecisionRule:
     """The step must be `rule` of the values of the steps or inputs named in `letters`, on every one of the `cases`.
 
     `statement` is the rule in words.
@@ -29,7 +29,7 @@ class Decision:
     statement: str
 
 
-def decisions(formula_name: str) -> tuple[Decision, ...]:
+def decisions(formula_name: str) -> tuple[DecisionRule, ...]:
     """All that the answer of the formula by that name must be. Raises KeyError for a name that has none."""
     return _DECISIONS[formula_name]
 
@@ -111,17 +111,17 @@ def _rotor_cases() -> Iterable[tuple[int, ...]]:
         yield sum(mixture, ())
 
 
-_PROPOSITION_3 = Decision("valid", _ONE, _PATTERNS, _proposition_3, "valid ⟺ Δ > 0, c2 < 0 and c1 > 0")
+_PROPOSITION_3 = DecisionRule("valid", _ONE, _PATTERNS, _proposition_3, "valid ⟺ Δ > 0, c2 < 0 and c1 > 0")
 _INTERIOR_RULE = "[c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0]"
-_ONE_SPHEROID = Decision("valid", _ONE, _PATTERNS, _one_spheroid, f"valid ⟺ not Δ ≤ 0, and {_INTERIOR_RULE}")
-_FOUR_ROTORS = Decision(
+_ONE_SPHEROID = DecisionRule("valid", _ONE, _PATTERNS, _one_spheroid, f"valid ⟺ not Δ ≤ 0, and {_INTERIOR_RULE}")
+_FOUR_ROTORS = DecisionRule(
     "valid",
     _ROTOR_LETTERS,
     tuple(_rotor_cases()),
     _four_rotors,
     f"non-valid if Δ(g_i) ≤ 0 for some i; else valid ⟺ {_INTERIOR_RULE} for all i",
 )
-_HULL_THEN_ROTORS = Decision(
+_HULL_THEN_ROTORS = DecisionRule(
     "valid",
     (*_ONE, *_ROTOR_LETTERS),
     tuple(hull + rotors for hull, rotors in product(_PATTERNS, _rotor_cases())),
@@ -129,17 +129,17 @@ _HULL_THEN_ROTORS = Decision(
     f"as Procedure 2.a where Δ ≤ 0; else valid ⟺ {_INTERIOR_RULE}",
 )
 _REPAIRED_RULE = "Δ > 0 and not (c2 < 0 and c1 > 0)"
-_FOUR_ROTORS_REPAIRED = Decision(
+_FOUR_ROTORS_REPAIRED = DecisionRule(
     "valid", _ROTOR_LETTERS, _FOUR_ROTORS.cases, _four_rotors_repaired, f"valid ⟺ {_REPAIRED_RULE} for each rotor"
 )
-_HULL_THEN_ROTORS_REPAIRED = Decision(
+_HULL_THEN_ROTORS_REPAIRED = DecisionRule(
     "valid",
     _HULL_THEN_ROTORS.letters,
     _HULL_THEN_ROTORS.cases,
     _hull_then_rotors_repaired,
     f"valid ⟺ {_REPAIRED_RULE} for the bounding spheroid, or for each rotor",
 )
-_PROCEDURE_1_REPAIRED = Decision(
+_PROCEDURE_1_REPAIRED = DecisionRule(
     "answer",
     (*_ONE, "Q", "E", "EE", "four_A"),
     tuple(pattern + rest for pattern in _PATTERNS for rest in product(SIGNS, repeat=4)),
@@ -149,7 +149,7 @@ _PROCEDURE_1_REPAIRED = Decision(
 _SIZES_TRIED = ((1, 1), (1, 2), (2, 1))  # A = B², A < B² and A > B²
 
 
-def _all_regimes_decision(discriminant: str) -> Decision:
+def _all_regimes_decision(discriminant: str) -> DecisionRule:
     # c2 below, at and above −3B, 0 and 3A, for A and B up to 2.
     cases = tuple(
         (delta, c1, c2, *sizes, Q, at_B, at_minus_A)
@@ -158,7 +158,7 @@ def _all_regimes_decision(discriminant: str) -> Decision:
         )
     )
     letters = (discriminant, "c1", "c2", "A", "B", "Q", "slope_at_B", "slope_at_minus_A")
-    return Decision(
+    return DecisionRule(
         "position",
         letters,
         cases,
@@ -169,21 +169,21 @@ def _all_regimes_decision(discriminant: str) -> Decision:
 
 
 _AROUND = tuple(range(-3, 4))  # below, at, between and above −A, 0 and B, for A and B up to 2
-_LOCAL_MAXIMUM = Decision(
+_LOCAL_MAXIMUM = DecisionRule(
     "position",
     ("h1", "lambda_m", "g_m", "A", "B"),
     tuple((h1, at, g, *sizes) for h1, at, g, sizes in product(SIGNS, _AROUND, SIGNS, _SIZES_TRIED)),
     _at_local_maximum,
     "the sign of λm where h1 > 0, g(λm) > 0 and −A < λm < B, else contact",
 )
-_CHOICE = Decision(
+_CHOICE = DecisionRule(
     "lambda_m",
     ("c2", "from_c1", "from_c2"),
     tuple((c2, 5, 7) for c2 in SIGNS),
     _chosen_maximum,
     "λm = c1/(−c2 + √h1) where c2 < 0, else (−c2 − √h1)/3",
 )
-_DUAL = Decision(
+_DUAL = DecisionRule(
     "position",
     ("phi", "lambda_", "A", "B"),
     tuple((phi, at, *sizes) for phi, at, sizes in product(SIGNS, _AROUND, _SIZES_TRIED)),
@@ -191,7 +191,7 @@ _DUAL = Decision(
     "the sign of λ where φ(λ) > 0 and −A < λ < B, else 0",
 )
 
-_ALL_POSITIVE = Decision(
+_ALL_POSITIVE = DecisionRule(
     "valid",
     ("delta_27", "r1", "r2", "r3"),
     tuple(product(SIGNS, repeat=4)),

@@ -1,38 +1,49 @@
-"""Every way to compute the relative position that this project knows, each as a straight-line program.
+"""Every formula for the relative position as a straight-line program: as printed, repaired, and by the roots of g.
+
+Every way to compute the relative position that this project knows, each as a straight-line program.
 
 The paper's procedures stand as they are printed, mistakes included; they are what is under test. The others answer for
 every size of both bodies.
+
+The paper's Procedures 1, 2.a and 2.b put right, as programs beside those that are printed (formulas.py).
+
+Procedure 1 asks where Q = 0, in the plane of the waist, whether the distance from the axis exceeds a + 1: that is
+E = P − A − 1 > 0 and E² > 4·A. Elsewhere it is as printed. A test for the ring beside Δ would be right in exact
+arithmetic and useless in floats, which round Δ to 0 beside the ring too. Procedures 2.a and 2.b ask for Δ > 0 and not
+(c2 < 0 and c1 > 0); 2.b asks the rotors wherever the bounding spheroid is not interior, and not only where Δ ≤ 0. The
+chains "Procedure 1, repaired" and "Proposition 5, repaired" prove them.
+
+The roots' way as programs, to be counted beside the formulas of formulas.py, which need no root.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
-from hypcheck.derivation.coefficient_listings import (
+from hypcheck.derivation.evaluation import Arithmetic, outputs
+from hypcheck.derivation.listings import (
     CENTRE,
+    DUAL,
     EQUATION_14,
     HESSIAN_DISCRIMINANT,
+    LOCAL_MAXIMUM,
+    ONE_SPHEROID,
+    PROPOSITION_3,
     SCALED_SIZES,
     SHARED_CANCELLATION,
     TABLE_2,
     TABLE_2_DISCRIMINANT,
-    equation_13,
-)
-from hypcheck.derivation.decision_listings import (
-    DUAL,
-    LOCAL_MAXIMUM,
-    ONE_SPHEROID,
-    PROPOSITION_3,
     all_regimes,
+    equation_13,
+    not_all_positive,
     proposition_5,
 )
-from hypcheck.derivation.evaluation import Arithmetic, outputs
-from hypcheck.derivation.listing import program_of
-from hypcheck.derivation.program import Program
-from hypcheck.derivation.rotor_listings import ONE_ROTOR, rotors_decided
-from hypcheck.pairs import COLUMNS
+from hypcheck.derivation.paper_listings import ONE_ROTOR, TRIGONOMETRIC, WEIERSTRASS_SWEEP, rotors_decided
+from hypcheck.derivation.program import Program, program_of
+from hypcheck.geometry.pair import COLUMNS
 
 REGIMES = ("a>=1", "c2>=a")
 """Conditions the paper's statements carry: α/b ≥ 1, and (γ/d)² ≥ α/b."""
@@ -74,7 +85,7 @@ def answers(formula: Formula, arithmetic: Arithmetic, inputs: Mapping[str, Any])
     return arithmetic.integers(answer)
 
 
-_LISTED = (
+_PRINTED_AND_DERIVED = (
     Formula(
         name="table-2",
         title="Table 2, Procedure 1 with constant terms taken out of the loop",
@@ -186,5 +197,93 @@ _LISTED = (
     ),
 )
 
-FORMULAS: dict[str, Formula] = {formula.name: formula for formula in _LISTED}
+FORMULAS: dict[str, Formula] = {formula.name: formula for formula in _PRINTED_AND_DERIVED}
 """By name. "dual" takes the λ to look at as an eighth input, lambda_: 0 from it means that this λ proves nothing."""
+
+
+_IN_THE_PLANE_OF_THE_WAIST = """
+    at_waist = Q == 0
+    P_minus_A = P - A
+    E = P_minus_A - 1
+    EE = E * E
+    four_A = 4 * A
+    beyond = E > 0
+    wide_apart = EE > four_A
+    clear_at_waist = beyond and wide_apart
+    answer = at_waist ? clear_at_waist : valid
+"""
+
+_HULL = (
+    not_all_positive()
+    + """
+    distinct = delta > 0
+    inside = distinct and some_negative
+    unclear = not inside
+    valid = inside or rotors_valid
+"""
+)
+
+_REPAIRED = (
+    Formula(
+        name="procedure-1-repaired",
+        title="Procedure 1 put right: in the plane of the waist r > a + 1, elsewhere Table 2",
+        question="exterior",
+        program=program_of(
+            "procedure-1-repaired",
+            COLUMNS,
+            TABLE_2,
+            TABLE_2_DISCRIMINANT,
+            PROPOSITION_3,
+            _IN_THE_PLANE_OF_THE_WAIST,
+        ),
+        answer="answer",
+        source="docs/mathematics.md, procedures put right",
+        regimes=("c2>=a",),
+    ),
+    Formula(
+        name="procedure-2a-repaired",
+        title="Procedure 2.a put right: Δ > 0 and not (c2 < 0 and c1 > 0) for each rotor",
+        question="interior",
+        program=program_of(
+            "procedure-2a-repaired", ROTOR_INPUTS, rotors_decided("valid", not_all_positive, "some_negative")
+        ),
+        answer="valid",
+        source="docs/mathematics.md, procedures put right",
+        regimes=("a>=1",),
+    ),
+    Formula(
+        name="procedure-2b-repaired",
+        title="Procedure 2.b put right: the rotors are asked wherever the bounding spheroid is not interior",
+        question="interior",
+        program=program_of(
+            "procedure-2b-repaired",
+            HULL_INPUTS,
+            EQUATION_14,
+            equation_13(),
+            rotors_decided("rotors_valid", not_all_positive, "some_negative"),
+            _HULL,
+        ),
+        answer="valid",
+        source="docs/mathematics.md, procedures put right",
+        regimes=("a>=1",),
+    ),
+)
+
+REPAIRED = MappingProxyType({formula.name: formula for formula in _REPAIRED})
+"""By name: that of the printed procedure and "-repaired"."""
+
+
+ROOTS_TRIGONOMETRIC = Formula(
+    name="roots-trigonometric",
+    title="Δ, and where it is positive the signs of the three roots, by cosines",
+    question="exterior",
+    program=program_of("roots-trigonometric", COLUMNS, TABLE_2, TRIGONOMETRIC),
+    answer="valid",
+    source="section 3.1, after its words on [13]",
+    regimes=("c2>=a",),
+)
+
+APPROXIMATIONS = ("x1", "y1", "x2", "y2", "x3", "y3")
+
+SWEEP = program_of("roots-sweep", ("c2", "c1", "c0", *APPROXIMATIONS), WEIERSTRASS_SWEEP)
+"""From approximations x + yi of the three roots to better ones, new_x1 … new_y3; a root finder does several."""

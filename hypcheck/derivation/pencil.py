@@ -1,18 +1,69 @@
-"""From the two surfaces to the cubic g, in symbols: Theorem 1, the pencil's determinant, its factor, g and Δ.
+"""From the two surfaces to the cubic g in symbols and plain text; the rotors; differences to printed formulas.
+
+Formulas in plain text, both ways: "(α/b)²·B1 − λ" to sympy and back.
+
+A product is written with a dot, never by juxtaposition; raised digits are powers; √2 is a root; diag(…) is a diagonal
+matrix. Greek letters stand for the symbols of their names. Arguments that say no more than what a letter depends on, as
+in f(λ) and c1(g_i), are read over.
+
+From the two surfaces to the cubic g, in symbols: Theorem 1, the pencil's determinant, its factor, g and Δ.
 
 Everything is computed from the equations of the two bodies; nothing is taken from the paper's formulas, which are
 checked against this (printed_equations.py).
+
+What is wrong with a printed formula, found from its difference to the derived one.
+
+A misprint is one place where one term changed makes the formula right: a factor, a term too many or a term that lacks.
+The place is searched for, not known beforehand.
+
+The quadcopter of the paper's section 3.2 in symbols: where the rotors are, and the cubic of one rotor's spheroid.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import sympy
+from sympy.parsing.sympy_parser import parse_expr
 
-from hypcheck.derivation.plain_text import symbol
+_GREEK = {"α": "alpha", "γ": "gamma", "λ": "lambda", "φ": "phi", "Δ": "delta"}
+_SPELLED = {name: letter for letter, name in _GREEK.items()}
+_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_TO_DIGITS = str.maketrans(_RAISED, "0123456789")
+_TO_RAISED = str.maketrans("0123456789", _RAISED)
+_NAME = re.compile(r"[^\W\d]\w*")
+_LENGTHS = frozenset({"alpha", "gamma", "b", "d", "b_s", "d_s", "a", "c", "l"})
+
+
+def symbol(name: str) -> sympy.Symbol:
+    """The one symbol of that name: positive where it is a semi-axis or an arm, real where it is not."""
+    return sympy.Symbol(name, positive=True) if name in _LENGTHS else sympy.Symbol(name, real=True)
+
+
+def read(text: str) -> sympy.Expr:
+    """The formula that the text says; a matrix where it says diag(…)."""
+    code = text.replace("(λ)", "").replace("(g_i)", "").replace("−", "-").replace("·", "*")
+    code = re.sub(f"[{_RAISED}]+", lambda digits: f"**{digits[0].translate(_TO_DIGITS)}", code)
+    code = re.sub(r"√(\d+)", r"sqrt(\1)", code)
+    letters = {_in_code(name): symbol(_GREEK.get(name, name)) for name in _NAME.findall(code)}
+    code = _NAME.sub(lambda name: _in_code(name[0]), code)
+    return parse_expr(code, local_dict={**letters, "sqrt": sympy.sqrt, "diag": sympy.diag})
+
+
+def plain(expression: sympy.Expr) -> str:
+    """The formula as text, in sympy's order of terms."""
+    text = sympy.sstr(expression).replace("sqrt(2)", "√2")
+    text = _NAME.sub(lambda name: _SPELLED.get(name[0], name[0]), text)
+    text = re.sub(r"\*\*(\d+)", lambda power: power[1].translate(_TO_RAISED), text)
+    return text.replace("*", "·").replace("-", "−")
+
+
+def _in_code(name: str) -> str:
+    return f"{_GREEK[name]}_" if name in _GREEK else name  # lambda is a word of Python's, lambda_ is not
+
 
 X, Y, Z, LAMBDA = (symbol(name) for name in ("x", "y", "z", "lambda"))
 ALPHA, GAMMA, SMALL_B, SMALL_D = (symbol(name) for name in ("alpha", "gamma", "b", "d"))
@@ -41,7 +92,7 @@ SCALED = {
 
 
 @dataclass(frozen=True)
-class Cubic:
+class SymbolicCubic:
     """g(λ) = λ³ + c2 λ² + c1 λ + c0, its discriminant, and the determinant it comes from.
 
     f = det(λH + S) = factor · g/denominator, where the factor is A + λ and the denominator A² B.
@@ -94,7 +145,7 @@ def scaled_matrices() -> tuple[sympy.Matrix, sympy.Matrix]:
 
 
 @cache
-def scaled_cubic() -> Cubic:
+def scaled_cubic() -> SymbolicCubic:
     """The derivation in a, c, x_c, y_c, z_c. Raises ArithmeticError where det(λH + S) is not what it must be."""
     hyperboloid_matrix, sphere_matrix = scaled_matrices()
     f = (LAMBDA * hyperboloid_matrix + sphere_matrix).det(method="berkowitz")
@@ -106,11 +157,11 @@ def scaled_cubic() -> Cubic:
     leading, *coefficients = quotient.all_coeffs()
     c2, c1, c0 = (sympy.expand(sympy.cancel(coefficient / leading)) for coefficient in coefficients)
     discriminant = discriminant_of_cubic().subs(dict(zip(_GENERIC, (c2, c1, c0), strict=True)), simultaneous=True)
-    return Cubic(sympy.cancel(f), factor, denominator / leading, c0, c1, c2, discriminant)
+    return SymbolicCubic(sympy.cancel(f), factor, denominator / leading, c0, c1, c2, discriminant)
 
 
 @cache
-def cubic() -> Cubic:
+def cubic() -> SymbolicCubic:
     """The derivation in A, B, P, Q. Raises ArithmeticError where more than these four mattered."""
     roots = {SMALL_A: sympy.sqrt(A), SMALL_C: sympy.sqrt(B), ZC: sympy.sqrt(Q), XC: sympy.sqrt(P - YC**2)}
     derived = _substituted(scaled_cubic(), roots)
@@ -118,11 +169,11 @@ def cubic() -> Cubic:
     if any(not coefficient.free_symbols <= {A, B, P, Q} for coefficient in (c0, c1, c2)):
         raise ArithmeticError("the coefficients depend on more than A, B, P and Q")
     f, discriminant = sympy.cancel(derived.f), sympy.expand(derived.discriminant)
-    return Cubic(f, derived.factor, derived.denominator, c0, c1, c2, discriminant)
+    return SymbolicCubic(f, derived.factor, derived.denominator, c0, c1, c2, discriminant)
 
 
 @cache
-def cubic_in_seven() -> Cubic:
+def cubic_in_seven() -> SymbolicCubic:
     """The derivation in α, γ, b, d, x0, y0, z0."""
     return _substituted(scaled_cubic(), SCALED)
 
@@ -141,6 +192,145 @@ def discriminant_of_cubic() -> sympy.Expr:
 _GENERIC = tuple(symbol(name) for name in ("c2", "c1", "c0"))
 
 
-def _substituted(derived: Cubic, values: dict[sympy.Symbol, sympy.Expr]) -> Cubic:
+def _substituted(derived: SymbolicCubic, values: dict[sympy.Symbol, sympy.Expr]) -> SymbolicCubic:
     fields = (derived.f, derived.factor, derived.denominator, derived.c0, derived.c1, derived.c2, derived.discriminant)
-    return Cubic(*(field.subs(values, simultaneous=True) for field in fields))
+    return SymbolicCubic(*(field.subs(values, simultaneous=True) for field in fields))
+
+
+COSINE, SINE = symbol("cosine"), symbol("sine")
+Meanings = dict[sympy.Symbol, sympy.Expr]
+
+
+@dataclass(frozen=True)
+class Repair:
+    """How a printed formula fails, in one sentence, and the formula put right.
+
+    `one_place` is true where one factor or one term, changed in one place, is all it takes.
+    """
+
+    finding: str
+    corrected: sympy.Expr
+    one_place: bool
+
+
+@cache
+def difference(printed: sympy.Expr, derived: sympy.Expr) -> sympy.Expr:
+    """printed − derived in lowest terms, given cosine² + sine² = 1.
+
+    It is 0 only where the two are equal, and for rational functions of the letters it then always is.
+    """
+    numerator, denominator = sympy.fraction(sympy.together(printed - derived))
+    numerator = sympy.expand(numerator)
+    if numerator.has(SINE) and numerator.is_polynomial(SINE, COSINE):
+        numerator = sympy.rem(numerator, SINE**2 + COSINE**2 - 1, SINE)
+    return sympy.cancel(numerator / denominator)
+
+
+def repair(printed: sympy.Expr, derived: sympy.Expr, meanings: Meanings) -> Repair:
+    """The smallest change that makes `printed` equal to `derived`, once its letters stand for what `meanings` says.
+
+    The two must not be equal.
+    """
+    gap = difference(printed.subs(meanings), derived)
+    if derived != 0:
+        factor = sympy.cancel(printed.subs(meanings) / derived)
+        if _is_single_term(factor):
+            return _repaired_factor(printed, factor)
+    repairs = []
+    for node, rebuilt in _sums(printed):
+        change = _change(rebuilt, gap, meanings)
+        # A coefficient stays free of λ: a power of λ is put right among the powers of λ.
+        if change is not None and (node.has(LAMBDA) or not change.has(LAMBDA)):
+            repairs.append((-change not in sympy.Add.make_args(node), sympy.count_ops(change), change, node, rebuilt))
+    lacking, _, change, node, rebuilt = min(repairs, key=lambda repair: repair[:2])
+    corrected = rebuilt(node + change)
+    if not _is_single_term(change):
+        return Repair(f"right − left = {plain(gap)}", corrected, one_place=False)
+    trouble = f"lacks {_signed(change)}" if lacking else f"has a stray {_signed(-change)}"
+    return Repair(f"right − left = {plain(gap)}: {_where(gap, node)} {trouble}", corrected, one_place=True)
+
+
+def _repaired_factor(printed: sympy.Expr, factor: sympy.Expr) -> Repair:
+    numerator, denominator = sympy.fraction(printed)
+    roots = "" if factor.has(LAMBDA) else ", and the roots stay the same"
+    finding = f"the right side is {plain(factor)} times the left"
+    if denominator != 1:
+        finding += f": the denominator {plain(denominator)} must be {plain(denominator * factor)}"
+        return Repair(finding + roots, numerator / (denominator * factor), one_place=True)
+    return Repair(finding + roots, printed / factor, one_place=True)
+
+
+def _change(rebuilt: Callable[[sympy.Expr], sympy.Expr], gap: sympy.Expr, meanings: Meanings) -> sympy.Expr | None:
+    """What closes the gap when added to the sum in this place; None where the formula is not linear in that sum."""
+    unknown = sympy.Dummy()
+    slope = sympy.diff(rebuilt(unknown), unknown).subs(meanings)
+    if slope == 0 or slope.has(unknown):
+        return None
+    return sympy.cancel(-gap / slope)
+
+
+def _sums(expression: sympy.Expr) -> Iterator[tuple[sympy.Expr, Callable[[sympy.Expr], sympy.Expr]]]:
+    """The whole, and every sum within, each with a function that puts another expression in its place."""
+    yield expression, lambda other: other
+    for index, argument in enumerate(expression.args):
+        for node, rebuilt in _sums(argument):
+            if node.is_Add:
+                yield node, _rebuilder(expression, index, rebuilt)
+
+
+def _rebuilder(
+    parent: sympy.Expr, index: int, rebuilt: Callable[[sympy.Expr], sympy.Expr]
+) -> Callable[[sympy.Expr], sympy.Expr]:
+    def put(other: sympy.Expr) -> sympy.Expr:
+        return parent.func(*parent.args[:index], rebuilt(other), *parent.args[index + 1 :])
+
+    return put
+
+
+def _where(gap: sympy.Expr, node: sympy.Expr) -> str:
+    powers = sympy.Poly(sympy.fraction(gap)[0], LAMBDA).monoms() if gap.has(LAMBDA) else []
+    if len(powers) == 1 and not node.has(LAMBDA):
+        return f"the coefficient of {plain(LAMBDA ** powers[0][0])}"
+    return f"the sum {plain(node)}"
+
+
+def _is_single_term(expression: sympy.Expr) -> bool:
+    return all(not part.is_Add for part in sympy.fraction(sympy.factor_terms(expression)))
+
+
+def _signed(term: sympy.Expr) -> str:
+    return f"− {plain(-term)}" if term.could_extract_minus_sign() else f"+ {plain(term)}"
+
+
+ARM, ROTOR_B, ROTOR_D = (symbol(name) for name in ("l", "b_s", "d_s"))
+
+
+@cache
+def rotor_centre() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
+    """The end of an arm of length l that is turned by g_i and another eighth of a turn, on a body at (x0, y0, z0)."""
+    eighth = sympy.Matrix([[1, -1], [1, 1]]) / sympy.sqrt(2)
+    turn = sympy.Matrix([[COSINE, -SINE], [SINE, COSINE]])
+    along, across = eighth * turn * sympy.Matrix([ARM, 0])
+    return X0 + along, Y0 + across, Z0
+
+
+def next_rotor(expression: sympy.Expr) -> sympy.Expr:
+    """The same expression of the next rotor, a quarter of a turn on."""
+    return expression.subs({COSINE: -SINE, SINE: COSINE}, simultaneous=True)
+
+
+def mean_over_rotors(expression: sympy.Expr) -> sympy.Expr:
+    """The mean of what the expression is for each of the four rotors."""
+    second = next_rotor(expression)
+    third = next_rotor(second)
+    return sympy.expand((expression + second + third + next_rotor(third)) / 4)
+
+
+@cache
+def rotor_cubic() -> SymbolicCubic:
+    """The derivation for the rotor's spheroid, of semi-axes b_s, b_s, d_s."""
+    x, y, z = rotor_centre()
+    whole = cubic_in_seven()
+    here = {SMALL_B: ROTOR_B, SMALL_D: ROTOR_D, X0: x, Y0: y, Z0: z}
+    fields = (whole.f, whole.factor, whole.denominator, whole.c0, whole.c1, whole.c2, whole.discriminant)
+    return SymbolicCubic(*(field.subs(here, simultaneous=True) for field in fields))

@@ -1,7 +1,11 @@
-"""The paper's displayed formulas (1) to (23) and those of its Appendix A, as printed, each beside what it must equal.
+"""The paper's displayed formulas as printed, each beside what it must equal, and which of them hold.
+
+The paper's displayed formulas (1) to (23) and those of its Appendix A, as printed, each beside what it must equal.
 
 The statements are the paper's text in one-line notation, in the order printed. What they must equal comes from the
 derivation (pencil.py, rotors.py) and from no other printed formula, except where a formula claims to follow from one.
+
+Which of the paper's displayed formulas hold, and what is wrong with those that do not.
 """
 
 from __future__ import annotations
@@ -9,17 +13,30 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from itertools import groupby
 
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.differences import COSINE, SINE, Meanings
-from hypcheck.derivation.plain_text import read, symbol
-from hypcheck.derivation.rotors import ROTOR_B, ROTOR_D, mean_over_rotors, rotor_centre, rotor_cubic
+from hypcheck.derivation.pencil import (
+    COSINE,
+    ROTOR_B,
+    ROTOR_D,
+    SINE,
+    Meanings,
+    difference,
+    mean_over_rotors,
+    plain,
+    read,
+    repair,
+    rotor_centre,
+    rotor_cubic,
+    symbol,
+)
 
 
 @dataclass(frozen=True)
-class Claim:
+class PrintedClaim:
     """One printed equality: each pair is a printed expression and what it must equal.
 
     `meanings` says what the letters in the printed expressions stand for.
@@ -32,27 +49,27 @@ class Claim:
 
 
 @cache
-def printed_claims() -> tuple[Claim, ...]:
+def printed_claims() -> tuple[PrintedClaim, ...]:
     """Every claim, in the paper's order; claims of one number follow each other."""
     return (*_surfaces(), *_theorem_1(), *_cubic(), *_rotors(), *_appendix())
 
 
-def equality(number: str, statement: str, **meanings: sympy.Expr) -> Claim:
+def equality(number: str, statement: str, **meanings: sympy.Expr) -> PrintedClaim:
     """The claim "left = right": what is printed on the right must be what the left side's letters stand for."""
     left, _, right = statement.partition("=")
     values = {symbol(name): value for name, value in meanings.items()}
-    return Claim(number, statement, ((read(right), read(left).subs(values)),), values)
+    return PrintedClaim(number, statement, ((read(right), read(left).subs(values)),), values)
 
 
-def matrix(number: str, statement: str, derived: sympy.Matrix) -> Claim:
+def matrix(number: str, statement: str, derived: sympy.Matrix) -> PrintedClaim:
     """The claim "name = diag(…)", entry by entry."""
-    return Claim(number, statement, tuple(zip(read(statement.partition("=")[2]), derived, strict=True)), {})
+    return PrintedClaim(number, statement, tuple(zip(read(statement.partition("=")[2]), derived, strict=True)), {})
 
 
-def surface(number: str, statement: str, derived: sympy.Expr) -> Claim:
+def surface(number: str, statement: str, derived: sympy.Expr) -> PrintedClaim:
     """The claim that "left = right" is the surface where `derived` vanishes, in the same scale."""
     left, _, right = statement.partition("=")
-    return Claim(number, statement, ((read(left) - read(right), derived),), {})
+    return PrintedClaim(number, statement, ((read(left) - read(right), derived),), {})
 
 
 _X = sympy.Matrix([pencil.X, pencil.Y, pencil.Z])
@@ -67,36 +84,36 @@ def _right(statement: str) -> sympy.Expr:
     return read(statement.partition("=")[2])
 
 
-def _surfaces() -> Iterator[Claim]:
+def _surfaces() -> Iterator[PrintedClaim]:
     hyperboloid, spheroid = pencil.hyperboloid(), pencil.spheroid()
     yield surface("1", "x²/α² + y²/α² − z²/γ² = 1", hyperboloid)
     form = (_X.T * _right(_HYPERBOLOID_MATRIX) * _X)[0] - 1
-    yield Claim("2", "Xᵀ·H̄·X − 1 = 0", ((form, hyperboloid),), {})
+    yield PrintedClaim("2", "Xᵀ·H̄·X − 1 = 0", ((form, hyperboloid),), {})
     yield matrix("3", _HYPERBOLOID_MATRIX, pencil.quadric_matrix(hyperboloid)[:3, :3])
     yield surface("4", "(x − x0)²/b² + (y − y0)²/b² + (z − z0)²/d² = 1", spheroid)
     form = (_X.T * _right(_SPHEROID_MATRIX) * _X)[0] - 2 * (_printed_row(_VECTOR) * _X)[0] + read(_CONSTANT)
-    yield Claim("5", f"Xᵀ·E·X − 2·B·X + K = 0 with B = {_VECTOR}, K = {_CONSTANT}", ((form, spheroid),), {})
+    yield PrintedClaim("5", f"Xᵀ·E·X − 2·B·X + K = 0 with B = {_VECTOR}, K = {_CONSTANT}", ((form, spheroid),), {})
     yield matrix("6", _SPHEROID_MATRIX, pencil.quadric_matrix(spheroid)[:3, :3])
 
 
-def _theorem_1() -> Iterator[Claim]:
+def _theorem_1() -> Iterator[PrintedClaim]:
     hyperboloid, sphere = pencil.scaled(pencil.hyperboloid()), pencil.scaled(pencil.spheroid())
     yield surface("7", "x²/(α/b)² + y²/(α/b)² − z²/(γ/d)² = 1", hyperboloid)
     yield surface("8", "(x − x0/b)² + (y − y0/b)² + (z − z0/d)² = 1", sphere)
     # The proof of Theorem 1 also prints it in the matrices of (5) and (9).
     inverse = _right(_SCALING).inv()
     form = (_X.T * _X)[0] - 2 * (_printed_row(_VECTOR) * inverse * _X)[0] + read(_CONSTANT)
-    yield Claim("8", "X̄ᵀ·X̄ − 2·B·A⁻¹·X̄ + K = 0", ((form, sphere),), {})
+    yield PrintedClaim("8", "X̄ᵀ·X̄ − 2·B·A⁻¹·X̄ + K = 0", ((form, sphere),), {})
     # The scaling is the one that turns the spheroid's matrix into the unit matrix.
     axes = pencil.quadric_matrix(pencil.spheroid())[:3, :3].applyfunc(sympy.sqrt)
     yield matrix("9", _SCALING, axes)
     scaled = pencil.quadric_matrix(hyperboloid)[:3, :3]
     product = inverse * _right(_HYPERBOLOID_MATRIX) * inverse
-    yield Claim("10", "H = A⁻¹·H̄·A⁻¹", tuple(zip(product, scaled, strict=True)), {})
+    yield PrintedClaim("10", "H = A⁻¹·H̄·A⁻¹", tuple(zip(product, scaled, strict=True)), {})
     yield matrix("10", "H = diag(b²/α², b²/α², −d²/γ²)", scaled)
 
 
-def _cubic() -> Iterator[Claim]:
+def _cubic() -> Iterator[PrintedClaim]:
     scaled, seven = pencil.scaled_cubic(), pencil.cubic_in_seven()
     yield equality("11", "f(λ) = (a² + λ)·g(λ)/(a²·c²)", f=scaled.f, g=scaled.g)
     yield equality(
@@ -139,7 +156,7 @@ def rotor_meanings() -> dict[str, sympy.Expr]:
     }
 
 
-def _rotors() -> Iterator[Claim]:
+def _rotors() -> Iterator[PrintedClaim]:
     means = rotor_meanings()
     for statement in (
         "x_i = x0 + l·√2/2·(cosine − sine)",
@@ -154,7 +171,7 @@ def _rotors() -> Iterator[Claim]:
     hyperboloid, sphere = pencil.scaled(pencil.hyperboloid()), pencil.scaled(pencil.spheroid())
     yield surface("16", "x²/(α/b_s)² + y²/(α/b_s)² − z²/(γ/d_s)² = 1", hyperboloid.subs(rotor))
     yield surface("17", "(x − x_i/b_s)² + (y − y_i/b_s)² + (z − z_i/d_s)² = 1", sphere.subs({**rotor, **at_rotor}))
-    yield Claim("18", "T1(g_i)² + T2(g_i)² = 2", ((read("T1² + T2²"), sympy.Integer(2)),), _symbols(means))
+    yield PrintedClaim("18", "T1(g_i)² + T2(g_i)² = 2", ((read("T1² + T2²"), sympy.Integer(2)),), _symbols(means))
     yield equality("18", "x_i² + y_i² = (x0 + l·√2/2·T1(g_i))² + (y0 + l·√2/2·T2(g_i))²", **means)
     yield equality("18", "x_i² + y_i² = x0² + y0² + l² + l·√2·(T1(g_i)·x0 + T2(g_i)·y0)", **means)
     yield equality("19", "c0_s = −(α/b_s)²·(γ/d_s)²", **means)
@@ -162,7 +179,7 @@ def _rotors() -> Iterator[Claim]:
     yield from _coefficients("21", means)
 
 
-def _definitions(number: str, names: tuple[str, ...], means: dict[str, sympy.Expr]) -> Iterator[Claim]:
+def _definitions(number: str, names: tuple[str, ...], means: dict[str, sympy.Expr]) -> Iterator[PrintedClaim]:
     printed = {
         "C": "C(g_i) = l·√2·(T1(g_i)·x0 + T2(g_i)·y0)/b_s²",
         "B1": "B1 = 1 − (γ/d_s)² − (z0/d_s)²",
@@ -172,12 +189,12 @@ def _definitions(number: str, names: tuple[str, ...], means: dict[str, sympy.Exp
         yield equality(number, printed[name], **means)
 
 
-def _coefficients(number: str, means: dict[str, sympy.Expr]) -> Iterator[Claim]:
+def _coefficients(number: str, means: dict[str, sympy.Expr]) -> Iterator[PrintedClaim]:
     yield equality(number, "c1(g_i) = (α/b_s)²·B1 + (γ/d_s)²·(B2 − 1 + C(g_i))", **means)
     yield equality(number, "c2(g_i) = (α/b_s)² + B1 − B2 − C(g_i)", **means)
 
 
-def _appendix() -> Iterator[Claim]:
+def _appendix() -> Iterator[PrintedClaim]:
     """The displays of Appendix A, A.1 to A.6 by position; A.2 has two equalities, and (22) and (23) carry numbers."""
     means = rotor_meanings()
     yield equality("A.1", "c1(g_i) = (α/b_s)²·(1 − (γ/d_s)² − (z_i/d_s)²) + (γ/d_s)²·((x_i² + y_i²)/b_s² − 1)", **means)
@@ -201,3 +218,49 @@ def _symbols(means: dict[str, sympy.Expr]) -> Meanings:
 
 def _printed_row(text: str) -> sympy.Matrix:
     return sympy.Matrix([[read(entry) for entry in text.strip("()").split(",")]])
+
+
+@dataclass(frozen=True)
+class EquationCheck:
+    """A numbered formula of the paper, held against the derivation.
+
+    `number` is the paper's, or "A.n" for the n-th unnumbered display of Appendix A (a, b: its first and second
+    equality). `verdict` is "holds", "misprint" (one term or factor changed in one place makes it right) or "false".
+    `statement` is the text as printed; `finding` is a sentence computed from the difference; `correction` is the
+    formula put right, in sympy's order of terms, and empty where nothing is wrong.
+    """
+
+    number: str
+    holds: bool
+    verdict: str
+    statement: str
+    finding: str
+    correction: str
+
+
+@cache
+def check_equations() -> tuple[EquationCheck, ...]:
+    """The check of every displayed formula, in the paper's order."""
+    return tuple(check(tuple(claims)) for _, claims in groupby(printed_claims(), key=lambda claim: claim.number))
+
+
+def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
+    """The check of one number, of the claims printed under it."""
+    repairs = []
+    for claim in claims:
+        left = claim.statement.partition("=")[0].strip()
+        for printed, derived in claim.pairs:
+            if difference(printed.subs(claim.meanings), derived) != 0:
+                found = repair(printed, derived, claim.meanings)
+                repairs.append((left, found))
+    statement = "; ".join(claim.statement for claim in claims)
+    if not repairs:
+        return EquationCheck(claims[0].number, True, "holds", statement, "right − left = 0", "")
+    return EquationCheck(
+        number=claims[0].number,
+        holds=False,
+        verdict="misprint" if all(found.one_place for _, found in repairs) else "false",
+        statement=statement,
+        finding="; ".join(found.finding for _, found in repairs),
+        correction="; ".join(f"{left} = {plain(found.corrected)}" for left, found in repairs),
+    )

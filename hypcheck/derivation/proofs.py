@@ -1,4 +1,10 @@
-"""The proof that each program is the formula it is said to be.
+"""The proof that each program computes its formula: programs over sympy, and what each step must equal.
+
+Programs over sympy expressions. Sums and products are left as they are built; who compares expands them.
+
+What has to be true of each formula's numbers: which step must equal which derived expression.
+
+The proof that each program is the formula it is said to be.
 
 Its numbers are evaluated in symbols and compared with the derivation, and its decision is asked for every combination
 of signs. What the rules themselves rest on is in identities.py and in the words of decision_listings.py.
@@ -6,25 +12,219 @@ of signs. What the rules themselves rest on is in identities.py and in the words
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import operator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 import sympy
 
-from hypcheck.derivation.decisions import Decision, decisions
-from hypcheck.derivation.differences import difference
-from hypcheck.derivation.evaluation import evaluate, outputs
+from hypcheck.derivation import pencil
+from hypcheck.derivation.decisions import DecisionRule, decisions
+from hypcheck.derivation.evaluation import Arithmetic, evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.formulas import FORMULAS, Formula
-from hypcheck.derivation.identities import identities, vanishes
-from hypcheck.derivation.obligations import INPUTS, Obligation, letter, obligations
-from hypcheck.derivation.plain_text import plain
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
+from hypcheck.derivation.links import (
+    C0,
+    C1,
+    C2,
+    GENERIC_CUBIC,
+    PHI,
+    hessian_coefficients,
+    identities,
+    local_maximum,
+    vanishes,
+)
+from hypcheck.derivation.paper_listings import ROTORS
+from hypcheck.derivation.pencil import (
+    ARM,
+    COSINE,
+    IN_SEVEN,
+    LAMBDA,
+    ROTOR_B,
+    ROTOR_D,
+    SINE,
+    A,
+    B,
+    P,
+    Q,
+    difference,
+    next_rotor,
+    plain,
+    rotor_cubic,
+    symbol,
+)
 from hypcheck.derivation.program import Program, cut
-from hypcheck.derivation.repaired_formulas import REPAIRED
-from hypcheck.derivation.rotor_listings import ROTORS
-from hypcheck.derivation.symbolic import SYMBOLIC
+
+
+def _select(condition: Any, yes: Any, no: Any) -> Any:
+    return sympy.Piecewise((yes, condition), (no, True))
+
+
+SYMBOLIC = Arithmetic(
+    name="symbolic",
+    convert=sympy.sympify,
+    operations={
+        "add": operator.add,
+        "sub": operator.sub,
+        "mul": operator.mul,
+        "div": operator.truediv,
+        "neg": operator.neg,
+        "abs": sympy.Abs,
+        "sqrt": sympy.sqrt,
+        "cos": sympy.cos,
+        "arccos": sympy.acos,
+        "gt": sympy.StrictGreaterThan,
+        "lt": sympy.StrictLessThan,
+        "ge": sympy.GreaterThan,
+        "le": sympy.LessThan,
+        "eq": sympy.Equality,
+        "ne": sympy.Unequality,
+        "and": sympy.And,
+        "or": sympy.Or,
+        "not": sympy.Not,
+        "select": _select,
+    },
+)
+"""Inputs may be expressions, integers or rationals; comparisons become relations, and a selection is a Piecewise."""
+
+
+INPUTS = {
+    **dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), pencil.SEVEN, strict=True)),
+    "b_s": ROTOR_B,
+    "d_s": ROTOR_D,
+    "l": ARM,
+    "cosine": COSINE,
+    "sine": SINE,
+    "lambda_": LAMBDA,
+}
+"""The letter each input of a program stands for."""
+
+
+@dataclass(frozen=True)
+class Obligation:
+    """The step must equal `expected`, as an expression in the inputs and in the steps named in `letters`.
+
+    A step named there counts as a letter of its own; its own obligation says what it is.
+    """
+
+    step: str
+    expected: sympy.Expr
+    letters: tuple[str, ...] = ()
+
+
+def obligations(formula_name: str) -> tuple[Obligation, ...]:
+    """All that the numbers of the formula by that name must be. Raises KeyError for a name that has none."""
+    return tuple(_OBLIGATIONS[formula_name]())
+
+
+def letter(name: str) -> sympy.Symbol:
+    """The symbol of an input or of a step that counts as a letter."""
+    return INPUTS.get(name) or symbol(name)
+
+
+_COEFFICIENTS = ("c0", "c1", "c2")
+
+
+def _coefficients() -> Iterable[Obligation]:
+    derived = pencil.cubic_in_seven()
+    yield from (Obligation(name, getattr(derived, name)) for name in _COEFFICIENTS)
+
+
+def _scaled_sizes() -> Iterable[Obligation]:
+    return (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("Q", Q)))
+
+
+def _discriminant() -> Iterable[Obligation]:
+    yield Obligation("delta", pencil.discriminant_of_cubic(), _COEFFICIENTS)
+
+
+def _hessian() -> Iterable[Obligation]:
+    for name, expected in zip(("h1", "h2", "h3"), hessian_coefficients(), strict=True):
+        yield Obligation(name, expected, _COEFFICIENTS)
+    yield Obligation("delta_3", 3 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
+
+
+def _slopes() -> Iterable[Obligation]:
+    slope = sympy.diff(GENERIC_CUBIC, LAMBDA)
+    letters = ("c1", "c2", "A", "B")
+    yield Obligation("slope_at_B", slope.subs(LAMBDA, B), letters)
+    yield Obligation("slope_at_minus_A", slope.subs(LAMBDA, -A), letters)
+
+
+def _shared() -> Iterable[Obligation]:
+    yield Obligation("E", (P - A - 1).subs(IN_SEVEN))
+
+
+def _in_the_plane() -> Iterable[Obligation]:
+    yield Obligation("EE", symbol("E") ** 2, ("E",))
+    yield Obligation("four_A", 4 * A, ("A",))
+
+
+def _local_maximum() -> Iterable[Obligation]:
+    h1 = hessian_coefficients()[0]
+    yield Obligation("h1", h1, ("c1", "c2"))
+    yield Obligation("from_c1", local_maximum(), ("c1", "c2"))
+    yield Obligation("from_c2", local_maximum(), ("c1", "c2"))
+    yield Obligation("g_m", GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
+
+
+def _dual() -> Iterable[Obligation]:
+    yield from (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
+    yield Obligation("phi", PHI, ("A", "B", "P", "Q", "lambda_"))
+
+
+def _four_rotors() -> Iterable[Obligation]:
+    derived = rotor_cubic()
+    yield Obligation("c0_s", derived.c0)
+    c1, c2 = derived.c1, derived.c2
+    for rotor in ROTORS:
+        yield Obligation(f"c1_g{rotor}", c1)
+        yield Obligation(f"c2_g{rotor}", c2)
+        letters = ("c0_s", f"c1_g{rotor}", f"c2_g{rotor}")
+        renamed = dict(zip((C0, C1, C2), (symbol(name) for name in letters), strict=True))
+        yield Obligation(f"delta_g{rotor}", pencil.discriminant_of_cubic().subs(renamed), letters)
+        c1, c2 = next_rotor(c1), next_rotor(c2)
+
+
+def _trigonometric() -> Iterable[Obligation]:
+    """λ = (2 √h1 cos θ_k − c2)/3 with cos 3θ = w/(2 h1 √h1), a third of a turn from one θ_k to the next."""
+    h1 = hessian_coefficients()[0]
+    w = 9 * C1 * C2 - 2 * C2**3 - 27 * C0
+    root, three_theta = symbol("root"), symbol("three_theta")
+    yield Obligation("delta_27", 27 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
+    yield Obligation("root", sympy.sqrt(h1), ("c1", "c2"))
+    yield Obligation("cosine_of_three", w / (2 * h1 * root), (*_COEFFICIENTS, "root"))
+    for number, thirds in ((1, 0), (2, 1), (3, -1)):
+        cosine = sympy.cos(three_theta / 3 + thirds * 2 * sympy.pi / 3)
+        yield Obligation(f"cosine_{number}", cosine, ("three_theta",))
+        value = (2 * root * symbol(f"cosine_{number}") - C2) / 3
+        yield Obligation(f"r{number}", value, ("c2", "root", f"cosine_{number}"))
+
+
+def _all(*parts: Callable[[], Iterable[Obligation]]) -> Callable[[], Iterable[Obligation]]:
+    return lambda: [obligation for part in parts for obligation in part()]
+
+
+_OBLIGATIONS = {
+    "table-2": _all(_coefficients, _discriminant),
+    "procedure-1": _all(_coefficients, _discriminant),
+    "procedure-2a": _all(_four_rotors),
+    "procedure-2b": _all(_coefficients, _discriminant, _four_rotors),
+    "procedure-2a-spheroid": _all(_coefficients, _discriminant),
+    "procedure-2b-spheroid": _all(_coefficients, _discriminant),
+    "coefficients": _all(_scaled_sizes, _coefficients, _discriminant, _slopes),
+    "hessian": _all(_scaled_sizes, _coefficients, _hessian, _slopes),
+    "shared": _all(_scaled_sizes, _shared, _coefficients, _hessian, _slopes),
+    "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
+    "dual": _all(_dual),
+    "roots-trigonometric": _all(_coefficients, _trigonometric),
+    "procedure-1-repaired": _all(_coefficients, _discriminant, _scaled_sizes, _shared, _in_the_plane),
+    "procedure-2a-repaired": _all(_four_rotors),
+    "procedure-2b-repaired": _all(_coefficients, _discriminant, _four_rotors),
+}
 
 
 @dataclass(frozen=True)
@@ -84,14 +284,14 @@ def _equal(value: sympy.Expr, expected: sympy.Expr) -> bool:
     return not value.has(sympy.zoo, sympy.nan) and bool(difference(value, expected) == 0)
 
 
-def _prove_decision(formula: Formula, decision: Decision) -> Proof:
+def _prove_decision(formula: Formula, decision: DecisionRule) -> Proof:
     part = cut(formula.program, decision.letters, (decision.step,))
     # Nothing but the letters may have a say in the decision.
     holds = part.inputs == decision.letters and _decides(part, decision)
     return Proof(formula.name, decision.step, holds, f"{decision.statement} ({len(decision.cases)} cases)")
 
 
-def _decides(part: Program, decision: Decision) -> bool:
+def _decides(part: Program, decision: DecisionRule) -> bool:
     """Whether the program decides every case by the rule; all are asked at once, as arrays.
 
     Whole numbers below 2⁵³ are exact in float64, and what is not a whole number there proves nothing.

@@ -30,7 +30,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.derivation.program import BOOLEAN, NUMBER, Argument, Program, Step, kind_of, needed
-from hypcheck.pairs import SIZES
+from hypcheck.geometry.pair import SIZES
 
 POSITIVE_INPUTS = frozenset({*SIZES, "b_s", "d_s", "l"})
 """Inputs that are lengths of bodies, hence > 0."""

@@ -1,10 +1,14 @@
-"""Which kernel answers: the compiled one where it was built and loads, otherwise numpy; the answers are the same.
+"""The kernel in use, compiled or numpy with the same answers, and the questions that a kernel can be asked.
+
+Which kernel answers: the compiled one where it was built and loads, otherwise numpy; the answers are the same.
 
 Environment variables, read when a kernel is first asked for:
 
     HYPCHECK_KERNEL   "compiled" or "numpy" forces that one
     HYPCHECK_LEVEL    "avx512", "avx2", "sse2" or "plain" forces the instruction set of the compiled one
     HYPCHECK_THREADS  the most threads it may use; by default the processors this process may run on
+
+What can be asked of a position, and the answers to it.
 """
 
 from __future__ import annotations
@@ -14,8 +18,10 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from types import ModuleType
+from typing import Literal
 
 from hypcheck.errors import InputError
+from hypcheck.scene.model import QUESTIONS
 
 EXTENSION = "hypcheck.kernel._compiled"
 KERNELS = ("compiled", "numpy")
@@ -23,7 +29,7 @@ LEVELS = ("avx512", "avx2", "sse2", "plain")
 
 
 @dataclass(frozen=True)
-class Choice:
+class KernelChoice:
     """The kernel in use, a name in KERNELS, the instruction set of the compiled one, and the reason as words."""
 
     kernel: str
@@ -32,7 +38,7 @@ class Choice:
 
 
 @cache
-def choice() -> Choice:
+def choice() -> KernelChoice:
     """The choice that all calls of this process follow.
 
     Raises InputError where an environment variable asks for what is not there.
@@ -41,15 +47,15 @@ def choice() -> Choice:
     if wanted not in ("", *KERNELS):
         raise InputError(f"HYPCHECK_KERNEL is {wanted!r}; it must be {' or '.join(KERNELS)}, or unset")
     if wanted == "numpy":
-        return Choice("numpy", None, "HYPCHECK_KERNEL asks for it")
+        return KernelChoice("numpy", None, "HYPCHECK_KERNEL asks for it")
     try:
         module = compiled()
     except ImportError as error:
         if wanted:
             raise InputError(f"HYPCHECK_KERNEL is 'compiled', but there is no compiled kernel: {error}") from None
-        return Choice("numpy", None, f"there is no compiled kernel: {error}")
+        return KernelChoice("numpy", None, f"there is no compiled kernel: {error}")
     reason = "HYPCHECK_KERNEL asks for it" if wanted else "it was compiled at install"
-    return Choice("compiled", _level(module), reason)
+    return KernelChoice("compiled", _level(module), reason)
 
 
 def compiled() -> ModuleType:
@@ -79,3 +85,19 @@ def most_threads() -> int:
     if not (wanted.isascii() and wanted.isdigit() and int(wanted) > 0):
         raise InputError(f"HYPCHECK_THREADS is {wanted!r}; it must be a whole number greater than 0, or unset")
     return int(wanted)
+
+
+Question = Literal["position", "exterior", "interior", "contact"]
+"""`position` is answered by +1, 0 or −1, the others by 1 (yes) or 0 (no)."""
+
+NUMBER_OF = {question: number for number, question in enumerate(QUESTIONS)}
+"""As in core/hypcheck.h."""
+
+POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
+"""The position to which a question is answered yes."""
+
+
+def require_known(question: str) -> None:
+    """Raise InputError for a question that is none."""
+    if question not in QUESTIONS:
+        raise InputError(f"question is {question!r}; it must be one of {', '.join(QUESTIONS)}")

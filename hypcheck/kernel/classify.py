@@ -1,18 +1,45 @@
-"""The public functions: validated input, exact positions, and nothing written anywhere unless all of it is right."""
+"""The public functions: validated input, exact positions, and no output unless all of it is right.
+
+The kernel in use, as something that answers whole arrays.
+
+The public functions: validated input, exact positions, and nothing written anywhere unless all of it is right.
+"""
 
 from __future__ import annotations
 
 from operator import index
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.answering import kernel
-from hypcheck.kernel.question import Question, require_known
-from hypcheck.pairs import CENTER, SIZES, trouble_with
-from hypcheck.rows import Positions, as_columns, as_numbers, as_rows, require_valid
+from hypcheck.geometry.pair import CENTER, SIZES, Sizes, trouble_with
+from hypcheck.geometry.rows import Columns, Positions, Rows, as_columns, as_numbers, as_rows, require_valid
+from hypcheck.kernel.choice import Question, choice, require_known
+
+
+class Kernel(Protocol):
+    """What a module that answers has. Both return the answers, 127 for invalid rows, and how many those are."""
+
+    def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
+        """Answers for C-contiguous rows (n, 7); `threads` None is as many as are worth it."""
+
+    def answer_scene(
+        self, sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
+    ) -> tuple[Positions, int]:
+        """Answers for valid sizes and the centres of three columns."""
+
+
+def kernel() -> Kernel:
+    """The module that choice() names. Raises InputError where the environment asks for one that is not there."""
+    if choice().kernel == "compiled":
+        from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
+
+        return compiled_kernel
+    from hypcheck.kernel import numpy_kernel  # noqa: PLC0415 - the compiled kernel does without
+
+    return numpy_kernel
 
 
 def classify(

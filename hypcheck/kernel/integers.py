@@ -7,7 +7,7 @@ equal one that no sign of Δ is asked for: z = 0, g'(B) = 0 and the remaining ro
 
 from __future__ import annotations
 
-from hypcheck.pairs import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position
 
 
 def position(lengths: Lengths) -> Position:

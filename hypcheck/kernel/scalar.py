@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from hypcheck.geometry.pair import Pair
 from hypcheck.kernel import integers
 from hypcheck.kernel.choice import choice, compiled
 from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
-from hypcheck.pairs import Pair
 
 
 def exact_position(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float, /) -> int:
@@ -31,10 +31,10 @@ def exact_position(alpha: float, gamma: float, b: float, d: float, x: float, y: 
                         return 1
                 elif (c2 > e2 or c1 < -e1) and A > SLACK:
                     return -1
-    return by_integers(alpha, gamma, b, d, x, y, z)
+    return position_by_integers(alpha, gamma, b, d, x, y, z)
 
 
-def by_integers(*numbers: float) -> int:
+def position_by_integers(*numbers: float) -> int:
     """The same by integers alone, after a look at each number."""
     return int(integers.position(Pair.from_row(numbers).lengths))
 

@@ -1,4 +1,8 @@
-"""The half planes of one scene for the numpy kernel: chosen by rules of thumb, proved by programs/lines.py.
+"""The half planes of one scene for the numpy kernel: chosen by heuristics, proved by programs/lines.py.
+
+Thresholds in single precision from the proved lines of a scene; programs/parallel_lines.py says why they hold.
+
+The half planes of one scene for the numpy kernel: chosen by rules of thumb, proved by programs/lines.py.
 
 What is chosen here, λ, μ and the heights, decides nothing but how many rows the next stage gets; core/parts/scene.h
 chooses in the same way.
@@ -8,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,15 +20,62 @@ from numpy.typing import NDArray
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.programs.lines import (
     CAP,
+    FLOAT32_GREATEST_SLOPE,
+    FLOAT32_LESS,
+    FLOAT32_MARGIN,
+    FLOAT32_TINY,
+    GREATEST_REACH,
     GREATEST_SIZE,
     GREATEST_SLOPE,
     LEAST_CONSTANT,
+    LEAST_REACH,
     LEAST_SIZE,
     LESS,
     SIDES,
 )
 from hypcheck.kernel.scalar import exact_position
-from hypcheck.kernel.scene_parallels import thresholds
+
+Line = tuple[float, float]
+"""K and M: of the line K + M T."""
+
+
+def thresholds(lines: dict[str, Line | None], reach: float) -> dict[str, float] | None:
+    """The inputs of the program PARALLEL_LINES but R and T, and `reach` as its T must not exceed it.
+
+    `lines` has beyond, under, within and above, None for a line that proves nothing; they hold for T in [0, `reach`].
+    None where single precision has no room for the scene.
+    """
+    outer, inner = _slope(lines["under"] or lines["beyond"]), _slope(lines["above"] or lines["within"])
+    if not (LEAST_REACH < reach < GREATEST_REACH and max(outer, inner) <= FLOAT32_GREATEST_SLOPE):
+        return None
+    return {
+        "reach": _single(reach * FLOAT32_LESS),
+        "M_outer": outer,
+        "K_beyond": _threshold(lines["beyond"], outer, reach, 1),
+        "K_under": _threshold(lines["under"], outer, reach, -1),
+        "M_inner": inner,
+        "K_within": _threshold(lines["within"], inner, reach, -1),
+        "K_above": _threshold(lines["above"], inner, reach, 1),
+    }
+
+
+def _slope(line: Line | None) -> float:
+    return 0.0 if line is None else _single(line[1])
+
+
+def _threshold(line: Line | None, M: float, reach: float, side: int) -> float:
+    """What R − M T must exceed (side 1), or stay below (side −1): then the exact place is on that side of the line."""
+    if line is None:
+        return side * inf
+    at_ends = line[0], line[0] + (line[1] - M) * reach
+    K = max(at_ends) if side > 0 else min(at_ends)
+    return _single(K + side * (FLOAT32_MARGIN * (abs(K) + 2 * M * reach) + FLOAT32_TINY))
+
+
+def _single(value: float) -> float:
+    with np.errstate(all="ignore"):
+        return float(np.float32(value))
+
 
 Floats = NDArray[np.float64]
 Sizes = tuple[float, float, float, float]
@@ -35,14 +87,12 @@ STEPS = (2.0**-30, 2.0**-16, 2.0**-8)
 """How far from the edge a known point is tried, relatively."""
 
 NUDGE = 2.0**-30
-Line = tuple[float, float]
-"""K and M."""
 
 PROVES_NOTHING: dict[str, Line] = {"beyond": (NEVER, 0), "within": (-1, 0), "under": (-1, 0), "above": (NEVER, 0)}
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
+class KnownPlace:
     """A place of the plane of T = z² and R = x² + y² where the position is known not to be the one asked about."""
 
     T: float
@@ -133,7 +183,7 @@ def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
     return (alpha / b) ** 2, (gamma / d) ** 2, T / (d * d)
 
 
-def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
+def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
     """A point close to the edge at that height whose position is not exterior (side 1), or not interior (side −1)."""
     A, B, Q = _ratios(sizes, height**2)
     at = side * _multiplier(sizes, height**2, side)
@@ -143,7 +193,7 @@ def _known_point(sizes: Sizes, height: float, side: int) -> Point | None:
     for step in STEPS:
         x = _short(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
         if exact_position(*sizes, x, 0.0, height) != side:
-            return Point(height * height, x * x)
+            return KnownPlace(height * height, x * x)
     return None
 
 
@@ -159,7 +209,7 @@ def _within(sizes: Sizes, mu: float) -> Line | None:
     return (K, M) if across > 0 and K >= LEAST_CONSTANT and 0 <= M <= GREATEST_SLOPE else None
 
 
-def _chord(side: str, first: Point | None, last: Point | None) -> Line | None:
+def _chord(side: str, first: KnownPlace | None, last: KnownPlace | None) -> Line | None:
     """A line below (under) or above the chord of the points, found roughly and then checked at both."""
     if first is None or last is None:
         return None

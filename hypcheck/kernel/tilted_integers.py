@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from hypcheck.pairs import Position, to_integers
+from hypcheck.geometry.pair import Position, to_integers
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,12 +16,22 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.casebook.draw import Draw, Floats
 from hypcheck.errors import InputError
-from hypcheck.paper.flights_circle import EIGHTH, Direction, any_angle, quarter_turns, small_angle, turned
-from hypcheck.paper.flights_craft import Craft, Mask, Point, Procedures
-from hypcheck.paper.flights_start import rims
+from hypcheck.paper.quadcopter import (
+    EIGHTH,
+    Craft,
+    Direction,
+    Mask,
+    Point,
+    Procedures,
+    any_angle,
+    quarter_turns,
+    rims,
+    small_angle,
+    turned,
+)
 from hypcheck.scene.model import Flight, Start
+from hypcheck.vectors.draw import Draw, Floats
 
 LANES = 1000
 """Flights of a block: enough that numpy works and does not wait."""

@@ -2,7 +2,7 @@
 
     After [10], re-derived. A row is a kind, its meaning, and the real roots of g in ascending order: where each stands
     to -A, 0 and B, and its multiplicity. A single simple root stands for a complex pair beside it. The rows are those
-    of hypcheck/truth/roots_patterns.py; a test compares the two. *)
+    of hypcheck/truth/roots.py; a test compares the two. *)
 
 Require Import Reals Lra List String.
 From Hypcheck Require Import Geometry Certificates UnitBall Duality AnyAxis Completeness Cubic Rule.

@@ -12,7 +12,7 @@ import click
 
 from hypcheck.errors import HypcheckError
 from hypcheck.proofs import build
-from hypcheck.proofs.weakened import CONTROL, WEAKENED, Weakened, accepted
+from hypcheck.proofs.build import CONTROL, WEAKENED, Weakened, accepted
 
 
 @click.command(help=__doc__)

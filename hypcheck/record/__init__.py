@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from hypcheck.record.fields import Line, plain
+from hypcheck.record.fields import RecordLine, plain
 from hypcheck.record.lines import SCHEMA
 from hypcheck.record.reader import Record, read
 from hypcheck.record.writer import Recorder
 
-__all__ = ["SCHEMA", "Line", "Record", "Recorder", "plain", "read"]
+__all__ = ["SCHEMA", "Record", "RecordLine", "Recorder", "plain", "read"]

@@ -9,7 +9,7 @@ from typing import Annotated, Any, TypeVar
 
 from msgspec import Meta, Struct, convert, to_builtins
 
-from hypcheck.visible import shortened
+from hypcheck.messages import shortened
 
 FARTHEST = 9999
 """No octave of a float64, of a ratio of two, or of a product of a few, lies farther from 0."""
@@ -37,7 +37,7 @@ def decoded(value: object, kind: type[Kind]) -> Kind:
     return convert(value, kind, dec_hook=_extended, from_attributes=True)
 
 
-def as_json(value: Part) -> Any:  # noqa: ANN401 - whatever JSON holds
+def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds
     """The value as JSON has it, infinities as texts."""
     return plain(to_builtins(value, enc_hook=_number))
 
@@ -108,7 +108,7 @@ Precision = Annotated[str, one_of("float16", "bfloat16", "float32", "float64", "
 Mistake = Annotated[str, one_of("false-clear", "false-contact", "wrong-side")]
 
 
-class Part(Struct, frozen=True, kw_only=True):
+class LinePart(Struct, frozen=True, kw_only=True):
     """A value within a line."""
 
 
@@ -117,7 +117,7 @@ def _type_of(name: str) -> str:
     return name.removesuffix("Line").lower()
 
 
-class Line(Part, frozen=True, kw_only=True, tag_field="type", tag=_type_of):
+class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):
     """A line; the first of its fields is its type."""
 
     @property

@@ -23,11 +23,11 @@ from hypcheck.record.fields import (
     Interval,
     InvalidRow,
     Limits,
-    Line,
+    LinePart,
     Mistake,
-    Part,
     Precision,
     Question,
+    RecordLine,
     Row,
     Sizes,
     Span,
@@ -42,7 +42,7 @@ SCHEMA = "1.4.0"
 """The version of what is written."""
 
 
-class Machine(Part, frozen=True, kw_only=True):
+class Machine(LinePart, frozen=True, kw_only=True):
     """What a run took place on."""
 
     system: str
@@ -51,7 +51,7 @@ class Machine(Part, frozen=True, kw_only=True):
     cores: int | None
 
 
-class Weakened(Part, frozen=True, kw_only=True):
+class WeakenedPart(LinePart, frozen=True, kw_only=True):
     """An option that fails less, or asks less, than its default; `source` is the settings file or the command line."""
 
     option: str
@@ -60,14 +60,14 @@ class Weakened(Part, frozen=True, kw_only=True):
     source: str
 
 
-class Settings(Part, frozen=True, kw_only=True):
+class SettingsPart(LinePart, frozen=True, kw_only=True):
     """The settings file of a run, None where none was used, and what weakens its gate."""
 
     file: str | None
-    weakened: list[Weakened]
+    weakened: list[WeakenedPart]
 
 
-class Header(Line, frozen=True, kw_only=True):
+class HeaderLine(RecordLine, frozen=True, kw_only=True):
     """The first line, for some runs with the sha256 of the files under test, by path, since 1.3.0.
 
     Since 1.4.0 also with that of the program's own files, and with the settings.
@@ -82,10 +82,10 @@ class Header(Line, frozen=True, kw_only=True):
     options: dict[str, Any]
     files: dict[str, str] | UnsetType = UNSET
     program: str | UnsetType = UNSET
-    settings: Settings | UnsetType = UNSET
+    settings: SettingsPart | UnsetType = UNSET
 
 
-class Footer(Line, frozen=True, kw_only=True):
+class FooterLine(RecordLine, frozen=True, kw_only=True):
     """The last line, without which a record is truncated; `lines` counts those of the file."""
 
     lines: Count
@@ -93,14 +93,14 @@ class Footer(Line, frozen=True, kw_only=True):
     seconds: float
 
 
-class Unavailable(Line, frozen=True, kw_only=True):
+class UnavailableLine(RecordLine, frozen=True, kw_only=True):
     """An oracle that could not be asked."""
 
     oracle: str
     reason: str
 
 
-class Equation(Line, frozen=True, kw_only=True):
+class EquationLine(RecordLine, frozen=True, kw_only=True):
     """A displayed formula of the paper."""
 
     number: str
@@ -111,7 +111,7 @@ class Equation(Line, frozen=True, kw_only=True):
     correction: str
 
 
-class Proof(Line, frozen=True, kw_only=True):
+class ProofLine(RecordLine, frozen=True, kw_only=True):
     """A quantity of a formula, and whether it is proved to be what it must be."""
 
     formula: str
@@ -120,7 +120,7 @@ class Proof(Line, frozen=True, kw_only=True):
     statement: str
 
 
-class Disagreement(Part, frozen=True, kw_only=True):
+class DisagreementPart(LinePart, frozen=True, kw_only=True):
     """A case of which an oracle says something else than the exact decision."""
 
     oracle: str
@@ -130,7 +130,7 @@ class Disagreement(Part, frozen=True, kw_only=True):
     opinion: str
 
 
-class Oracle(Line, frozen=True, kw_only=True):
+class OracleLine(RecordLine, frozen=True, kw_only=True):
     """An oracle and a family."""
 
     oracle: str
@@ -140,10 +140,10 @@ class Oracle(Line, frozen=True, kw_only=True):
     stages: Counts
     seconds: Amount
     disagreeing: Count
-    disagreements: Annotated[list[Disagreement], Meta(max_length=20)]
+    disagreements: Annotated[list[DisagreementPart], Meta(max_length=20)]
 
 
-class Finding(Line, frozen=True, kw_only=True):
+class FindingLine(RecordLine, frozen=True, kw_only=True):
     """A formula that is wrong in exact arithmetic on a family, inside its stated regimes or outside them."""
 
     formula: str
@@ -157,13 +157,13 @@ class Finding(Line, frozen=True, kw_only=True):
     reason: str | None
 
 
-class Drift(Line, frozen=True, kw_only=True):
+class DriftLine(RecordLine, frozen=True, kw_only=True):
     """A way in which what was found is not what is known."""
 
     sentence: str
 
 
-class WrongAnswer(Part, frozen=True, kw_only=True):
+class WrongAnswer(LinePart, frozen=True, kw_only=True):
     """A wrong or tolerated answer that is kept."""
 
     case: str
@@ -176,7 +176,7 @@ class WrongAnswer(Part, frozen=True, kw_only=True):
     backward_error_u: Unsigned
 
 
-class Fault(Part, frozen=True, kw_only=True):
+class FaultPart(LinePart, frozen=True, kw_only=True):
     """A case that ended without an answer that counts."""
 
     case: str
@@ -185,7 +185,7 @@ class Fault(Part, frozen=True, kw_only=True):
     reason: str
 
 
-class Group(Line, frozen=True, kw_only=True):
+class GroupLine(RecordLine, frozen=True, kw_only=True):
     """A method and a family; `spec`, `faults` and `failing` are there of an implementation under test alone.
 
     `octaves` are counts by the floor of log2 of the cases' own distances to the nearest other position, `failing` the
@@ -206,7 +206,7 @@ class Group(Line, frozen=True, kw_only=True):
     size_bins: list[Bin]
     place_bins: list[Bin]
     worst: Annotated[list[WrongAnswer], Meta(max_length=3)]
-    faults: Annotated[list[Fault], Meta(max_length=6)] | UnsetType = UNSET
+    faults: Annotated[list[FaultPart], Meta(max_length=6)] | UnsetType = UNSET
     failing: list[str] | UnsetType = UNSET
 
     def __post_init__(self) -> None:
@@ -220,7 +220,7 @@ class Group(Line, frozen=True, kw_only=True):
         return self.failing is not UNSET
 
 
-class FixedSizes(Part, frozen=True, kw_only=True):
+class FixedSizesPart(LinePart, frozen=True, kw_only=True):
     """The only sizes that an implementation knows, and the spans of the centre; None: any."""
 
     sizes: Sizes
@@ -229,16 +229,16 @@ class FixedSizes(Part, frozen=True, kw_only=True):
     z: Span
 
 
-class Domain(Part, frozen=True, kw_only=True):
+class DomainPart(LinePart, frozen=True, kw_only=True):
     """Where an implementation claims to be right."""
 
     regimes: list[Annotated[str, one_of("a>=1", "c2>=a")]]
     ratio: Limits
     magnitude: Limits
-    settings: list[FixedSizes] | UnsetType = UNSET
+    settings: list[FixedSizesPart] | UnsetType = UNSET
 
 
-class Description(Part, frozen=True, kw_only=True):
+class DescriptionPart(LinePart, frozen=True, kw_only=True):
     """What an implementation says of itself, or is taken for."""
 
     name: str
@@ -246,13 +246,13 @@ class Description(Part, frozen=True, kw_only=True):
     language: str
     precision: Precision
     question: Question
-    domain: Domain
+    domain: DomainPart
     refuses: bool
     binary: bool
     time: bool
 
 
-class Retest(Part, frozen=True, kw_only=True):
+class Retest(LinePart, frozen=True, kw_only=True):
     """How many cases were asked again, and of how many the answer changed within the tolerance and beyond it."""
 
     asked: Count
@@ -260,14 +260,14 @@ class Retest(Part, frozen=True, kw_only=True):
     beyond: Count
 
 
-class Implementation(Line, frozen=True, kw_only=True):
+class ImplementationLine(RecordLine, frozen=True, kw_only=True):
     """An implementation under test as a whole; `finished`, since 1.3.0, is false where it was not asked to its end."""
 
     spec: str
     name: str
     started: bool = True
-    declared: Description
-    used: Description
+    declared: DescriptionPart
+    used: DescriptionPart
     restarts: Count
     again: Retest
     broke_protocol_throughout: bool
@@ -275,7 +275,7 @@ class Implementation(Line, frozen=True, kw_only=True):
     finished: bool | UnsetType = UNSET
 
 
-class NotStarted(Line, frozen=True, kw_only=True, tag="implementation"):
+class NotStartedLine(RecordLine, frozen=True, kw_only=True, tag="implementation"):
     """An implementation under test that could not be started."""
 
     spec: str
@@ -284,7 +284,7 @@ class NotStarted(Line, frozen=True, kw_only=True, tag="implementation"):
     trouble: str
 
 
-class Map(Line, frozen=True, kw_only=True):
+class MapLine(RecordLine, frozen=True, kw_only=True):
     """A method over the half plane of a scene: a text for each z, a letter for each r, upper case where it is wrong."""
 
     name: str
@@ -297,7 +297,7 @@ class Map(Line, frozen=True, kw_only=True):
     lines: list[Annotated[str, Meta(pattern="^[eciECI]+$")]]
 
 
-class Timing(Line, frozen=True, kw_only=True):
+class TimingLine(RecordLine, frozen=True, kw_only=True):
     """A contender on a workload: nanoseconds a row, one for each round."""
 
     workload: str

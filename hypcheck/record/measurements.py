@@ -15,9 +15,9 @@ from hypcheck.record.fields import (
     Count,
     Counts,
     Interval,
-    Line,
-    Part,
+    LinePart,
     Question,
+    RecordLine,
     Row,
     Sizes,
     Truth,
@@ -41,7 +41,7 @@ Load = tuple[Amount, Amount, Amount] | None
 """How many processes wanted a processor, on average of 1, 5 and 15 minutes."""
 
 
-class Method(Line, frozen=True, kw_only=True):
+class MethodLine(RecordLine, frozen=True, kw_only=True):
     """What was measured, once for each method."""
 
     method: str
@@ -56,7 +56,7 @@ class Method(Line, frozen=True, kw_only=True):
     note: str
 
 
-class Workload(Line, frozen=True, kw_only=True):
+class WorkloadLine(RecordLine, frozen=True, kw_only=True):
     """Rows that methods are asked; `scene` are α, γ, b, d where all of them share these."""
 
     workload: str
@@ -68,14 +68,14 @@ class Workload(Line, frozen=True, kw_only=True):
     scene: Sizes | UnsetType | None = UNSET
 
 
-class Absent(Line, frozen=True, kw_only=True):
+class AbsentLine(RecordLine, frozen=True, kw_only=True):
     """What is not there, so that the methods that need it are left out; since 1.2.0."""
 
     what: str
     reason: str
 
 
-class Compiler(Line, frozen=True, kw_only=True):
+class CompilerLine(RecordLine, frozen=True, kw_only=True):
     """What compiled the methods in C; since 1.2.0."""
 
     program: str
@@ -83,7 +83,7 @@ class Compiler(Line, frozen=True, kw_only=True):
     flags: list[str]
 
 
-class Conditions(Line, frozen=True, kw_only=True):
+class ConditionsLine(RecordLine, frozen=True, kw_only=True):
     """Under which times were taken, since 1.2.0; None where the system does not tell."""
 
     governor: str | None
@@ -92,7 +92,7 @@ class Conditions(Line, frozen=True, kw_only=True):
     load_after: Load
 
 
-class Unmeasured(Line, frozen=True, kw_only=True):
+class UnmeasuredLine(RecordLine, frozen=True, kw_only=True):
     """A method that could not be timed in this way here, which fails nothing and gates nothing; since 1.4.0."""
 
     method: str
@@ -101,7 +101,7 @@ class Unmeasured(Line, frozen=True, kw_only=True):
     reason: str
 
 
-class Refused(Line, frozen=True, kw_only=True):
+class RefusedLine(RecordLine, frozen=True, kw_only=True):
     """A method that is not timed because its answers were not what they must be, which fails the run; since 1.2.0."""
 
     method: str
@@ -110,7 +110,7 @@ class Refused(Line, frozen=True, kw_only=True):
     reason: str
 
 
-class Mistaken(Part, frozen=True, kw_only=True):
+class Mistaken(LinePart, frozen=True, kw_only=True):
     """A wrong answer that is kept."""
 
     case: str
@@ -120,7 +120,7 @@ class Mistaken(Part, frozen=True, kw_only=True):
     flip_distance: Unsigned
 
 
-class Accuracy(Line, frozen=True, kw_only=True):
+class AccuracyLine(RecordLine, frozen=True, kw_only=True):
     """A method's answers on a workload; `reliable_above`: the distance above which at most 1 in 1000 is wrong."""
 
     method: str
@@ -141,7 +141,7 @@ class Accuracy(Line, frozen=True, kw_only=True):
             require_counts(asked, wrong, f"octaves[{number}]")
 
 
-class Speed(Line, frozen=True, kw_only=True):
+class SpeedLine(RecordLine, frozen=True, kw_only=True):
     """A method's time on a workload: nanoseconds a row, a call or a mesh, for each process its rounds.
 
     `dropped`, since 1.4.0: samples left out, of which nothing was left when the call that does nothing was taken off.
@@ -163,7 +163,7 @@ class Speed(Line, frozen=True, kw_only=True):
     timed_by: str
 
 
-class Noise(Line, frozen=True, kw_only=True):
+class NoiseLine(RecordLine, frozen=True, kw_only=True):
     """One method against itself: what a ratio of one is in this run; nothing is concluded below `floor`."""
 
     workload: str
@@ -173,7 +173,7 @@ class Noise(Line, frozen=True, kw_only=True):
     floor: Amount
 
 
-class Memory(Line, frozen=True, kw_only=True):
+class MemoryLine(RecordLine, frozen=True, kw_only=True):
     """The bytes by which a fresh process grows while it answers `rows`."""
 
     method: str
@@ -181,7 +181,7 @@ class Memory(Line, frozen=True, kw_only=True):
     peak_bytes: Count
 
 
-class Stability(Line, frozen=True, kw_only=True):
+class StabilityLine(RecordLine, frozen=True, kw_only=True):
     """Wrong answers over sizes: bins [floor of 2 log10(α/b), floor of 2 log10(γ/d), asked, wrong]."""
 
     method: str
@@ -192,7 +192,7 @@ class Stability(Line, frozen=True, kw_only=True):
         require_possible("bins", self.bins)
 
 
-class Scenery(Part, frozen=True, kw_only=True):
+class Scenery(LinePart, frozen=True, kw_only=True):
     """The sizes of a scene."""
 
     alpha: float
@@ -201,7 +201,7 @@ class Scenery(Part, frozen=True, kw_only=True):
     d: float
 
 
-class Places(Line, frozen=True, kw_only=True):
+class PlacesLine(RecordLine, frozen=True, kw_only=True):
     """Where a method is wrong in a half plane: a text for each z; "." right, c false clear, w false contact, s side."""
 
     method: str
@@ -212,7 +212,7 @@ class Places(Line, frozen=True, kw_only=True):
     region: Annotated[str, one_of("whole", "ring")]
 
 
-class Convergence(Line, frozen=True, kw_only=True):
+class ConvergenceLine(RecordLine, frozen=True, kw_only=True):
     """A mesh of so many triangles: its times, its deviation in spheroid radii, and what it gets wrong."""
 
     method: str
@@ -224,7 +224,7 @@ class Convergence(Line, frozen=True, kw_only=True):
     wrong: Count
 
 
-class Bounding(Line, frozen=True, kw_only=True):
+class BoundingLine(RecordLine, frozen=True, kw_only=True):
     """A shape in the spheroid's place; `overlap`: d/b, asked, false contacts, median excess clearance in radii."""
 
     shape: Annotated[str, one_of("sphere", "cylinder")]
@@ -239,7 +239,7 @@ class Bounding(Line, frozen=True, kw_only=True):
             require_counts(asked, wrong, f"overlap[{number}]")
 
 
-class Compared(Part, frozen=True, kw_only=True):
+class Compared(LinePart, frozen=True, kw_only=True):
     """One side of a claim of cost: operations counted, times measured."""
 
     name: str
@@ -249,7 +249,7 @@ class Compared(Part, frozen=True, kw_only=True):
     ratio_ci95: Interval | None
 
 
-class Cost(Line, frozen=True, kw_only=True):
+class CostLine(RecordLine, frozen=True, kw_only=True):
     """A claim of the paper about cost, and what was measured."""
 
     claim: str
@@ -259,7 +259,7 @@ class Cost(Line, frozen=True, kw_only=True):
     says: str
 
 
-class Kernel(Line, frozen=True, kw_only=True):
+class KernelLine(RecordLine, frozen=True, kw_only=True):
     """A target of a kernel's speed, and what was measured."""
 
     name: str
@@ -271,7 +271,7 @@ class Kernel(Line, frozen=True, kw_only=True):
     says: str
 
 
-class Forest(Line, frozen=True, kw_only=True):
+class ForestLine(RecordLine, frozen=True, kw_only=True):
     """What a walker's step among so many trees costs; since 1.3.0."""
 
     method: str
@@ -288,7 +288,7 @@ class Forest(Line, frozen=True, kw_only=True):
     ratio_ci95: Interval | None
 
 
-class Shares(Part, frozen=True, kw_only=True):
+class Shares(LinePart, frozen=True, kw_only=True):
     """The share of a scene's centres that each stage of its kernel decides."""
 
     always: Annotated[float, Meta(ge=0, le=1)]
@@ -298,7 +298,7 @@ class Shares(Part, frozen=True, kw_only=True):
     search: Annotated[float, Meta(ge=0, le=1)]
 
 
-class SceneTimes(Part, frozen=True, kw_only=True):
+class SceneTimes(LinePart, frozen=True, kw_only=True):
     """Nanoseconds a row, and how long the kernel takes for each of the others'."""
 
     kernel_ns: Amount
@@ -310,7 +310,7 @@ class SceneTimes(Part, frozen=True, kw_only=True):
     by_certified_ci95: Interval | None
 
 
-class Scene(Line, frozen=True, kw_only=True):
+class SceneLine(RecordLine, frozen=True, kw_only=True):
     """What a scene's kernel leaves out and saves; since 1.3.0."""
 
     scene: str
@@ -324,7 +324,7 @@ class Scene(Line, frozen=True, kw_only=True):
     single: SceneTimes
 
 
-class Comparison(Line, frozen=True, kw_only=True):
+class ComparisonLine(RecordLine, frozen=True, kw_only=True):
     """Ratios to the reference method of this run and of the baseline's; `gates`: whether it decides the exit code."""
 
     method: str

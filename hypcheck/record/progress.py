@@ -9,9 +9,9 @@ from msgspec import Meta
 from hypcheck.record.fields import (
     Count,
     InvalidRow,
-    Line,
+    LinePart,
     Mistake,
-    Part,
+    RecordLine,
     Row,
     Truth,
     Unsigned,
@@ -19,7 +19,7 @@ from hypcheck.record.fields import (
     require_octaves,
     require_possible,
 )
-from hypcheck.record.lines import Description, Retest
+from hypcheck.record.lines import DescriptionPart, Retest
 
 Total = Annotated[int, Meta(ge=0, le=1 << 60)]
 """A count that fits into int64, and so do sums of a few: a run has fewer cases."""
@@ -33,7 +33,7 @@ SavedBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta
 """As a Bin, of numbers that fit into int64."""
 
 
-class SavedAllowance(Part, frozen=True, kw_only=True):
+class SavedAllowance(LinePart, frozen=True, kw_only=True):
     """What the implementation may still cost. `over` says why it is asked no more; empty while it is."""
 
     restarts: Total
@@ -42,7 +42,7 @@ class SavedAllowance(Part, frozen=True, kw_only=True):
     hangs: Total | None = None
 
 
-class PendingCases(Part, frozen=True, kw_only=True):
+class PendingCases(LinePart, frozen=True, kw_only=True):
     """Cases that were answered and wait for their retest.
 
     `chunk`: the family, the seed (None: frozen vectors), the first case, the one behind the last, and how many are
@@ -54,7 +54,7 @@ class PendingCases(Part, frozen=True, kw_only=True):
     answers: Annotated[str, Meta(pattern="^([0-9a-f]{2})*$")]
 
 
-class SavedAnswer(Part, frozen=True, kw_only=True):
+class SavedAnswer(LinePart, frozen=True, kw_only=True):
     """A wrong or tolerated answer that is kept; `error` is its backward error."""
 
     place: Place
@@ -67,7 +67,7 @@ class SavedAnswer(Part, frozen=True, kw_only=True):
     error: Unsigned
 
 
-class SavedFault(Part, frozen=True, kw_only=True):
+class SavedFault(LinePart, frozen=True, kw_only=True):
     """A case that ended without an answer that counts."""
 
     place: Place
@@ -77,7 +77,7 @@ class SavedFault(Part, frozen=True, kw_only=True):
     reason: str
 
 
-class SavedTally(Part, frozen=True, kw_only=True):
+class SavedTally(LinePart, frozen=True, kw_only=True):
     """A family so far, as a group has it; `dangerous`: its false clears beyond the tolerance."""
 
     asked: Total
@@ -96,7 +96,7 @@ class SavedTally(Part, frozen=True, kw_only=True):
         require_possible("place_bins", self.place_bins)
 
 
-class SavedResult(Part, frozen=True, kw_only=True):
+class SavedResult(LinePart, frozen=True, kw_only=True):
     """The cases that are done: a tally for each family, and `open` cases that no tally counts yet.
 
     `outcomes` are all ways in which questions ended; `excusing` the numbers of the known failures that excused
@@ -111,7 +111,7 @@ class SavedResult(Part, frozen=True, kw_only=True):
     named: list[str]
 
 
-class SavedState(Part, frozen=True, kw_only=True):
+class SavedState(LinePart, frozen=True, kw_only=True):
     """How many steps are done, what the implementation may still cost, and the result so far."""
 
     done: Total
@@ -119,7 +119,7 @@ class SavedState(Part, frozen=True, kw_only=True):
     total: SavedResult
 
 
-class Progress(Line, frozen=True, kw_only=True):
+class ProgressLine(RecordLine, frozen=True, kw_only=True):
     """Of a run with SPEC that did not finish: what it goes on from.
 
     `number` is the place, from 0, of the implementation that is asked among those of the run, `declared` what it says
@@ -128,7 +128,7 @@ class Progress(Line, frozen=True, kw_only=True):
     """
 
     number: Count
-    declared: Description
+    declared: DescriptionPart
     cases: Count
     state: SavedState
     program: str | None = None

@@ -1,7 +1,11 @@
-"""A record read as a whole: decoded into its lines and held to what they may be, in one place for everybody who reads.
+"""A record read as a whole: decoded and validated in one place; and the cases that it keeps with their rows.
+
+A record read as a whole: decoded into its lines and held to what they may be, in one place for everybody who reads.
 
 Every schema 1.x is read: later versions have added fields and types of lines, and changed none. Nothing is converted:
 what an older record lacks is UNSET or None in its lines, and what a newer one has beside them is left out.
+
+The cases that a record keeps with their rows, numbered: what RECORD:N on the command line names.
 """
 
 from __future__ import annotations
@@ -17,14 +21,13 @@ from typing import Any, TypeVar
 import msgspec
 
 from hypcheck.errors import InputError
+from hypcheck.messages import escaped
 from hypcheck.record import lines, measurements, progress
-from hypcheck.record.fields import Line, decoded
-from hypcheck.record.lines import SCHEMA, Footer, Header, NotStarted
-from hypcheck.record.scanning import Scan
-from hypcheck.record.sealing import Raw
+from hypcheck.record.fields import RecordLine, decoded
+from hypcheck.record.integrity import Raw, RecordScan
+from hypcheck.record.lines import SCHEMA, FaultPart, FooterLine, GroupLine, HeaderLine, NotStartedLine, WrongAnswer
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.streams import reading
-from hypcheck.visible import visible
 
 FILE = "record.jsonl"
 """The record's name in the folder of a run."""
@@ -32,15 +35,15 @@ FILE = "record.jsonl"
 GROWING = "record.jsonl.part"
 """Its name while the run goes on, and after one that was killed."""
 
-LINES: Mapping[str, type[Line]] = {
+LINES: Mapping[str, type[RecordLine]] = {
     str(kind.__struct_config__.tag): kind
     for module in (lines, progress, measurements)
     for kind in vars(module).values()
-    if isinstance(kind, type) and issubclass(kind, Line) and kind not in (Line, NotStarted)
+    if isinstance(kind, type) and issubclass(kind, RecordLine) and kind not in (RecordLine, NotStartedLine)
 }
 """What a line of each type is decoded into; an implementation that was not started is a NotStarted."""
 
-Kind = TypeVar("Kind", bound=Line)
+Kind = TypeVar("Kind", bound=RecordLine)
 
 _TYPES = {
     "object": "an object",
@@ -56,9 +59,9 @@ _TYPES = {
 class Record:
     """A record as read: its header, its lines between header and footer, and its footer (None: truncated)."""
 
-    header: Header
-    lines: tuple[Line, ...]
-    footer: Footer | None
+    header: HeaderLine
+    lines: tuple[RecordLine, ...]
+    footer: FooterLine | None
 
     def of(self, kind: type[Kind]) -> list[Kind]:
         """The lines of one kind, in order."""
@@ -99,10 +102,10 @@ def read(path: Path) -> Record:
     """
     path = file_of(path)
     with reading(str(path)) as reader:
-        raws = list(Scan(reader))  # all of them: what is damaged behind a line matters more than what is in it
+        raws = list(RecordScan(reader))  # all of them: what is damaged behind a line matters more than what is in it
     header, *found = _decoded(raws, path)
-    footer = found.pop() if found and isinstance(found[-1], Footer) else None
-    if not isinstance(header, Header) or not (footer is None or isinstance(footer, Footer)):
+    footer = found.pop() if found and isinstance(found[-1], FooterLine) else None
+    if not isinstance(header, HeaderLine) or not (footer is None or isinstance(footer, FooterLine)):
         raise TypeError("the scan has let through what is no record")
     return Record(header, tuple(found), footer)
 
@@ -118,20 +121,20 @@ def notes(record: Record) -> list[str]:
     return found
 
 
-def line_of(raw: Raw) -> Line | None:
+def line_of(raw: Raw) -> RecordLine | None:
     """The value of a line as JSON has it, None of a type that this version does not know. Raises ValidationError."""
     kind = LINES.get(raw["type"])
-    if kind is lines.Implementation and raw.get("started") is False:
-        kind = NotStarted
+    if kind is lines.ImplementationLine and raw.get("started") is False:
+        kind = NotStartedLine
     return None if kind is None else decoded(raw, kind)
 
 
-def _decoded(raws: Sequence[Raw], path: Path) -> Iterator[Line]:
+def _decoded(raws: Sequence[Raw], path: Path) -> Iterator[RecordLine]:
     for number, raw in enumerate(raws, start=1):
         try:
             line = line_of(raw)
         except msgspec.ValidationError as error:
-            raise InputError(f"{path}: line {number}, {visible(raw['type'])}: {_said(error, raw)}") from None
+            raise InputError(f"{path}: line {number}, {escaped(raw['type'])}: {_said(error, raw)}") from None
         if line is not None:
             yield line
 
@@ -145,11 +148,11 @@ def _said(error: msgspec.ValidationError, raw: Raw) -> str:
         return f"{path or 'it'} lacks {missing[1]}"
     wanted = re.fullmatch(r"Expected (.*?)(?:, got [^,]*)?", what, re.DOTALL)
     if not wanted:
-        return visible(f"{path}: {what}" if path else what)
+        return escaped(f"{path}: {what}" if path else what)
     must = re.sub(r"`([^`]*)`", lambda found: _named(found[1]), wanted[1])
     must = re.sub(r"matching regex '\^\(([^\\()]*)\)\$'", lambda found: f"out of {found[1].replace('|', ', ')}", must)
     stands = "" if "[...]" in path else f"is {shown_json(_at(raw, path))}; it "
-    return visible(f"{path} {stands}must be {must}")
+    return escaped(f"{path} {stands}must be {must}")
 
 
 def _named(types: str) -> str:
@@ -161,3 +164,18 @@ def _at(raw: Any, path: str) -> object:  # noqa: ANN401 - whatever JSON holds
     for name, index in re.findall(r"(\w+)|\[(\d+)\]", path):
         raw = raw[name] if name else raw[int(index)]
     return raw
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedCase:
+    """The `number`-th case of a record, from 1 on, and the line of the group it belongs to."""
+
+    number: int
+    group: GroupLine
+    case: WrongAnswer | FaultPart
+
+
+def recorded_cases(record: Record) -> list[RecordedCase]:
+    """Every worst case and every fault, in the order of the record; of a group first the worst, then the faults."""
+    kept = [(group, case) for group in record.of(GroupLine) for case in (*group.worst, *(group.faults or ()))]
+    return [RecordedCase(number, group, case) for number, (group, case) in enumerate(kept, start=1)]

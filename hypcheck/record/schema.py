@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 
 from hypcheck.record.fields import Extended, Unsigned
-from hypcheck.record.lines import SCHEMA, NotStarted
+from hypcheck.record.lines import SCHEMA, NotStartedLine
 from hypcheck.record.reader import LINES
 
 Json = dict[str, Any]
@@ -23,7 +23,7 @@ _CRC = "Since 1.2.0 the last field of every line: the CRC-32 of all bytes before
 
 def schema() -> Json:
     """The schema of a line: every type of line, and every part of one, is a definition."""
-    references, definitions = components([*LINES.values(), NotStarted])
+    references, definitions = components([*LINES.values(), NotStartedLine])
     return {
         "$schema": DRAFT,
         "$id": f"urn:hypcheck:record-line:{SCHEMA}",

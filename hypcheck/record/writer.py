@@ -1,4 +1,10 @@
-"""The record of a run: one JSON object a line, from which every report is made.
+"""The writer of a record: one run at a time holds the folder, and appends one JSON object a line.
+
+One run at a time in a folder: the system keeps the lock, and gives it back however the run ends.
+
+The file that a record grows in: lines are added at its end, and now and then all of it is exchanged at once.
+
+The record of a run: one JSON object a line, from which every report is made.
 
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
@@ -8,22 +14,126 @@ from __future__ import annotations
 
 import os
 import platform
+import sys
 import time
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, BinaryIO, TextIO
 
+from hypcheck.errors import InputError
 from hypcheck.processes import interrupts_deferred
-from hypcheck.record.fields import Line, as_json, decoded, plain
-from hypcheck.record.growing import Growing
-from hypcheck.record.lines import SCHEMA, Footer, Header, Implementation, NotStarted
-from hypcheck.record.progress import Progress
+from hypcheck.record.fields import RecordLine, as_json, decoded, plain
+from hypcheck.record.integrity import sealed
+from hypcheck.record.lines import SCHEMA, FooterLine, HeaderLine, ImplementationLine, NotStartedLine
+from hypcheck.record.progress import ProgressLine
 from hypcheck.record.reader import Record
-from hypcheck.record.sealing import sealed
 from hypcheck.version import VERSION
+
+
+class FolderInUseError(InputError):
+    """Another process has the folder."""
+
+
+@contextmanager
+def folder_locked(folder: Path) -> Iterator[None]:
+    """While it lasts no other process owns the folder. Raises OwnedError where one does.
+
+    Where the system has no locks for folders (Windows, some networks), nobody is refused.
+    """
+    place = None if sys.platform == "win32" else os.open(folder, os.O_RDONLY)
+    try:
+        if place is not None and not _locked(place):
+            raise FolderInUseError(f"{folder}: another run is writing its record there; wait for it, or end it")
+        yield
+    finally:
+        if place is not None:
+            os.close(place)  # which gives the lock back
+
+
+def _locked(place: int) -> bool:
+    """Take the lock of an open folder; whether it could be had."""
+    if sys.platform != "win32":
+        import fcntl  # noqa: PLC0415 - there is none on Windows
+
+        try:
+            fcntl.flock(place, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        except OSError:
+            return True
+    return True
+
+
+class GrowingFile:
+    """A context manager. Whatever moment the program is killed at, the file holds what stood there or what was new.
+
+    Raises OSError where the system refuses; the file is then as it was, but for a line that may be cut off. A folder
+    that somebody removed is made again.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._beside = path.with_name(path.name + ".new")
+        self._file: BinaryIO | None = None
+
+    def __enter__(self) -> GrowingFile:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._file is not None:
+            self._file.close()
+
+    def write(self, data: bytes) -> None:
+        """Add to the end, so that it is there should this process end at once."""
+        if self._file is None:
+            raise ValueError("a record is renewed before anything is added to it")
+        self._file.write(data)
+        self._file.flush()
+
+    def renew(self, data: bytes) -> None:
+        """Let `data` take the place of all that stands there, when it is on the disk."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        file = _new_file(self._beside)
+        try:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+            self._beside.replace(self._path)
+        except OSError:
+            with suppress(OSError):
+                file.close()
+            with suppress(OSError):
+                self._beside.unlink()
+            raise
+        before, self._file = self._file, file
+        if before is not None:
+            with suppress(OSError):  # what could not be written of a line was written anew
+                before.close()
+
+    @property
+    def is_there(self) -> bool:
+        """Whether what was written stands in its place: nobody removed it, or put something else there."""
+        try:
+            return self._file is not None and os.path.samestat(os.fstat(self._file.fileno()), self._path.stat())
+        except OSError:
+            return False
+
+    def move(self, path: Path) -> None:
+        """Take another place, for good."""
+        self._path.replace(path)
+
+
+def _new_file(path: Path) -> BinaryIO:
+    """A file that was not there before, to be added to; what a killed run left in its place is removed.
+
+    A link that somebody planted there is not followed. Raises OSError, also where one is planted at this very moment.
+    """
+    path.unlink(missing_ok=True)
+    how = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+    return os.fdopen(os.open(path, how, 0o666), "ab")
 
 
 class Recorder:
@@ -36,21 +146,21 @@ class Recorder:
 
     def __init__(
         self,
-        stream: TextIO | Growing,
+        stream: TextIO | GrowingFile,
         options: Mapping[str, Any],
         optional: Mapping[str, Any] | None = None,
-        carried: Sequence[Line] = (),
+        carried: Sequence[RecordLine] = (),
     ) -> None:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
         self._began = time.monotonic()  # the clock may be set meanwhile
-        self._lines = [line for line in carried if not isinstance(line, Progress)]
-        self._progress = next((line for line in carried if isinstance(line, Progress)), None)
+        self._lines = [line for line in carried if not isinstance(line, ProgressLine)]
+        self._progress = next((line for line in carried if isinstance(line, ProgressLine)), None)
         self._place = len(self._lines)
-        self._ending: tuple[Footer, ...] = ()
+        self._ending: tuple[FooterLine, ...] = ()
         self._check = 0
         self._header = header(options, self._started, optional)
-        if isinstance(stream, Growing):
+        if isinstance(stream, GrowingFile):
             self._renew()
         else:
             self._write(self._header)
@@ -63,28 +173,28 @@ class Recorder:
     @property
     def concluded(self) -> int:
         """How many implementations under test have been asked to their end, or could not be started."""
-        return sum(isinstance(line, (Implementation, NotStarted)) for line in self._lines)
+        return sum(isinstance(line, (ImplementationLine, NotStartedLine)) for line in self._lines)
 
     @property
-    def lines(self) -> tuple[Line, ...]:
+    def lines(self) -> tuple[RecordLine, ...]:
         """What was added so far."""
         return tuple(self._lines)
 
-    def add(self, line: Line) -> None:
+    def add(self, line: RecordLine) -> None:
         """Add one line."""
         self._write(line)
         self._lines.append(line)
 
-    def keep(self, progress: Progress) -> None:
+    def keep(self, progress: ProgressLine) -> None:
         """Let a line of progress stand behind what is recorded, in place of the one before; in a file alone."""
-        if isinstance(self._stream, Growing):
+        if isinstance(self._stream, GrowingFile):
             self._progress, self._place = progress, len(self._lines)
             self._renew()
 
     def close(self, exit_code: int) -> Record:
         """Write the footer; the record as it would be read back."""
         seconds = time.monotonic() - self._began
-        footer = Footer(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
+        footer = FooterLine(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
         self._ending = (footer,)
         if self._progress is None:
             self._write(footer)
@@ -95,15 +205,15 @@ class Recorder:
 
     def settle(self, path: Path) -> None:
         """Let the file that grew take another place; what somebody removed meanwhile is written anew."""
-        if isinstance(self._stream, Growing):
+        if isinstance(self._stream, GrowingFile):
             if not self._stream.is_there:
                 self._renew()
             self._stream.move(path)
 
-    def _write(self, line: Line) -> None:
+    def _write(self, line: RecordLine) -> None:
         with interrupts_deferred():
             data, self._check = sealed(as_json(line), self._check)
-            if isinstance(self._stream, Growing):
+            if isinstance(self._stream, GrowingFile):
                 self._stream.write(data)
             else:
                 self._stream.write(data.decode())
@@ -111,7 +221,7 @@ class Recorder:
 
     def _renew(self) -> None:
         """Write all lines anew."""
-        if not isinstance(self._stream, Growing):
+        if not isinstance(self._stream, GrowingFile):
             raise TypeError("only a file can be renewed")
         progress = [] if self._progress is None else [self._progress]
         data, check = b"", 0
@@ -123,7 +233,7 @@ class Recorder:
             self._check = check
 
 
-def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> Header:
+def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> HeaderLine:
     """The first line: versions, machine and options, and the `optional` fields that are there."""
     fields = {
         "type": "header",
@@ -141,7 +251,7 @@ def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str,
         "options": plain(options),
         **(optional or {}),
     }
-    return decoded(fields, Header)
+    return decoded(fields, HeaderLine)
 
 
 def _versions() -> dict[str, str]:

@@ -1,7 +1,11 @@
-"""What changed from one record to another: statuses by family, worst errors, errors by workload, ratios of times.
+"""What changed from one record to another: statuses, worst errors, ratios of times, and the section that lists them.
+
+What changed from one record to another: statuses by family, worst errors, errors by workload, ratios of times.
 
 Times themselves are never compared: the records may be of two machines, and of one machine on two days. A ratio is of
 two methods within one run, and its interval says how well that run knew it.
+
+What changed against another record.
 """
 
 from __future__ import annotations
@@ -11,10 +15,24 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from hypcheck.record import Record
-from hypcheck.record.lines import Group
-from hypcheck.record.measurements import Accuracy, Speed
-from hypcheck.report.digest import implementations, timing_totals, worst_case, worst_error_u
-from hypcheck.report.text import listed
+from hypcheck.record.lines import GroupLine
+from hypcheck.record.measurements import AccuracyLine, SpeedLine
+from hypcheck.report.document import (
+    Block,
+    Code,
+    Column,
+    Paragraph,
+    Section,
+    TableBlock,
+    TableCell,
+    bullets,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.messages import figure, listed, with_interval
+from hypcheck.report.model import implementations, timing_totals, worst_case, worst_error_u
+from hypcheck.report.verdict import verdict
 
 Key = TypeVar("Key", bound=Hashable)
 
@@ -92,7 +110,7 @@ def status_changes(before: Record, after: Record) -> list[StatusChange]:
     return sorted(found, key=lambda change: not change.worse)
 
 
-def _groups(record: Record) -> dict[tuple[str, str], Group]:
+def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
     return {(each.name, group.family): group for each in implementations(record) for group in each.groups}
 
 
@@ -122,21 +140,21 @@ def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
 def _ratios(record: Record) -> dict[tuple[str, str, str], tuple[float, Interval | None]]:
     measured = {
         (line.method, line.workload, line.mode): (line.ratio, line.ratio_ci95)
-        for line in record.of(Speed)
+        for line in record.of(SpeedLine)
         if line.ratio is not None
     }
     timed = {(each.name, each.workload, "batch"): (each.ratio, each.ratio_range) for each in timing_totals(record)}
     return {**measured, **{key: (ratio, spread) for key, (ratio, spread) in timed.items() if ratio is not None}}
 
 
-def _accuracies(record: Record) -> dict[tuple[str, str], Accuracy]:
-    return {(line.method, line.workload): line for line in record.of(Accuracy)}
+def _accuracies(record: Record) -> dict[tuple[str, str], AccuracyLine]:
+    return {(line.method, line.workload): line for line in record.of(AccuracyLine)}
 
 
-def in_one_alone(before: Record, after: Record) -> Iterator[str]:
+def only_in_one(before: Record, after: Record) -> Iterator[str]:
     """Sentences about the implementations and methods, and the families of shared ones, that one record lacks."""
     old, new = _groups(before), _groups(after)
-    measured = [{line.method for line in record.of(Accuracy)} for record in (before, after)]
+    measured = [{line.method for line in record.of(AccuracyLine)} for record in (before, after)]
     for mine, others, which in ((old, new, "the other record"), (new, old, "this record")):
         names, other_names = {name for name, _ in mine}, {name for name, _ in others}
         alone = [*(name for name, _ in mine if name not in other_names)]
@@ -177,3 +195,84 @@ def _both(before: Mapping[Key, Any], after: Mapping[Key, Any]) -> list[tuple[Key
 
 def _shared(before: Mapping[Key, Any], after: Mapping[Key, Any]) -> list[tuple[Key, tuple[Any, Any]]]:
     return [(key, (before[key], after[key])) for key in before if key in after]
+
+
+_RATIOS = prose(
+    "A ratio is a method's time by that of its run's reference; over 1 is slower. In brackets its interval, at 95 %, or"
+    " the least and the greatest of a verification's rounds. Two ratios differ where their intervals are apart. Times"
+    " themselves are not compared."
+)
+
+
+def change_sections(record: Record, against: Record) -> Iterator[Section]:
+    """The section; it is there whenever another record is, and says so where nothing changed."""
+    statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
+    ratios = ratio_changes(against, record)
+    began = against.header.started
+    blocks: list[Block] = [
+        Paragraph(f"Against the run of {began}, which ended: {verdict(against).sentence}"),
+        bullets([f"{each}." for each in (*conditions(against, record), *only_in_one(against, record))]),
+    ]
+    if statuses:
+        blocks.append(_status_table(statuses))
+    if accuracies:
+        blocks.append(_accuracy_table(accuracies))
+    if not statuses and not accuracies:
+        blocks.append(Paragraph("No case ended otherwise."))
+    if ratios:
+        blocks += [Paragraph(_RATIOS), _ratio_table(ratios)]
+    yield Section("What changed", tuple(blocks))
+
+
+def _status_table(changes: list[StatusChange]) -> TableBlock:
+    columns = ("implementation", "family", "before", "after", number("worst before, u"), number("worst after, u"))
+    return table("changed statuses", columns, [_status_row(change) for change in changes])
+
+
+def _status_row(change: StatusChange) -> tuple[TableCell, ...]:
+    return (
+        TableCell(Code(change.implementation)),
+        TableCell(Code(change.family)),
+        TableCell(_counts(change.before)),
+        TableCell(_counts(change.after), tone="bad" if change.worse else ""),
+        TableCell(figure(change.worst_before_u), change.worst_before_u),
+        TableCell(figure(change.worst_after_u), change.worst_after_u),
+    )
+
+
+def _counts(counts: Mapping[str, int]) -> str:
+    return listed([f"{number:,} {status}" for status, number in counts.items()]) or "nothing"
+
+
+def _accuracy_table(changes: list[AccuracyChange]) -> TableBlock:
+    numbers = map(number, ("wrong before", "wrong after", "reliable above, before", "reliable above, after"))
+    columns: tuple[Column | str, ...] = ("method", "workload", *numbers)
+    return table("changed errors", columns, [_accuracy_row(change) for change in changes])
+
+
+def _accuracy_row(change: AccuracyChange) -> tuple[TableCell, ...]:
+    shares = [
+        TableCell(f"{wrong:,} of {asked:,}", wrong / max(1, asked)) for wrong, asked in (change.before, change.after)
+    ]
+    reliable = [TableCell(figure(each), each) for each in (change.reliable_before, change.reliable_after)]
+    return (TableCell(Code(change.method)), TableCell(change.workload), *shares, *reliable)
+
+
+def _ratio_table(changes: list[RatioChange]) -> TableBlock:
+    numbers = map(number, ("ratio before", "ratio after", "change"))
+    columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
+    return table("ratios of times", columns, [_ratio_row(change) for change in changes])
+
+
+def _ratio_row(change: RatioChange) -> tuple[TableCell, ...]:
+    factor = change.after / change.before if change.before else 0.0
+    tone = {SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")
+    return (
+        TableCell(Code(change.method)),
+        TableCell(change.workload),
+        TableCell(change.mode),
+        TableCell(with_interval(change.before, change.before_interval), change.before),
+        TableCell(with_interval(change.after, change.after_interval), change.after),
+        TableCell(f"× {figure(factor)}" if factor else "–", factor),
+        TableCell(change.verdict, tone=tone),
+    )

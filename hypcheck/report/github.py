@@ -11,12 +11,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from hypcheck.errors import system_reason
+from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.failure import Failure
 from hypcheck.report.markdown import render
-from hypcheck.report.text import counted
-from hypcheck.report.verdict import failures
-from hypcheck.visible import visible
+from hypcheck.report.messages import counted
+from hypcheck.report.verdict import Failure, failures
 
 MOST_ANNOTATIONS = 10
 """Errors of one step that GitHub shows; the last of them speaks for those that are left out."""
@@ -61,8 +60,8 @@ def _message(failure: Failure) -> list[str]:
 
 
 def _annotation(title: str, lines: Iterable[str]) -> str:
-    message = "\n".join(map(visible, lines))
-    return f"::error title={_escaped(visible(title), _PROPERTY)}::{_escaped(message, _DATA)}"
+    message = "\n".join(map(escaped, lines))
+    return f"::error title={_escaped(escaped(title), _PROPERTY)}::{_escaped(message, _DATA)}"
 
 
 def _escaped(text: str, escapes: Mapping[str, str]) -> str:

@@ -1,32 +1,355 @@
-"""junit.xml: the run's test suites in the dialect that CI systems read."""
+"""junit.xml: the run as test suites and cases, in the dialect that CI systems read.
+
+A test suite and its cases, as junit.xml has them.
+
+A benchmark as test suites: its answers, its times, the baseline it was held to, the targets of the kernels.
+
+Only what fails the run is a failure. What a method that promises nothing gets wrong is a passed case that says so.
+
+A run as test suites: a suite for each subject, a case for each thing that could have gone wrong in it.
+
+What fails the run is a failure; a run that stopped before its end is an error. What the paper's own formulas get wrong
+is expected, so it is a passed case whose output says what was found (docs/record.md, "junit.xml").
+
+junit.xml: the run's test suites in the dialect that CI systems read.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
+from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.claims import settings_facts
-from hypcheck.report.suite import Case, Suite, total
-from hypcheck.report.suites import suites
-from hypcheck.visible import visible
+from hypcheck.record.lines import EquationLine, FindingLine, GroupLine, OracleLine, ProofLine
+from hypcheck.record.measurements import (
+    ComparisonLine,
+    ForestLine,
+    KernelLine,
+    RefusedLine,
+    SceneLine,
+    SpeedLine,
+    UnmeasuredLine,
+)
+from hypcheck.report.messages import (
+    Replays,
+    classify_command,
+    counted,
+    figure,
+    from_hex,
+    implementation_claims,
+    settings_facts,
+)
+from hypcheck.report.model import (
+    ImplementationTotal,
+    explanation,
+    implementations,
+    in_order,
+    measured_methods,
+    oracle_totals,
+    under_test,
+    worst_case,
+)
+from hypcheck.report.verdict import EXITS_UNFINISHED, INCONCLUSIVE, MEASUREMENT, SLOWER, Failure, failures, verdict
 
 if TYPE_CHECKING:
-    from hypcheck.report.write import Around
+    from hypcheck.report.write import ReportContext
+
+
+@dataclass(frozen=True, slots=True)
+class JunitTrouble:
+    """Why a case did not pass: `tag` is "failure", "error" or "skipped"; `kind` and `message` are one line each."""
+
+    tag: str
+    kind: str
+    message: str
+    details: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class JunitCase:
+    """A test case; `output` are lines of its system-out.
+
+    Its name does not depend on how it ended. Times are whole milliseconds, so that sums add up; None: not measured.
+    """
+
+    name: str
+    trouble: JunitTrouble | None = None
+    output: tuple[str, ...] = ()
+    milliseconds: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JunitSuite:
+    """A named group of cases."""
+
+    name: str
+    cases: tuple[JunitCase, ...]
+
+    def count(self, tag: str) -> int:
+        """How many of its cases ended in that trouble."""
+        return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
+
+    @property
+    def milliseconds(self) -> int | None:
+        """The time of all cases that have one; None where none has."""
+        return total(case.milliseconds for case in self.cases)
+
+
+def total(times: Iterable[int | None]) -> int | None:
+    """The sum of the times that were measured; None where none was."""
+    known = [time for time in times if time is not None]
+    return sum(known) if known else None
+
+
+def details(failed: Iterable[Failure]) -> Iterator[str]:
+    """Each failure with its case and how to look at it."""
+    for each in failed:
+        place = f" ({each.place})" if each.place else ""
+        yield f"case {each.case}{place}: {each.message}" if each.case else each.message
+        if each.replay:
+            yield f"replay: {each.replay}"
+
+
+def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[JunitSuite]:
+    """The suites of a benchmark, all of them empty where there was none."""
+    found = [failure for failure in failed if failure.subject == MEASUREMENT]
+    yield JunitSuite("bench.answers", tuple(_answer_cases(record, found)))
+    yield JunitSuite("bench.times", tuple(_time_cases(record, found)))
+    yield JunitSuite("bench.baseline", tuple(_comparison(line, found) for line in record.of(ComparisonLine)))
+    yield JunitSuite("bench.scenes", tuple(_scene_cases(record, found)))
+    yield JunitSuite("bench.kernels", tuple(_kernel(line, found) for line in record.of(KernelLine)))
+
+
+def _answer_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
+    for each in measured_methods(record):
+        for workload, line in each.accuracy.items():
+            reliable = figure(float(line.reliable_above))
+            said = f"{line.wrong:,} of {counted(line.asked, 'answer')} wrong; reliable above {reliable}"
+            yield JunitCase(f"{each.name} on {workload}", _trouble(failed, "wrong", each.name, workload), (said,))
+
+
+def _time_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
+    for line in record.of(SpeedLine):
+        ratio = "" if line.ratio is None else f"{figure(line.ratio)} times the reference's time, "
+        said = f"{ratio}{figure(line.median_ns)} ns"
+        yield JunitCase(_name(line), output=(said,))
+    for unmeasured in record.of(UnmeasuredLine):
+        yield JunitCase(_name(unmeasured), JunitTrouble("skipped", "unmeasured", unmeasured.reason))
+    for refused in record.of(RefusedLine):
+        yield JunitCase(_name(refused), _trouble(failed, "refused", refused.method, _where(refused)))
+
+
+def _scene_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
+    for line in record.of(SceneLine):
+        ratios = (figure(times.by_printed or 0.0) for times in (line.batch, line.single))
+        said = f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {line.wrong:,} wrong"
+        yield JunitCase(line.scene, _trouble(failed, "wrong", line.scene, "scene"), (said,))
+    for step in record.of(ForestLine):
+        group = f"{step.trees:,} trees"
+        said = f"{figure(step.step_ns)} ns a step, {step.wrong:,} wrong"
+        yield JunitCase(f"{step.method}, {group}", _trouble(failed, "wrong", step.method, group), (said,))
+
+
+def _comparison(line: ComparisonLine, failed: Sequence[Failure]) -> JunitCase:
+    said = f"{figure(line.change)} times its former ratio, allowed {figure(line.allowed)}: {line.verdict}"
+    trouble = _trouble(failed, line.verdict, line.method, _where(line))
+    if trouble is None and line.verdict == "inconclusive":
+        trouble = JunitTrouble("skipped", "inconclusive", said)
+    return JunitCase(_name(line), trouble, (said,))
+
+
+def _kernel(line: KernelLine, failed: Sequence[Failure]) -> JunitCase:
+    said = f"wanted {figure(line.wanted)}, measured {figure(line.measured)}: {'met' if line.met else 'not met'}"
+    missed = (_trouble(failed, kind, line.name, "target") for kind in (SLOWER, INCONCLUSIVE))
+    return JunitCase(f"{line.name}: {line.target}", next(filter(None, missed), None), (said, str(line.says)))
+
+
+def _name(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
+    return f"{line.method} on {_where(line)}"
+
+
+def _where(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
+    return f"{line.workload}, {line.mode}"
+
+
+def _trouble(failed: Sequence[Failure], kind: str, name: str, group: str) -> JunitTrouble | None:
+    mine = [each for each in failed if (each.kind, each.name, each.group) == (kind, name, group)]
+    return JunitTrouble("failure", kind, mine[0].message, tuple(details(mine))) if mine else None
+
+
+_LONGEST_MS = 1e15
+"""Milliseconds that no run takes; what a record says beyond it is no time."""
+
+
+def junit_suites(record: Record) -> Iterator[JunitSuite]:
+    """The suites of a record, some of them empty."""
+    failed = failures(record)
+    others = list(_others(record, failed))
+    yield JunitSuite("run", (replace(_ended(record, failed), milliseconds=_rest(record, others)),))
+    yield from others
+
+
+def _rest(record: Record, others: Iterable[JunitSuite]) -> int | None:
+    """The time of the run that no other case accounts for; None where the run has no end, or no time."""
+    seconds = None if record.footer is None else record.footer.seconds
+    if seconds is None:
+        return None
+    whole: int = round(min(1000 * seconds, _LONGEST_MS))
+    return max(0, whole - (total(suite.milliseconds for suite in others) or 0))
+
+
+def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
+    """The suites behind that of the run itself."""
+    yield JunitSuite("proofs", tuple(_distinct_names(_proof(line) for line in record.of(ProofLine))))
+    yield JunitSuite("equations", tuple(_distinct_names(_equation(line) for line in record.of(EquationLine))))
+    for oracle in oracle_totals(record):
+        lines = [line for line in record.of(OracleLine) if line.oracle == oracle.name]
+        if oracle.unavailable is not None:
+            trouble = JunitTrouble("skipped", "unavailable", f"not available: {oracle.unavailable}")
+            yield JunitSuite(f"oracles.{oracle.name}", (JunitCase("available", trouble),))
+        else:
+            yield JunitSuite(f"oracles.{oracle.name}", tuple(_oracle(line, failed) for line in lines))
+    yield JunitSuite("findings", tuple(_findings(record, failed)))
+    replays = Replays.of(record)
+    for implementation in implementations(record):
+        cases = tuple(_family_case(implementation, group, failed, replays) for group in implementation.groups)
+        yield JunitSuite(f"implementations.{implementation.name}", cases)
+    yield JunitSuite("implementations", tuple(_implementation_cases(record, failed)))
+    yield from benchmark_suites(record, failed)
+
+
+def _ended(record: Record, failed: list[Failure]) -> JunitCase:
+    """The end of the run: an error where it was not reached, or where the exit code is not that of the record's lines.
+
+    That some other case failed is not repeated here.
+    """
+    ended = verdict(record)
+    unfinished = record.footer is None or record.footer.exit_code in EXITS_UNFINISHED
+    unexplained = not ended.passed and not failed
+    contradictory = bool(failed) and record.footer is not None and record.footer.exit_code == 0
+    if unfinished or unexplained or contradictory:
+        return JunitCase("ended", JunitTrouble("error", "unfinished" if unfinished else "unexplained", ended.sentence))
+    return JunitCase("ended", output=(ended.sentence,))
+
+
+def _proof(line: ProofLine) -> JunitCase:
+    name = f"{line.formula}: {line.quantity}"
+    if line.holds:
+        return JunitCase(name, output=(line.statement,))
+    return JunitCase(name, JunitTrouble("failure", "unproved", f"not proved: {line.statement}"))
+
+
+def _equation(line: EquationLine) -> JunitCase:
+    output = [f"{line.verdict}: {line.finding}", f"printed: {line.statement}"]
+    if not line.holds:
+        output.append(f"derived: {line.correction}")
+    return JunitCase(f"({line.number})", output=tuple(output))
+
+
+def _distinct_names(cases: Iterable[JunitCase]) -> Iterator[JunitCase]:
+    """The cases under names of their own: parsers merge those that are called alike."""
+    seen: Counter[str] = Counter()
+    for case in cases:
+        seen[case.name] += 1
+        number = seen[case.name]
+        yield case if number == 1 else replace(case, name=f"{case.name} ({number})")
+
+
+def _oracle(line: OracleLine, failed: list[Failure]) -> JunitCase:
+    stages = ", ".join(f"{stage} {number:,}" for stage, number in line.stages.items())
+    output = (f"{counted(line.asked, 'case')}, {line.undecided:,} undecided: {stages}",)
+    milliseconds = round(min(1000 * line.seconds, _LONGEST_MS))
+    place = ("oracle", line.oracle, line.family)
+    mine = [each for each in failed if (each.subject, each.name, each.group) == place]
+    if mine:
+        message = f"{counted(line.disagreeing, 'disagreement')} in {counted(line.asked, 'case')}"
+        trouble = JunitTrouble("failure", "disagreement", f"{message}; first: {mine[0].message}", tuple(details(mine)))
+        return JunitCase(line.family, trouble, output, milliseconds)
+    if line.undecided == line.asked:
+        return JunitCase(
+            line.family, JunitTrouble("skipped", "undecided", "no case could be decided"), output, milliseconds
+        )
+    return JunitCase(line.family, None, output, milliseconds)
+
+
+def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
+    """A case for each mathematical finding, and one that says whether they are the known ones."""
+    yield from _distinct_names(map(_finding, record.of(FindingLine)))
+    drifted = [each for each in failed if each.subject == "findings"]
+    if drifted:
+        message = "; ".join(each.message for each in drifted)
+        yield JunitCase("known findings", JunitTrouble("failure", "drift", message, tuple(details(drifted))))
+    elif record.of(FindingLine):
+        yield JunitCase("known findings", output=("the findings are the known ones",))
+
+
+def _finding(line: FindingLine) -> JunitCase:
+    where = "inside" if line.inside else "outside"
+    return JunitCase(
+        f"{line.formula} on {line.family}",
+        output=(
+            f"wrong in exact arithmetic, {where} its stated regimes: {line.wrong:,} of {line.asked:,}",
+            explanation(line),
+            f"first case: {line.first_case}",
+            f"replay: {classify_command(from_hex(line.first_row))}",
+        ),
+    )
+
+
+def _implementation_cases(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
+    """A case for each gated implementation: that it was started, and did nothing that no family of its own shows."""
+    for tested in under_test(record):
+        families = {group.family for group in tested.groups}
+        mine = [each for each in failed if each.name == tested.name and each.group not in families]
+        if mine:
+            message = "; ".join(each.message for each in mine)
+            yield JunitCase(tested.name, JunitTrouble("failure", mine[0].kind, message))
+        else:
+            yield JunitCase(tested.name, output=tuple(implementation_claims(tested.line)))
+
+
+def _family_case(
+    implementation: ImplementationTotal, group: GroupLine, failed: list[Failure], replays: Replays
+) -> JunitCase:
+    """A family: it fails where any status in which its cases ended fails the run; the output has all of them."""
+    counts, output = in_order(Counter(group.counts)), []
+    cases = sum(counts.values())
+    for status, number in counts.items():
+        output.append(f"{status}: {number:,} of {counted(cases, 'case')}")
+        worst = worst_case([case for case in group.worst if case.status == status])
+        if worst is not None:
+            numbered = f" ({replays.place(worst)})" if implementation.gated else ""
+            error = figure(float(worst.backward_error_u))
+            output.append(f"worst backward error: {error} u, case {worst.case}{numbered}")
+            output.append(f"replay: {replays.command(group, worst)}")
+    place = ("implementation", implementation.name, group.family)
+    mine = [each for each in failed if (each.subject, each.name, each.group) == place and each.kind in counts]
+    if mine:
+        message = "; ".join(each.message for each in mine)
+        trouble = JunitTrouble("failure", mine[0].kind, message, tuple(details(mine)))
+        return JunitCase(group.family, trouble, tuple(output))
+    if set(counts) == {"skipped"}:
+        message = f"all {counted(cases, 'case')} lie outside the method's domain or are no numbers of its format"
+        return JunitCase(group.family, JunitTrouble("skipped", "skipped", message))
+    return JunitCase(group.family, None, tuple(output))
+
 
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 """The elements that say why a case did not pass, and the attributes that count them."""
 
 
-def render(record: Record, _around: Around | None = None) -> bytes:
+def render(record: Record, _around: ReportContext | None = None) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
-    found = [suite for suite in suites(record) if suite.cases]
+    found = [suite for suite in junit_suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})
     # Without its offset: the schema that most parsers go by allows none.
-    started = visible(record.header.started)[:19]
+    started = escaped(record.header.started)[:19]
     for suite in found:
-        element = Xml.SubElement(root, "testsuite", {"name": visible(suite.name), **_attributes([suite])})
+        element = Xml.SubElement(root, "testsuite", {"name": escaped(suite.name), **_attributes([suite])})
         element.set("timestamp", started)
         _set_properties(element, record)
         for case in suite.cases:
@@ -41,10 +364,10 @@ def _set_properties(element: Xml.Element, record: Record) -> None:
     if found:
         properties = Xml.SubElement(element, "properties")
         for fact in found:
-            Xml.SubElement(properties, "property", {"name": "settings", "value": visible(fact)})
+            Xml.SubElement(properties, "property", {"name": "settings", "value": escaped(fact)})
 
 
-def _attributes(found: Sequence[Suite]) -> dict[str, str]:
+def _attributes(found: Sequence[JunitSuite]) -> dict[str, str]:
     return {
         "tests": str(sum(len(suite.cases) for suite in found)),
         **{attribute: str(sum(suite.count(tag) for suite in found)) for tag, attribute in TAGS.items()},
@@ -52,17 +375,17 @@ def _attributes(found: Sequence[Suite]) -> dict[str, str]:
     }
 
 
-def _element(suite: Suite, case: Case) -> Xml.Element:
-    names = {"classname": visible(f"hypcheck.{suite.name}"), "name": visible(case.name)}
+def _element(suite: JunitSuite, case: JunitCase) -> Xml.Element:
+    names = {"classname": escaped(f"hypcheck.{suite.name}"), "name": escaped(case.name)}
     element = Xml.Element("testcase", {**names, **_time(case.milliseconds)})
     if case.trouble is not None:
-        message = visible(case.trouble.message)
+        message = escaped(case.trouble.message)
         trouble = Xml.SubElement(element, case.trouble.tag, {"message": message})
         if case.trouble.tag != "skipped":
-            trouble.set("type", visible(case.trouble.kind))
-            trouble.text = "\n".join([message, *map(visible, case.trouble.details)])
+            trouble.set("type", escaped(case.trouble.kind))
+            trouble.text = "\n".join([message, *map(escaped, case.trouble.details)])
     if case.output:
-        Xml.SubElement(element, "system-out").text = "\n".join(map(visible, case.output))
+        Xml.SubElement(element, "system-out").text = "\n".join(map(escaped, case.output))
     return element
 
 

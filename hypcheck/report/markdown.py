@@ -1,13 +1,22 @@
-"""report.md: a run for people, from top to bottom: how it ended, what failed, and then what was found."""
+"""report.md and overview.md: documents as Markdown (CommonMark, GitHub's tables), foreign text made harmless.
+
+The pieces of a Markdown file (CommonMark and GitHub's tables), with foreign text made harmless.
+
+report.md: a run for people, from top to bottom: how it ended, what failed, and then what was found.
+
+overview.md: one page of Markdown for whoever reads no other, such as the README of a folder of reports.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report import markup
-from hypcheck.report.content.blocks import (
+from hypcheck.report.contents import Content, content, overview
+from hypcheck.report.document import (
     Block,
     Bullets,
     Code,
@@ -18,59 +27,101 @@ from hypcheck.report.content.blocks import (
     Paragraph,
     Section,
     Strong,
-    Table,
+    TableBlock,
     Text,
     bounded,
 )
-from hypcheck.report.content.report import Content, content
 
 if TYPE_CHECKING:
-    from hypcheck.report.write import Around
+    from hypcheck.report.write import ReportContext
 
 
-def render(record: Record, around: Around | None = None) -> bytes:
+_SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
+_ENTITIES = {"|": "&#124;", "<": "&lt;", ">": "&gt;", "&": "&amp;"}
+_BLOCK_START = re.compile(r"^(?:[-+=#]|\d+(?=[.)](?:\s|$)))")
+
+
+def escape_text(foreign: object) -> str:
+    """The text as running text that means itself, in a table's cell as elsewhere."""
+    safe = _SPECIAL.sub(lambda found: _ENTITIES.get(found[0], "\\" + found[0]), escaped(foreign))
+    return _BLOCK_START.sub(lambda found: "".join(f"&#{ord(c)};" for c in found[0]), safe)
+
+
+def code_span(foreign: object) -> str:
+    """The text as code, in a table's cell as elsewhere; nothing for the empty text.
+
+    A code span has no escapes, so a text with a bar or a backtick becomes an element whose marks are entities.
+    """
+    shown = escaped(foreign)
+    if "|" in shown or "`" in shown:
+        return "<code>" + "".join(c if c.isalnum() or c in " ,." else f"&#{ord(c)};" for c in shown) + "</code>"
+    return f"`{shown}`" if shown else ""
+
+
+def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = ()) -> list[str]:
+    """The lines of a table and an empty one; the columns `numbers` are set to the right.
+
+    Cells are Markdown already: what is foreign in them has gone through text() or code().
+    """
+    right = set(numbers)
+    rule = ["---:" if column in right else "---" for column in range(len(head))]
+    return [*(f"| {' | '.join(cells)} |" for cells in (head, rule, *rows)), ""]
+
+
+def paragraph_lines(*sentences: str) -> list[str]:
+    """A paragraph and an empty line."""
+    return [" ".join(sentences), ""]
+
+
+def bullet_lines(items: Iterable[str]) -> list[str]:
+    """A list and an empty line; nothing at all for no items."""
+    lines = [f"- {item}" for item in items]
+    return [*lines, ""] if lines else []
+
+
+def render(record: Record, around: ReportContext | None = None) -> bytes:
     """The report in UTF-8, which refers to the pictures among the files beside it."""
     beside = around.beside if around else ()
-    return page(content(record, around.against if around else None), beside)
+    return markdown_page(content(record, around.against if around else None), beside)
 
 
-def page(whole: Content, beside: Collection[str]) -> bytes:
+def markdown_page(whole: Content, beside: Collection[str]) -> bytes:
     """A content in UTF-8; `beside` are the names of the files beside it."""
-    lines = [f"# {text(whole.title)}", "", f"**{text(whole.verdict.sentence)}**", ""]
+    lines = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
     for section in (section for section in whole.sections if not section.page):
         lines += _section(section, beside)
     return ("\n".join(lines).rstrip() + "\n").encode("utf-8", "replace")
 
 
-def text(words: Text) -> str:
+def running_text(words: Text) -> str:
     """Running text as Markdown; what is foreign in it means itself and is cut where it is endless."""
     return _inline(words).strip()
 
 
 def _inline(words: Text) -> str:
     if isinstance(words, str):
-        return f"{' ' * words[:1].isspace()}{markup.text(bounded(words))}{' ' * words[-1:].isspace()}"
+        return f"{' ' * words[:1].isspace()}{escape_text(bounded(words))}{' ' * words[-1:].isspace()}"
     if isinstance(words, Code):
-        return markup.code(bounded(words.text))
+        return code_span(bounded(words.text))
     if isinstance(words, Strong):
-        return f"**{text(words.text)}**"
+        return f"**{running_text(words.text)}**"
     if isinstance(words, Emphasis):
-        return f"*{text(words.text)}*"
+        return f"*{running_text(words.text)}*"
     return "".join(map(_inline, words))
 
 
 def _section(section: Section, beside: Collection[str]) -> Iterator[str]:
-    yield from (f"{'#' * section.level} {text(section.title)}", "")
+    yield from (f"{'#' * section.level} {running_text(section.title)}", "")
     for block in section.blocks:
         yield from _block(block, beside)
 
 
 def _block(block: Block, beside: Collection[str]) -> Iterator[str]:
     if isinstance(block, Paragraph):
-        yield from (text(block.text), "")
+        yield from (running_text(block.text), "")
     elif isinstance(block, Bullets):
         yield from _bullets(block)
-    elif isinstance(block, Table):
+    elif isinstance(block, TableBlock):
         yield from _table(block)
     elif isinstance(block, Figures):
         if block.file in beside:
@@ -83,13 +134,19 @@ def _block(block: Block, beside: Collection[str]) -> Iterator[str]:
 
 def _bullets(block: Bullets) -> Iterator[str]:
     for item in block.items:
-        yield f"- {text(item.text)}"
-        yield from (f"  - {text(each)}" for each in item.below)
+        yield f"- {running_text(item.text)}"
+        yield from (f"  - {running_text(each)}" for each in item.below)
     if block.items:
         yield ""
 
 
-def _table(block: Table) -> Iterator[str]:
+def _table(block: TableBlock) -> Iterator[str]:
     numbers = [place for place, column in enumerate(block.columns) if column.number]
-    rows = [[text(cell.text) for cell in row] for row in block.rows]
-    yield from markup.table([text(column.title) for column in block.columns], rows, numbers)
+    rows = [[running_text(cell.text) for cell in row] for row in block.rows]
+    yield from table_lines([running_text(column.title) for column in block.columns], rows, numbers)
+
+
+def render_overview(record: Record, around: ReportContext | None = None) -> bytes:
+    """The page in UTF-8, which refers to the pictures among the files beside it."""
+    beside = around.beside if around else ()
+    return markdown_page(overview(record, beside), beside)

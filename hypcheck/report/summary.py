@@ -14,7 +14,7 @@ from hypcheck.record.fields import (
     Count,
     Counts,
     Interval,
-    Part,
+    LinePart,
     Precision,
     Question,
     Unsigned,
@@ -23,22 +23,24 @@ from hypcheck.record.fields import (
     one_of,
 )
 from hypcheck.record.lines import (
-    Domain,
-    Drift,
-    Equation,
-    Finding,
-    Group,
-    Proof,
+    DomainPart,
+    DriftLine,
+    EquationLine,
+    FindingLine,
+    GroupLine,
+    ProofLine,
     Retest,
-    Settings,
+    SettingsPart,
     WrongAnswer,
 )
-from hypcheck.record.lines import Implementation as Tested
+from hypcheck.record.lines import ImplementationLine as Tested
 from hypcheck.record.schema import DRAFT, components
-from hypcheck.report.digest import (
-    Implementation,
+from hypcheck.report.model import (
+    ImplementationTotal,
+    MeasuredMethod,
     OracleTotal,
     implementations,
+    measured_methods,
     oracle_totals,
     timing_totals,
     under_test,
@@ -46,11 +48,10 @@ from hypcheck.report.digest import (
     worst_case,
     worst_error_u,
 )
-from hypcheck.report.measured import Measured, measured
 from hypcheck.report.verdict import failures, verdict
 
 if TYPE_CHECKING:
-    from hypcheck.report.write import Around
+    from hypcheck.report.write import ReportContext
 
 SCHEMA = "1.2.0"
 
@@ -66,7 +67,7 @@ Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
 """Each with what the schema says of it."""
 
 
-class OracleSummary(Part, frozen=True, kw_only=True):
+class OracleSummary(LinePart, frozen=True, kw_only=True):
     """asked = agreed + undecided + disagreements."""
 
     asked: Count
@@ -78,7 +79,7 @@ class OracleSummary(Part, frozen=True, kw_only=True):
     unavailable: Annotated[str, Meta(description="Why it was not asked; present only then.")] | UnsetType = UNSET
 
 
-class Equations(Part, frozen=True, kw_only=True):
+class Equations(LinePart, frozen=True, kw_only=True):
     """The numbers of the paper's displayed formulas, by what the derivation says of them."""
 
     holds: list[str]
@@ -86,7 +87,7 @@ class Equations(Part, frozen=True, kw_only=True):
     false: list[str]
 
 
-class Proofs(Part, frozen=True, kw_only=True):
+class Proofs(LinePart, frozen=True, kw_only=True):
     """How many quantities of formulas were to be proved, and how many are."""
 
     asked: Count
@@ -94,7 +95,7 @@ class Proofs(Part, frozen=True, kw_only=True):
     fail: Count
 
 
-class Findings(Part, frozen=True, kw_only=True):
+class Findings(LinePart, frozen=True, kw_only=True):
     """Errors of formulas in exact arithmetic, one for each formula, family, side of its regimes and cause."""
 
     inside_stated_regimes: Count
@@ -103,7 +104,7 @@ class Findings(Part, frozen=True, kw_only=True):
     drift: list[str]
 
 
-class Mistakes(Part, frozen=True, kw_only=True, rename="kebab"):
+class Mistakes(LinePart, frozen=True, kw_only=True, rename="kebab"):
     """What the wrong and the tolerated answers mean to whoever relies on them."""
 
     false_clear: Count
@@ -111,7 +112,7 @@ class Mistakes(Part, frozen=True, kw_only=True, rename="kebab"):
     wrong_side: Count
 
 
-class FamilySummary(Part, frozen=True, kw_only=True):
+class FamilySummary(LinePart, frozen=True, kw_only=True):
     """What came of an implementation's cases of one family."""
 
     asked: Count
@@ -124,15 +125,15 @@ class FamilySummary(Part, frozen=True, kw_only=True):
     worst_case: CaseId
 
 
-class Claims(Part, frozen=True, kw_only=True):
+class Claims(LinePart, frozen=True, kw_only=True):
     """Only of implementations under test: what it declares, or what it was judged as."""
 
     question: Question
     precision: Precision
-    domain: Domain
+    domain: DomainPart
 
 
-class ImplementationSummary(Part, frozen=True, kw_only=True):
+class ImplementationSummary(LinePart, frozen=True, kw_only=True):
     """An implementation that was judged; one under test also has what it declares and what asking it cost."""
 
     name: str
@@ -156,7 +157,7 @@ class ImplementationSummary(Part, frozen=True, kw_only=True):
     asked_again: Retest | UnsetType = UNSET
 
 
-class TimingSummary(Part, frozen=True, kw_only=True):
+class TimingSummary(LinePart, frozen=True, kw_only=True):
     """What a contender takes; `ratio`: by the plain formula's time in the same rounds; null: that was not timed."""
 
     name: str
@@ -166,7 +167,7 @@ class TimingSummary(Part, frozen=True, kw_only=True):
     ratio: Amount | None
 
 
-class WorkloadSummary(Part, frozen=True, kw_only=True):
+class WorkloadSummary(LinePart, frozen=True, kw_only=True):
     """A method's answers on a workload of a benchmark."""
 
     asked: Count
@@ -178,7 +179,7 @@ class WorkloadSummary(Part, frozen=True, kw_only=True):
     reliable_above: Distance
 
 
-class TimeSummary(Part, frozen=True, kw_only=True):
+class TimeSummary(LinePart, frozen=True, kw_only=True):
     """A method's time on a workload of a benchmark, and its ratio to the run's reference."""
 
     workload: str
@@ -189,7 +190,7 @@ class TimeSummary(Part, frozen=True, kw_only=True):
     ratio_ci95: Interval | None
 
 
-class MethodSummary(Part, frozen=True, kw_only=True):
+class MethodSummary(LinePart, frozen=True, kw_only=True):
     """A method of a benchmark, over all workloads and for each."""
 
     name: str
@@ -205,7 +206,7 @@ class MethodSummary(Part, frozen=True, kw_only=True):
     times: list[TimeSummary]
 
 
-class FailureSummary(Part, frozen=True, kw_only=True):
+class FailureSummary(LinePart, frozen=True, kw_only=True):
     """Something that failed the run, and for how many of its kind it stands."""
 
     subject: Annotated[str, one_of("proof", "oracle", "implementation", "findings", "measurement")]
@@ -217,7 +218,7 @@ class FailureSummary(Part, frozen=True, kw_only=True):
     count: Annotated[int, Meta(ge=1)]
 
 
-class Summary(Part, frozen=True, kw_only=True):
+class Summary(LinePart, frozen=True, kw_only=True):
     """Totals of a run, under keys that do not change. Explained in docs/record.md.
 
     Later versions 1.x may add keys and change none; ignore what you do not know.
@@ -232,7 +233,7 @@ class Summary(Part, frozen=True, kw_only=True):
     started: Annotated[str, Meta(description="ISO 8601 with its offset.")]
     seconds: Annotated[Amount | None, Meta(description="Wall-clock time of the whole run.")]
     settings: Annotated[
-        Settings | None,
+        SettingsPart | None,
         Meta(description="Since 1.2.0; null where there was no settings file, and nothing weakens the gate."),
     ] = None
     oracles: dict[str, OracleSummary]
@@ -256,7 +257,7 @@ def schema() -> Fields:
     return {**head, **definitions.pop("summary"), "$defs": definitions}
 
 
-def render(record: Record, _around: Around | None = None) -> bytes:
+def render(record: Record, _around: ReportContext | None = None) -> bytes:
     """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
     text = json.dumps(as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")
@@ -277,12 +278,12 @@ def summary(record: Record) -> Summary:
         seconds=None if footer is None else footer.seconds,
         settings=None if record.header.settings is UNSET else record.header.settings,
         oracles={total.name: _oracle(total) for total in oracle_totals(record)},
-        equations=_equations(record.of(Equation)),
-        proofs=_proofs(record.of(Proof)),
+        equations=_equations(record.of(EquationLine)),
+        proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
         implementations=[_implementation(each, wholes.get(each.name)) for each in implementations(record)],
         timings=[decoded(total, TimingSummary) for total in timing_totals(record)],
-        methods=[_method(each) for each in measured(record)],
+        methods=[_method(each) for each in measured_methods(record)],
         failures=[decoded(each, FailureSummary) for each in failures(record)],
     )
 
@@ -299,29 +300,29 @@ def _oracle(total: OracleTotal) -> OracleSummary:
     )
 
 
-def _equations(lines: list[Equation]) -> Equations:
+def _equations(lines: list[EquationLine]) -> Equations:
     found: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
     for line in lines:
         found[line.verdict].append(line.number)
     return Equations(**found)
 
 
-def _proofs(lines: list[Proof]) -> Proofs:
+def _proofs(lines: list[ProofLine]) -> Proofs:
     holding = sum(line.holds for line in lines)
     return Proofs(asked=len(lines), hold=holding, fail=len(lines) - holding)
 
 
 def _findings(record: Record) -> Findings:
-    lines = record.of(Finding)
+    lines = record.of(FindingLine)
     return Findings(
         inside_stated_regimes=sum(line.inside for line in lines),
         outside_stated_regimes=sum(not line.inside for line in lines),
         unlisted=sum(map(unlisted, lines)),
-        drift=[line.sentence for line in record.of(Drift)],
+        drift=[line.sentence for line in record.of(DriftLine)],
     )
 
 
-def _implementation(each: Implementation, whole: Tested | None) -> ImplementationSummary:
+def _implementation(each: ImplementationTotal, whole: Tested | None) -> ImplementationSummary:
     found = ImplementationSummary(
         name=each.name,
         spec=each.spec,
@@ -343,7 +344,7 @@ def _implementation(each: Implementation, whole: Tested | None) -> Implementatio
     )
 
 
-def _family(group: Group) -> FamilySummary:
+def _family(group: GroupLine) -> FamilySummary:
     return FamilySummary(**_counts(group.asked, group.counts, group.mistakes, worst_case(group.worst)))
 
 
@@ -357,7 +358,7 @@ def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], wors
     }
 
 
-def _method(each: Measured) -> MethodSummary:
+def _method(each: MeasuredMethod) -> MethodSummary:
     line = each.line
     return MethodSummary(
         name=each.name,

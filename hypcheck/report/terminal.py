@@ -1,34 +1,162 @@
-"""The end of a run on the terminal: how it ended, what failed, what was found and where the reports are."""
+"""The end of a run on the terminal: how it ended, what failed, what was found and where the reports are.
+
+What a run found, in a few sentences without a full stop, for reports that are short.
+
+The end of a run on the terminal: how it ended, what failed, what was found and where the reports are.
+"""
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import click
 
+from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.record.measurements import Absent, Speed, Unmeasured
+from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
+from hypcheck.record.measurements import AbsentLine, BoundingLine, CostLine, KernelLine, SpeedLine, UnmeasuredLine
+from hypcheck.report.advice import EVERYWHERE, IN_FLOATS, POSITION, recommendations
 from hypcheck.report.changes import (
     FASTER,
     SLOWER,
     accuracy_changes,
     conditions,
-    in_one_alone,
+    only_in_one,
     ratio_changes,
     status_changes,
 )
-from hypcheck.report.choice import EVERYWHERE, POSITION, choice
-from hypcheck.report.claims import claims, settings_facts
-from hypcheck.report.digest import timing_totals, under_test
-from hypcheck.report.facts import benchmark_facts, claim_facts, method_facts, oracle_facts, paper_facts
-from hypcheck.report.text import counted, figure, listed
+from hypcheck.report.messages import counted, figure, implementation_claims, listed, settings_facts, tolerance_of
+from hypcheck.report.model import (
+    NEAREST,
+    ImplementationTotal,
+    MeasuredMethod,
+    implementations,
+    measured_methods,
+    oracle_totals,
+    timing_totals,
+    under_test,
+    workloads,
+    worst_error_u,
+)
 from hypcheck.report.verdict import failures, verdict
-from hypcheck.visible import visible
 
 if TYPE_CHECKING:
-    from hypcheck.report.write import Around, Written
+    from hypcheck.report.write import ReportContext, WrittenReport
+
+
+def oracle_facts(record: Record) -> Iterator[str]:
+    """One line for the oracles that were asked, one for those that could not be."""
+    totals = oracle_totals(record)
+    asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
+    if asked:
+        yield f"oracles in agreement: {', '.join(asked)}"
+    missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
+    if missing:
+        yield f"oracles not available: {'; '.join(missing)}"
+
+
+def paper_facts(record: Record) -> Iterator[str]:
+    """The paper's equations, the proofs and the mathematical findings."""
+    equations = record.of(EquationLine)
+    if equations:
+        numbers: dict[str, list[str]] = {}
+        for line in equations:
+            numbers.setdefault(line.verdict, []).append(f"({line.number})")
+        holding = len(numbers.pop("holds", []))
+        wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
+        yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
+    proofs = record.of(ProofLine)
+    if proofs:
+        yield f"proofs: {sum(line.holds for line in proofs)} of {len(proofs)} hold"
+    findings = record.of(FindingLine)
+    if findings:
+        inside = [line.family for line in findings if line.inside]
+        named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
+        outside = len(findings) - len(inside)
+        yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
+
+
+def method_facts(record: Record) -> Iterator[str]:
+    """For each precision how many methods err beyond the tolerance, and the answer that is farthest from right."""
+    tolerance = tolerance_of(record.header.options)
+    beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
+    found = [each for each in implementations(record) if each.asked]
+    for precision in dict.fromkeys(each.precision for each in found if not each.exact):
+        methods = [each for each in found if each.precision == precision and not each.exact]
+        wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
+        yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond {beyond}; {_farthest(methods)}"
+
+
+_ALSO = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a known failure)"}
+"""What is said of the answer farthest off by its status: why it may not count as beyond the tolerance."""
+
+
+def _farthest(methods: Sequence[ImplementationTotal]) -> str:
+    """The answer with the greatest backward error; that none is wrong is said only where one was judged."""
+    method = max(methods, key=lambda each: worst_error_u(each.worst))
+    worst = method.worst
+    if worst is not None:
+        also = _ALSO.get(worst.status, f" ({worst.status})")
+        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
+    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_ALSO))
+    return "no answer is wrong" if judged else "no answer was judged"
+
+
+def claim_facts(record: Record) -> Iterator[str]:
+    """What the paper's claims of cost came to."""
+    for line in record.of(CostLine):
+        yield f"claim {line.verdict}, {line.scene}: {line.claim}"
+
+
+def benchmark_facts(record: Record) -> Iterator[str]:
+    """What targets came to, what other shapes cost, where errors end and where they do not."""
+    kernels = record.of(KernelLine)
+    if kernels:
+        missed = [str(line.name) for line in kernels if not line.met]
+        named = f"; not met: {listed(missed)}" if missed else ""
+        yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
+    for line in record.of(BoundingLine):
+        if line.asked:
+            share = figure(100 * line.false_contact / line.asked)
+            yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
+    found = [each for each in measured_methods(record) if each.line.kind in IN_FLOATS]
+    for name, workload in workloads(record).items():
+        yield from _endings(workload.title, name, [each for each in found if name in each.accuracy])
+
+
+def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iterator[str]:
+    """Where the errors of methods in floats end on a workload; who errs at any distance, or who does not, by name."""
+    ends = {each: float(each.accuracy[workload].reliable_above) for each in found}
+    most = max((each.accuracy[workload].asked for each in found), default=0)
+    for precision in ("float64", "float32"):
+        mine = {each: end for each, end in ends.items() if each.line.precision == precision and end < math.inf}
+        # Who was asked a few rows alone would seem to err less.
+        mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload].asked >= most}
+        if mine and max(mine.values()):
+            best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
+            if mine[best] == mine[worst]:
+                yield f"{title}, {precision}: {_end(mine[best])}"
+                continue
+            yield (
+                f"{title}, {precision}, the best and the worst: {best.name}, {_end(mine[best])};"
+                f" {worst.name}, {_end(mine[worst])}"
+            )
+    never, others = ([each.name for each in found if (ends[each] == math.inf) == bad] for bad in (True, False))
+    if never and len(never) <= len(others):
+        yield f"{title}: at no distance reliable: {listed(never)}"
+    elif never:
+        but = f", all but {listed(others)}" if others else ""
+        yield f"{title}: at no distance reliable: {len(never)} of {counted(len(found), 'method')} in floats{but}"
+
+
+def _end(distance: float) -> str:
+    if not distance:
+        return "none"
+    return "at exact tangencies alone" if distance <= NEAREST else f"errors end at {figure(distance)}"
+
 
 MOST_LINES = 25
 
@@ -42,7 +170,7 @@ WIDTH = 160
 """Characters of a line on a terminal; longer ones are cut, the verdict apart. In a file or a pipe nothing is."""
 
 
-def render(record: Record, around: Around | None = None) -> bytes:
+def render(record: Record, around: ReportContext | None = None) -> bytes:
     """The lines as a file has them."""
     return "".join(
         f"{line}\n" for line in summary_lines(record, (), against=around.against if around else None)
@@ -51,7 +179,7 @@ def render(record: Record, around: Around | None = None) -> bytes:
 
 def summary_lines(
     record: Record,
-    written: Sequence[Written],
+    written: Sequence[WrittenReport],
     *,
     against: Record | None = None,
     colour: bool = False,
@@ -59,7 +187,7 @@ def summary_lines(
 ) -> list[str]:
     """At most MOST_LINES lines of plain text; with `colour`, the first in green or red; with `width`, cut to that."""
     ended = verdict(record)
-    head = click.style(visible(ended.sentence), fg="green" if ended.passed else "red", bold=True)
+    head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
         *settings_facts(record.header.settings),
         *_failures(record),
@@ -82,7 +210,7 @@ def summary_lines(
 
 def _line(text: str, width: int | None) -> str:
     indent = text[: len(text) - len(text.lstrip(" "))]
-    return indent + visible(text, width)
+    return indent + escaped(text, width)
 
 
 def _failures(record: Record) -> Iterator[str]:
@@ -109,7 +237,7 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
         named = [f"{each.method} ({each.workload}, {each.mode})" for each in ratios if each.verdict == verdict_]
         if named:
             yield f"  {verdict_}, by ratio: {listed(named)}"
-    others = [*conditions(against, record), *in_one_alone(against, record)]
+    others = [*conditions(against, record), *only_in_one(against, record)]
     yield from (f"  {each}" for each in others[:MOST_CONDITIONS])
     if len(others) > MOST_CONDITIONS:
         yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
@@ -118,7 +246,7 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
 def _under_test(record: Record) -> Iterator[str]:
     """What gated implementations say of themselves, and as what they were judged where that is something else."""
     for tested in under_test(record):
-        yield from (f"{tested.name}: {claim}" for claim in claims(tested.line))
+        yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line))
 
 
 def _timings(record: Record) -> Iterator[str]:
@@ -129,7 +257,7 @@ def _timings(record: Record) -> Iterator[str]:
 
 def _advice(record: Record) -> Iterator[str]:
     """What a benchmark advises."""
-    for each in choice(record).advice:
+    for each in recommendations(record).advice:
         ratio = each.use.ratio(each.workload, each.need.mode) or 0.0
         where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
         asked = "" if each.need.asked == POSITION else f", {each.need.asked}"
@@ -138,21 +266,21 @@ def _advice(record: Record) -> Iterator[str]:
 
 def _absent(record: Record) -> Iterator[str]:
     """What was left out because something is not there, and what would bring it."""
-    yield from (f"left out: {line.reason}" for line in record.of(Absent))
+    yield from (f"left out: {line.reason}" for line in record.of(AbsentLine))
 
 
 def _unmeasured(record: Record) -> Iterator[str]:
     """What could not be timed, and how many samples of what could be were impossible."""
-    for line in record.of(Unmeasured):
+    for line in record.of(UnmeasuredLine):
         yield f"not measured: {line.method} on {line.workload}, {line.mode}: {line.reason}"
-    dropped = [(speed, speed.dropped) for speed in record.of(Speed) if speed.dropped]
+    dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]
     if dropped:
         number = sum(samples for _, samples in dropped)
         where = listed([f"{speed.method} ({speed.workload}, {speed.mode})" for speed, _ in dropped])
         yield f"{counted(number, 'sample')} dropped, no longer than the empty call that is taken off: {where}"
 
 
-def _reports(written: Sequence[Written]) -> Iterator[str]:
+def _reports(written: Sequence[WrittenReport]) -> Iterator[str]:
     """Where the reports are, and which are missing and why."""
     folders: dict[str, list[str]] = {}
     for each in written:

@@ -1,4 +1,10 @@
-"""How the run ended, in one sentence, and what failed it: no more than the record's own lines say.
+"""How a run ended, in one sentence, and every failure behind it, from the record's own lines.
+
+One thing that fails a run, in the words of every report.
+
+What fails a benchmark, and what it shows where nothing does.
+
+How the run ended, in one sentence, and what failed it: no more than the record's own lines say.
 
 A misprint in the paper or a wrong answer of one of its procedures is a finding and fails nothing. What fails a run is a
 proof that does not hold, oracles that disagree, a method that promises to be exact and errs or any method that breaks
@@ -12,26 +18,164 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 
-from hypcheck.judge import UNANSWERED, in_words
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.record import Record
-from hypcheck.record.lines import Disagreement, Drift, Group, NotStarted, Oracle, Proof
-from hypcheck.report import benchmark
-from hypcheck.report.digest import (
-    Implementation,
+from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
+from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
+from hypcheck.report.messages import Replays, classify_command, counted, figure, from_hex, listed, with_interval
+from hypcheck.report.model import (
+    ImplementationTotal,
+    MeasuredMethod,
     OracleTotal,
     implementations,
     in_order,
+    measured_methods,
     names_in,
     oracle_totals,
     subject_of,
     under_test,
     worst_error_u,
 )
-from hypcheck.report.failure import Failure
-from hypcheck.report.measured import measured
-from hypcheck.report.replays import Replays
-from hypcheck.report.text import classify_command, counted, figure, from_hex, listed
+from hypcheck.runs.judge import UNANSWERED, in_words
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """One thing that fails a run.
+
+    `subject` is "proof", "oracle", "implementation", "findings" or "measurement"; `name` says which, `group` the
+    family, the quantity or the workload, and `kind` is one word for what happened. `case` is the first case to look at,
+    if there is one, `place` where the record has it and `replay` the command that shows it; `count` is how many of its
+    kind it stands for.
+    """
+
+    subject: str
+    name: str
+    group: str
+    kind: str
+    message: str
+    case: str | None = None
+    place: str | None = None
+    replay: str | None = None
+    count: int = 1
+
+
+MEASUREMENT = "measurement"
+
+WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
+"""Types of lines that a run can have without comparing methods on rows."""
+
+SLOWER, INCONCLUSIVE = "slower", "inconclusive"
+"""Kinds of failures of speed: for certain, and as far as the noise lets tell."""
+
+
+def benchmark_failures(record: Record) -> Iterator[Failure]:
+    """Promises of exactness that were broken, answers that were other ones while they were timed, slowness, noise."""
+    for each in measured_methods(record):
+        if each.exact:
+            yield from _broken_exactness(each)
+    for line in record.of(RefusedLine):
+        group = f"{line.workload}, {line.mode}"
+        yield Failure(MEASUREMENT, line.method, group, "refused", f"{line.method} is not timed: {line.reason}")
+    yield from _scene_failures(record)
+    held = [*_baseline_failures(record), *_target_failures(record)]
+    yield from sorted(held, key=lambda each: each.kind != SLOWER)
+
+
+def _scene_failures(record: Record) -> Iterator[Failure]:
+    """Wrong answers about a forest from what is exact, and about a scene from its kernel."""
+    for line in record.of(ForestLine):
+        if line.exact and line.wrong:
+            wrong = f"of {counted(line.asked, 'step')} {line.wrong:,} wrong"
+            said = f"{line.method} promises to be exact, but {wrong}"
+            yield Failure(MEASUREMENT, line.method, f"{line.trees:,} trees", "wrong", said)
+    for scene in record.of(SceneLine):
+        if scene.wrong:
+            said = f"the kernel of the scene answers {scene.wrong:,} of {counted(scene.rows, 'row')} wrongly"
+            yield Failure(MEASUREMENT, scene.scene, "scene", "wrong", said)
+
+
+def _broken_exactness(each: MeasuredMethod) -> Iterator[Failure]:
+    for workload, line in each.accuracy.items():
+        if line.wrong or line.abstained:
+            message = f"{each.name} promises to be exact, but {_wrong_counts(line)}"
+            case = next(iter(line.worst), None)
+            if case is None:
+                yield Failure(MEASUREMENT, each.name, workload, "wrong", message)
+                continue
+            truth = Position(case.truth).label
+            message += f"; {case.case} is {truth}; answered: {in_words(case.answer, each.line.question)}"
+            replay = classify_command(from_hex(case.row))
+            yield Failure(MEASUREMENT, each.name, workload, "wrong", message, case.case, replay=replay)
+
+
+def _wrong_counts(line: AccuracyLine) -> str:
+    counts = ((line.wrong, "wrong"), (line.abstained, "not told"))
+    parts = [f"{number:,} {word}" for number, word in counts if number]
+    return f"of {counted(line.asked, 'answer')} {listed(parts)}"
+
+
+def _baseline_failures(record: Record) -> Iterator[Failure]:
+    """Speeds that were held to an earlier run's; a run of which none could be has not passed."""
+    if record.header.options.get("baseline") and not any(line.gates for line in record.of(ComparisonLine)):
+        message = "nothing is held to the baseline: no time of what is to be held to it was measured in both runs"
+        yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)
+    for line in record.of(ComparisonLine):
+        if line.verdict in (SLOWER, INCONCLUSIVE) and line.gates:
+            words = "is slower than the baseline allows" if line.verdict == SLOWER else "was too noisy to compare"
+            change = with_interval(line.change, line.ci95)
+            where, allowed = f"{line.workload}, {line.mode}", figure(line.allowed)
+            message = f"{line.method} {words} ({where}): {change} times its former ratio, allowed {allowed}"
+            yield Failure(MEASUREMENT, line.method, where, line.verdict, message)
+
+
+def _target_failures(record: Record) -> Iterator[Failure]:
+    """Kernels that miss their targets, for certain or as far as the noise lets tell."""
+    for line in record.of(KernelLine):
+        if not line.met:
+            low, high = line.ci95 or (line.measured, line.measured)
+            kind = INCONCLUSIVE if low <= line.wanted <= high else SLOWER
+            measured_ = with_interval(line.measured, line.ci95)
+            message = f"{line.name} misses its target, {line.target}: {measured_}, wanted {figure(line.wanted)}"
+            yield Failure(MEASUREMENT, line.name, "target", kind, message)
+
+
+def benchmark_clauses(record: Record) -> Iterator[str]:
+    """What a benchmark in which nothing failed has shown."""
+    yield from _method_clauses(record)
+    yield from _other_clauses(record)
+
+
+def _method_clauses(record: Record) -> Iterator[str]:
+    """What was compared on rows."""
+    found = [each for each in measured_methods(record) if each.asked or each.speed]
+    if not found:
+        return
+    timed = sum(bool(each.speed) for each in found)
+    workloads = {name for each in found for name in each.accuracy} | {name for each in found for name, _ in each.speed}
+    yield f"{counted(len(found), 'method')} compared on {counted(len(workloads), 'workload')}, {timed:,} of them timed"
+    exact = [f"{each.name} ({each.asked:,})" for each in found if each.exact and each.asked]
+    if exact:
+        yield f"right on every row: {listed(exact)}"
+    held = [line for line in record.of(ComparisonLine) if line.gates]
+    if held:
+        slower = sum(line.verdict == SLOWER for line in held)
+        yield f"{counted(len(held), 'ratio')} held to the baseline's, {slower:,} of them slower than allowed"
+
+
+def _other_clauses(record: Record) -> Iterator[str]:
+    """What was measured without comparing methods on rows."""
+    targets = record.of(KernelLine)
+    if targets:
+        met = sum(bool(line.met) for line in targets)
+        yield f"{met:,} of {counted(len(targets), 'target')} of the kernels met"
+    forests = record.of(ForestLine)
+    if forests:
+        trees = {line.trees for line in forests}
+        yield f"a walker's step timed in {counted(len(trees), 'forest')} of up to {max(trees):,} trees"
+    if record.of(SceneLine):
+        yield f"{counted(len(record.of(SceneLine)), 'scene')} timed against Table 2"
+
 
 MEANINGS = {
     1: "wrong answers, or findings other than the known ones",
@@ -46,10 +190,10 @@ MEANINGS = {
 }
 """What an exit code means, for the case that no other line of the record explains it."""
 
-UNFINISHED = (70, 130, 143)
+EXITS_UNFINISHED = (70, 130, 143)
 """The exit codes of runs that stopped before their end."""
 
-INCONCLUSIVE = 4
+EXIT_INCONCLUSIVE = 4
 """The exit code of a run that neither passed nor failed."""
 
 HARMLESS = ("right", "skipped")
@@ -74,13 +218,13 @@ def failures(record: Record) -> list[Failure]:
             _implementations(record),
             _abstentions(record),
             _drift(record),
-            benchmark.failures(record),
+            benchmark_failures(record),
         )
     )
 
 
 def _oracles(record: Record) -> Iterator[Failure]:
-    for line in record.of(Oracle):
+    for line in record.of(OracleLine):
         yield from (_disagreement(line, case) for case in line.disagreements)
         rest = line.disagreeing - len(line.disagreements)
         if rest > 0:
@@ -88,14 +232,14 @@ def _oracles(record: Record) -> Iterator[Failure]:
             yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
 
 
-def _disagreement(line: Oracle, case: Disagreement) -> Failure:
+def _disagreement(line: OracleLine, case: DisagreementPart) -> Failure:
     message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
     replay = classify_command(from_hex(case.row))
     return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay)
 
 
 def _proofs(record: Record) -> Iterator[Failure]:
-    for line in record.of(Proof):
+    for line in record.of(ProofLine):
         if not line.holds:
             message = f"{line.formula}: not proved: {line.statement}"
             yield Failure("proof", line.formula, line.quantity, "unproved", message)
@@ -104,7 +248,7 @@ def _proofs(record: Record) -> Iterator[Failure]:
 def _starts(record: Record) -> Iterator[Failure]:
     """Implementations that could not be started, or broke the protocol throughout."""
     for tested in under_test(record):
-        if isinstance(tested.line, NotStarted):
+        if isinstance(tested.line, NotStartedLine):
             yield Failure("implementation", tested.name, "start", "not-started", str(tested.line.trouble))
         elif tested.line.broke_protocol_throughout:
             message = f"{tested.name} broke the protocol throughout"
@@ -114,24 +258,24 @@ def _starts(record: Record) -> Iterator[Failure]:
 def _abstentions(record: Record) -> Iterator[Failure]:
     """What fails an implementation as a whole and no family of its own: abstentions, answers that change."""
     for tested in under_test(record):
-        for trouble in [] if isinstance(tested.line, NotStarted) else tested.line.troubles:
+        for trouble in [] if isinstance(tested.line, NotStartedLine) else tested.line.troubles:
             yield Failure("implementation", tested.name, "all families", "behaviour", trouble)
 
 
 def _implementations(record: Record) -> Iterator[Failure]:
     replays, names = Replays.of(record), names_in(record)
-    for line in record.of(Group):
+    for line in record.of(GroupLine):
         for status, number in in_order(Counter(line.counts)).items():
             if status in (line.failing or ()) or _breaks_promise(line, status):
-                yield _broken(names[subject_of(line)], line, status, number, replays)
+                yield _broken_promise(names[subject_of(line)], line, status, number, replays)
 
 
-def _breaks_promise(line: Group, status: str) -> bool:
+def _breaks_promise(line: GroupLine, status: str) -> bool:
     """Whether a status fails a method of the project itself; of a gated one the record says what fails it."""
     return status not in HARMLESS if line.exact else status in UNANSWERED
 
 
-def _broken(name: str, line: Group, status: str, number: int, replays: Replays) -> Failure:
+def _broken_promise(name: str, line: GroupLine, status: str, number: int, replays: Replays) -> Failure:
     family = line.family
     promise = " promises to be exact, but" if line.exact else ":"
     message = f"{name}{promise} {number:,} of {counted(line.asked, 'case')} ended as {status}"
@@ -151,7 +295,7 @@ def _broken(name: str, line: Group, status: str, number: int, replays: Replays) 
 
 
 def _drift(record: Record) -> Iterator[Failure]:
-    for line in record.of(Drift):
+    for line in record.of(DriftLine):
         yield Failure("findings", "known findings", "drift", "drift", str(line.sentence))
 
 
@@ -159,23 +303,25 @@ def verdict(record: Record) -> Verdict:
     """How the run ended."""
     found = failures(record)
     if record.footer is None:
-        so_far = f" What was finished has already failed: {_named(found)}." if found else ""
+        so_far = f" What was finished has already failed: {_failure_counts(found)}." if found else ""
         return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is no pass.{so_far}")
     code = record.footer.exit_code
     if code == 0 and found:
-        return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_named(found)}.")
+        return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(found)}.")
     if code == 0:
-        return _held(record)
-    reason = "; ".join(part for part in (MEANINGS.get(code, "") if code in UNFINISHED else "", _named(found)) if part)
+        return _passed(record)
+    reason = "; ".join(
+        part for part in (MEANINGS.get(code, "") if code in EXITS_UNFINISHED else "", _failure_counts(found)) if part
+    )
     reason = reason or MEANINGS.get(code, "no line of the record says why")
-    if code == INCONCLUSIVE:
+    if code == EXIT_INCONCLUSIVE:
         open_ = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
         what_helps = "A quieter machine or more --processes would tell."
         return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. {what_helps}")
     return Verdict(False, f"FAILED with exit code {code}: {reason}.")
 
 
-def _named(found: list[Failure]) -> str:
+def _failure_counts(found: list[Failure]) -> str:
     """The failures by subject: "2 disagreements of oracles and 1 failed proof"."""
     nouns = {
         "oracle": "disagreement of oracles|disagreements of oracles",
@@ -188,29 +334,29 @@ def _named(found: list[Failure]) -> str:
     return listed([f"{number:,} {noun.split('|')[number != 1]}" for number, noun in counts if number])
 
 
-def _held(record: Record) -> Verdict:
+def _passed(record: Record) -> Verdict:
     totals = [total for total in oracle_totals(record) if total.asked]
     tested = [each for each in implementations(record) if each.asked]
-    compared = [each for each in measured(record) if each.asked or each.speed]
+    compared = [each for each in measured_methods(record) if each.asked or each.speed]
     if (
         not totals
         and not tested
         and not compared
-        and not any(isinstance(line, benchmark.ALONE) for line in record.lines)
+        and not any(isinstance(line, WITHOUT_COMPARISON) for line in record.lines)
     ):
         return Verdict(False, "NOTHING was asked and nothing was judged: this is no pass.")
-    proofs = len(record.of(Proof))
+    proofs = len(record.of(ProofLine))
     clauses = [
         *([_oracle_clause(totals)] if totals else []),
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
         *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
         *(_gated_clause(each) for each in tested if each.gated),
-        *benchmark.clauses(record),
+        *benchmark_clauses(record),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 
 
-def _gated_clause(each: Implementation) -> str:
+def _gated_clause(each: ImplementationTotal) -> str:
     """What a gated implementation has shown: how its cases ended, skipped ones apart."""
     ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
     return f"{each.name}: {ended}; worst backward error {figure(worst_error_u(each.worst))} u"

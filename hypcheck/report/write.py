@@ -18,11 +18,11 @@ from hypcheck.tables.streams import writing
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
-    from hypcheck.report.plots.drawn import Drawings
+    from hypcheck.report.plots.pictures import Drawings
 
 
 @dataclass(frozen=True, slots=True)
-class Around:
+class ReportContext:
     """What a report is made with beside its record: the names of the files that stand beside it, and another record.
 
     The other is what the report says the changes against; formats for programs leave it aside. `drawings` are plots
@@ -35,8 +35,8 @@ class Around:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
-    """One format: its file's name, and the module whose `render` makes its bytes from a record and what is around it.
+class ReportFormat:
+    """One format: its file's name, and the `module` (or module:function) whose `render` makes its bytes from a record.
 
     `shows` is the kind of line without which there is nothing to show, so that no file is written and none is missed;
     `compares` says whether it shows changes against another record; one that is not `kept` is made on demand alone.
@@ -48,30 +48,31 @@ class Report:
     compares: bool = False
     kept: bool = True
 
-    def render(self, record: Record, around: Around | None = None) -> bytes:
+    def render(self, record: Record, around: ReportContext | None = None) -> bytes:
         """The report. Raises UnavailableError where it cannot be made here."""
-        made = import_module(f"hypcheck.report.{self.module}").render(record, around or Around())
-        return bytes(made)
+        module, _, function = self.module.partition(":")
+        make = getattr(import_module(f"hypcheck.report.{module}"), function or "render")
+        return bytes(make(record, around or ReportContext()))
 
 
 REPORTS = {
-    "terminal": Report("report.txt", "terminal", compares=True, kept=False),
-    "json": Report("summary.json", "summary"),
-    "junit": Report("junit.xml", "junit"),
-    "csv": Report("measurements.csv", "table_csv"),
-    "map": Report("map.svg", "pictures.map", shows="map"),
-    "errors": Report("errors.svg", "pictures.errors", shows="accuracy"),
-    "pareto": Report("pareto.svg", "pictures.pareto", shows="speed"),
-    "front": Report("front.svg", "pictures.front", shows="speed"),
-    "markdown": Report("report.md", "markdown", compares=True),  # after the pictures, to which it refers
-    "overview": Report("overview.md", "overview", kept=False),
-    "html": Report("report.html", "html.page", compares=True),
+    "terminal": ReportFormat("report.txt", "terminal", compares=True, kept=False),
+    "json": ReportFormat("summary.json", "summary"),
+    "junit": ReportFormat("junit.xml", "junit"),
+    "csv": ReportFormat("measurements.csv", "csv"),
+    "map": ReportFormat("map.svg", "plots.pictures:render_map", shows="map"),
+    "errors": ReportFormat("errors.svg", "plots.pictures:render_errors", shows="accuracy"),
+    "pareto": ReportFormat("pareto.svg", "plots.pictures:render_pareto", shows="speed"),
+    "front": ReportFormat("front.svg", "plots.pictures:render_front", shows="speed"),
+    "markdown": ReportFormat("report.md", "markdown", compares=True),  # after the pictures, to which it refers
+    "overview": ReportFormat("overview.md", "markdown:render_overview", kept=False),
+    "html": ReportFormat("report.html", "html", compares=True),
 }
 """Every format by its name, in the order in which they are written."""
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class WrittenReport:
     """A report's path, and the reason where it was not written."""
 
     path: Path
@@ -86,18 +87,18 @@ def import_all() -> None:
             import_module(each.name)
 
 
-def kept() -> list[str]:
+def kept_formats() -> list[str]:
     """The formats that every run writes."""
     return [name for name, report in REPORTS.items() if report.kept]
 
 
 def files_of(record: Record) -> list[str]:
     """The names of the reports that a run with this record writes, where all of them can be made."""
-    every = [REPORTS[name] for name in kept()]
-    return [each.file for each in every if _shown(each, record)]
+    every = [REPORTS[name] for name in kept_formats()]
+    return [each.file for each in every if _has_content(each, record)]
 
 
-def _shown(report: Report, record: Record) -> bool:
+def _has_content(report: ReportFormat, record: Record) -> bool:
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 
@@ -106,13 +107,13 @@ def remove_reports(directory: Path) -> None:
 
     Raises InputError where one cannot be removed.
     """
-    for name in kept():
+    for name in kept_formats():
         _remove(directory / REPORTS[name].file)
 
 
 def write_reports(
     record: Record, directory: Path, formats: Sequence[str] | None = None, against: Record | None = None
-) -> list[Written]:
+) -> list[WrittenReport]:
     """Reports of the formats (by default those that every run writes) into a directory, made where it is not there.
 
     A format that cannot be made here is skipped, and its file of an earlier run removed: it would show another run.
@@ -122,35 +123,35 @@ def write_reports(
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"cannot make the folder {directory}: {system_reason(error)}") from error
-    done: list[Written] = []
-    wanted = [name for name in REPORTS if name in (kept() if formats is None else formats)]
+    done: list[WrittenReport] = []
+    wanted = [name for name in REPORTS if name in (kept_formats() if formats is None else formats)]
     drawings = _drawn_ahead(record) if "html" in wanted else {}
     for name in wanted:
         report = REPORTS[name]
-        if not _shown(report, record):
+        if not _has_content(report, record):
             _remove(directory / report.file)
             continue
         beside = {each.path.name for each in done if each.skipped is None}
-        done.append(_write(report, record, directory / report.file, Around(beside, against, drawings)))
+        done.append(_write(report, record, directory / report.file, ReportContext(beside, against, drawings)))
     return done
 
 
 def _drawn_ahead(record: Record) -> Drawings:
     """The plots that several reports show."""
-    from hypcheck.report.plots.drawn import ahead  # noqa: PLC0415
+    from hypcheck.report.plots.pictures import draw_ahead  # noqa: PLC0415
 
-    return ahead(record)
+    return draw_ahead(record)
 
 
-def _write(report: Report, record: Record, path: Path, around: Around) -> Written:
+def _write(report: ReportFormat, record: Record, path: Path, around: ReportContext) -> WrittenReport:
     try:
         content = report.render(record, around)
     except UnavailableError as error:
         _remove(path)
-        return Written(path, str(error))
+        return WrittenReport(path, str(error))
     with writing(str(path), follow=False) as file:
         file.write(content)
-    return Written(path)
+    return WrittenReport(path)
 
 
 def _remove(path: Path) -> None:

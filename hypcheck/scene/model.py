@@ -45,7 +45,7 @@ class Hyperboloid:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class MoverPart:
     """A smaller spheroid of semi-axes b, b, d within the mover's, at the mover's height.
 
     Its centre is `arm` away from the mover's, `angle` degrees counterclockwise from the mover's heading.
@@ -63,7 +63,7 @@ class Mover:
 
     b: float
     d: float
-    parts: tuple[Part, ...] = ()
+    parts: tuple[MoverPart, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,7 @@ class Walk:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class SceneModel:
     """One or more hyperboloids, a mover, the region it moves in, and the `question` (one of QUESTIONS) to answer.
 
     `flight` and `walk` are for `hypcheck simulate` alone.

@@ -28,7 +28,7 @@ _WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
 
 def lines_of(text: str) -> dict[Path, int]:
     """The line, counted from 1, of every table, array and value in a valid TOML text, by its path."""
-    return _Scanner(text).scan()
+    return _TomlScanner(text).scan()
 
 
 def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
@@ -38,7 +38,7 @@ def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
     return lines.get(path)
 
 
-class _Scanner:
+class _TomlScanner:
     def __init__(self, text: str) -> None:
         self._text = text
         self._at = 0

@@ -1,4 +1,8 @@
-"""Reading a scene file: TOML, complete and strict. What is not known or cannot be is refused in one sentence.
+"""Reading a scene file: TOML, complete and strict. What is unknown or impossible is refused in one sentence.
+
+The tables of a scene file that say how `hypcheck simulate` moves the mover: [flight] and [walk].
+
+Reading a scene file: TOML, complete and strict. What is not known or cannot be is refused in one sentence.
 
 docs/scenes.md explains the keys; schemas/scene-1.0.0.json has them for editors and other programs.
 """
@@ -11,11 +15,78 @@ from importlib import resources
 
 from hypcheck import toml
 from hypcheck.errors import InputError
+from hypcheck.messages import suggestion
 from hypcheck.scene import tables
-from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Part, Region, Scene
-from hypcheck.scene.moving import flight_of, walk_of
-from hypcheck.scene.tables import Source, Table
-from hypcheck.suggesting import advice
+from hypcheck.scene.model import (
+    QUESTIONS,
+    TURNS,
+    Flight,
+    Hyperboloid,
+    Mover,
+    MoverPart,
+    Region,
+    SceneModel,
+    Start,
+    Walk,
+)
+from hypcheck.scene.tables import TomlSource, TomlTable
+
+_FLIGHT = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn", "start")
+_START = ("z", "radius", "margin")
+_WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
+
+
+def flight_of(top: TomlTable) -> Flight | None:
+    """What [flight] says, None where it is not there. Raises InputError."""
+    table = top.table("flight", _FLIGHT)
+    if table is None:
+        return None
+    flight = Flight(
+        distance=table.required("distance", tables.positive),
+        straight=table.required("straight", tables.share),
+        vertical=table.required("vertical", tables.share),
+        largest_turn=table.required("largest_turn", tables.turn),
+        refused_turn=table.required("refused_turn", tables.turn),
+        backward=table.required("backward", tables.truth),
+        turn=table.required("turn", tables.one_of(*TURNS)),
+        start=_start(table),
+    )
+    moving = flight.straight + flight.vertical
+    if moving > 1:
+        table.refuse(f"[flight]: straight and vertical add up to {moving!r}; they must not exceed 1", "vertical")
+    if moving == 0 and flight.turn == "free":
+        table.refuse("[flight]: nothing ever moves: straight and vertical are 0, and turns are free", "straight")
+    return flight
+
+
+def _start(flight: TomlTable) -> Start:
+    table = flight.table("start", _START)
+    if table is None:
+        flight.refuse("[flight] has no start; it must be a table with z, and radius or margin")
+    start = Start(
+        z=table.required("z", tables.span_or_number),
+        radius=table.optional("radius", tables.not_negative, None),
+        margin=table.optional("margin", tables.not_negative, None),
+    )
+    if (start.radius is None) == (start.margin is None):
+        table.refuse("[flight].start must have either a radius or a margin")
+    return start
+
+
+def walk_of(top: TomlTable) -> Walk | None:
+    """What [walk] says, None where it is not there. Raises InputError."""
+    table = top.table("walk", _WALK)
+    if table is None:
+        return None
+    return Walk(
+        start=table.required("start", tables.point),
+        heading=table.required("heading", tables.turn),
+        steps=table.required("steps", tables.integer),
+        step=table.required("step", tables.positive),
+        largest_turn=table.required("largest_turn", tables.turn),
+        refused_turn=table.required("refused_turn", tables.turn),
+    )
+
 
 SUFFIX = ".toml"
 
@@ -30,7 +101,7 @@ _PART = ("b", "d", "arm", "angle")
 _REGION = ("x", "y", "z")
 
 
-def read_scene(name: str) -> Scene:
+def read_scene(name: str) -> SceneModel:
     """The scene in a file, or the shipped scene of that name (see shipped_scenes). Raises InputError."""
     return parse_scene(*_file(name))
 
@@ -46,19 +117,19 @@ def shipped_text(name: str) -> str:
     return resources.files("hypcheck.scene").joinpath("shipped", name + SUFFIX).read_text(encoding="utf-8")
 
 
-def parse_scene(text: str, source: str = "the scene") -> Scene:
+def parse_scene(text: str, source: str = "the scene") -> SceneModel:
     """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
     try:
-        return _scene(Table(Source(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
+        return _scene(TomlTable(TomlSource(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
     except RecursionError:
         raise InputError(f"{source}: is no TOML that can be read: it is nested too deeply") from None
 
 
-def _scene(top: Table) -> Scene:
+def _scene(top: TomlTable) -> SceneModel:
     name = top.required("name", tables.text)
     question = top.optional("question", tables.one_of(*QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
-    return Scene(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
+    return SceneModel(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
 
 
 def _file(name: str) -> tuple[str, str]:
@@ -68,11 +139,11 @@ def _file(name: str) -> tuple[str, str]:
     try:
         return toml.text_of(name), name
     except FileNotFoundError:
-        meant = advice(name.removesuffix(SUFFIX), shipped_scenes(), otherwise="it must be one, or a shipped scene:")
+        meant = suggestion(name.removesuffix(SUFFIX), shipped_scenes(), otherwise="it must be one, or a shipped scene:")
         raise InputError(f"{name}: there is no such file; {meant}") from None
 
 
-def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:
+def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
     found: dict[str, int] = {}
     result = []
     for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
@@ -93,7 +164,7 @@ def _hyperboloids(top: Table) -> tuple[Hyperboloid, ...]:
     return tuple(result)
 
 
-def _mover(top: Table) -> Mover:
+def _mover(top: TomlTable) -> Mover:
     table = top.table("mover", _MOVER)
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
@@ -101,9 +172,9 @@ def _mover(top: Table) -> Mover:
     return Mover(b, d, tuple(_parts(table, b, d)))
 
 
-def _parts(mover: Table, b: float, d: float) -> Iterable[Part]:
+def _parts(mover: TomlTable, b: float, d: float) -> Iterable[MoverPart]:
     for number, table in enumerate(mover.tables("part", _PART, MOST_PARTS), start=1):
-        part = Part(
+        part = MoverPart(
             b=table.required("b", tables.positive),
             d=table.required("d", tables.positive),
             arm=table.required("arm", tables.not_negative),
@@ -117,7 +188,7 @@ def _parts(mover: Table, b: float, d: float) -> Iterable[Part]:
         yield part
 
 
-def within(part: Part, b: float, d: float) -> bool:
+def within(part: MoverPart, b: float, d: float) -> bool:
     """Whether the part lies in the closed spheroid of semi-axes b, b, d: exactly, over the given float64 values.
 
     Divide lengths by b and d as Theorem 1 does: the mover is the unit ball, the part has semi-axes p, p, q and its
@@ -132,7 +203,7 @@ def within(part: Part, b: float, d: float) -> bool:
     return e * e + q * q + (e * p) ** 2 / bend <= 1
 
 
-def _region(top: Table) -> Region:
+def _region(top: TomlTable) -> Region:
     table = top.table("region", _REGION)
     if table is None:
         return Region()

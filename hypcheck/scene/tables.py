@@ -10,9 +10,9 @@ from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
 from hypcheck.errors import InputError
+from hypcheck.messages import suggestion
 from hypcheck.scene.model import Point, Span
 from hypcheck.scene.positions import Path, lines_of, nearest_line
-from hypcheck.suggesting import advice
 
 Value = TypeVar("Value")
 Check = Callable[[object], Value]
@@ -26,7 +26,7 @@ LONGEST_TEXT = 1000
 
 
 @dataclass(frozen=True)
-class Source:
+class TomlSource:
     """A file's name and its text."""
 
     name: str
@@ -43,17 +43,17 @@ class Source:
         raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
 
 
-class Table:
+class TomlTable:
     """A table of a file. `title` says which one it is, as messages name it."""
 
-    def __init__(self, source: Source, path: Path, title: str, content: object, keys: Sequence[str]) -> None:
+    def __init__(self, source: TomlSource, path: Path, title: str, content: object, keys: Sequence[str]) -> None:
         self._source, self._path, self._title = source, path, title
         if not isinstance(content, dict):
             self.refuse(f"{title} is {shown(content)}; it must be a table with {_listed(keys)}")
         self._content: dict[str, Any] = content
         for key in content:
             if key not in keys:
-                hint = advice(key, keys, most=1, otherwise="it may have")
+                hint = suggestion(key, keys, most=1, otherwise="it may have")
                 self.refuse(f"{title} has the key {shown(key)}, which is not known; {hint}", key)
 
     def refuse(self, sentence: str, *keys: str | int) -> NoReturn:
@@ -70,14 +70,14 @@ class Table:
         """The checked value of a key, or the default where it is not there."""
         return self._checked(key, check) if key in self._content else default
 
-    def table(self, key: str, keys: Sequence[str]) -> Table | None:
+    def table(self, key: str, keys: Sequence[str]) -> TomlTable | None:
         """The table of that key, None where it is not there."""
         if key not in self._content:
             return None
         title = f"{self._title}.{key}" if self._path else f"[{key}]"
-        return Table(self._source, (*self._path, key), title, self._content[key], keys)
+        return TomlTable(self._source, (*self._path, key), title, self._content[key], keys)
 
-    def tables(self, key: str, keys: Sequence[str], most: int) -> list[Table]:
+    def tables(self, key: str, keys: Sequence[str], most: int) -> list[TomlTable]:
         """The array of tables of that key, `most` at most, each entitled by its number from 1; empty without one."""
         array = self._content.get(key, [])
         if not isinstance(array, list):
@@ -87,7 +87,7 @@ class Table:
             self.refuse(f"{self._title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
         title = f"{self._title} {key}" if self._path else key
         return [
-            Table(self._source, (*self._path, key, place), f"{title} {place + 1}", content, keys)
+            TomlTable(self._source, (*self._path, key, place), f"{title} {place + 1}", content, keys)
             for place, content in enumerate(array)
         ]
 
@@ -164,7 +164,7 @@ def share(value: object) -> float:
     return result
 
 
-def whole(value: object) -> int:
+def integer(value: object) -> int:
     """How many of something."""
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
         raise ValueError("a whole number, 0 or more and below 2^31")

@@ -1,4 +1,8 @@
-"""Comma-separated tables: seven columns found by name, every row kept as it was written.
+"""Comma-separated tables (RFC 4180): seven columns found by name, every row kept as it was written.
+
+The records of a CSV text (RFC 4180), each with the very text that it was written as.
+
+Comma-separated tables: seven columns found by name, every row kept as it was written.
 
 A row's own text goes to the output untouched, with four cells added, so that no other column is changed in anything.
 Blank lines are left out; line ends become those of the header; a byte order mark stays where it was.
@@ -6,25 +10,94 @@ Blank lines are left out; line ends become those of the header; a byte order mar
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from itertools import chain
+from itertools import chain, islice, tee
 from operator import itemgetter
 from typing import NoReturn
 
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.pairs import COLUMNS, REFUSED
-from hypcheck.rows import Rows, invalid
-from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Unread
-from hypcheck.tables.columns import ADDED, check_names
-from hypcheck.tables.csv_records import Records
-from hypcheck.tables.examine import Places, examine
-from hypcheck.tables.lines import Block
+from hypcheck.geometry.pair import COLUMNS, REFUSED
+from hypcheck.geometry.rows import Rows, invalid
+from hypcheck.tables.chunk import (
+    ADDED,
+    CHUNK,
+    LABELS,
+    RowPlaces,
+    Sink,
+    Table,
+    TableAnswers,
+    TableChunk,
+    Unread,
+    check_names,
+    examine,
+)
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text
-from hypcheck.tables.streams import Reader, Writer
+from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer
+
+
+class Records:
+    """A CSV text, record by record: `text` and `line` (of its beginning) are those of the record last read."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.name = reader.name
+        self.line = 0
+        self.text = ""
+        self._lines = TextLines(reader)
+        lines = self._lines.each
+        first = next(lines, "")
+        self.byte_order_mark = BYTE_ORDER_MARK if first.startswith(BYTE_ORDER_MARK) else ""
+        # The parser runs over one copy of the lines; what it took for a record is then taken from the other.
+        parsed, self._written = tee(chain([first.removeprefix(BYTE_ORDER_MARK)], lines))
+        self._parser = csv.reader(parsed, strict=True)
+        self._lines_taken = 0
+        self._lines_skipped = 0
+
+    @property
+    def at_block(self) -> bool:
+        """Whether the next records may be a block."""
+        return self._lines.at_block(self._lines_taken)
+
+    def block(self) -> TextBlock | None:
+        """The next records as a block without quotes, in which every line is one; None where they are none."""
+        block = self._lines.block(self._lines_taken, avoiding=b'"')
+        if block is not None:
+            self._lines_taken += block.count
+            self._lines_skipped += block.count
+        return block
+
+    def next(self) -> list[str] | None:
+        """The cells of the next record that is not blank, None at the end. Raises InputError on broken quoting."""
+        while (record := self._parsed()) is not None:
+            begin, self._lines_taken = self._lines_taken, self._lines_skipped + self._parser.line_num
+            self.line = begin + 1
+            count = self._lines_taken - begin
+            self.text = next(self._written) if count == 1 else "".join(islice(self._written, count))
+            if len(record) > 1 or (record and not record[0].isspace()):
+                return record
+        return None
+
+    def _parsed(self) -> list[str] | None:
+        try:
+            return next(self._parser, None)
+        except csv.Error as error:
+            where = f"{self.name}, line {self._lines_taken + 1}"
+            raise InputError(f"{where}: {_explained(str(error))}") from None
+
+
+def _explained(error: str) -> str:
+    """What the csv module's own words mean."""
+    if "field larger" in error:
+        return f"a cell is longer than {csv.field_size_limit()} characters; a quote may have been left open"
+    if "unexpected end of data" in error:
+        return "the text ends inside quotes that begin here; the file may have been cut off"
+    if "new-line character" in error:
+        return "a carriage return stands within a row; lines must end with LF or CRLF"
+    return f"{error}; what stands in quotes must end with a quote and a comma"
 
 
 def read_csv(reader: Reader, *, mark: bool) -> Table:
@@ -57,7 +130,7 @@ def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
     yield Sink(partial(_lines, end), writer.write)
 
 
-def _lines(end: str, chunk: Chunk, answers: Answers) -> bytes:
+def _lines(end: str, chunk: TableChunk, answers: TableAnswers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
     added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
@@ -79,13 +152,13 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
     count = 0
     while True:
         while (block := records.block()) is not None:
-            places = Places(records.name, count, range(block.first, block.first + block.count))
+            places = RowPlaces(records.name, count, range(block.first, block.first + block.count))
             yield partial(_chunk_of_block, block, width, pick, places, mark=mark)
             count += block.count
         lines: list[int] = []
         cells: list[tuple[str, ...]] = []
         texts: list[str] = []
-        places = Places(records.name, count, lines)
+        places = RowPlaces(records.name, count, lines)
         while len(texts) < CHUNK and (record := records.next()) is not None:
             lines.append(records.line)
             if len(record) != width:
@@ -104,8 +177,8 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
 
 
 def _chunk_of_block(
-    block: Block, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: Places, *, mark: bool
-) -> Chunk:
+    block: TextBlock, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: RowPlaces, *, mark: bool
+) -> TableChunk:
     """Without quotes, what stands between two commas is a cell."""
     texts = block.plain_lines()
     records = [text.split(",") for text in texts]
@@ -116,7 +189,7 @@ def _chunk_of_block(
 
 
 def _broken(
-    cells: Sequence[tuple[str, ...]], texts: list[str], places: Places, record: list[str], width: int, *, mark: bool
+    cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, record: list[str], width: int, *, mark: bool
 ) -> NoReturn:
     """Raise InputError about the first of these rows that is bad, or about the record of another width behind them."""
     _chunk(cells, texts, places, mark=mark)
@@ -124,11 +197,11 @@ def _broken(
     raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")
 
 
-def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: Places, *, mark: bool) -> Chunk:
+def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
     rows = _quickly(cells)
     if rows is not None:
-        return Chunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
-    return Chunk(*examine(cells, number_of_text, places, mark=mark), texts)
+        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
+    return TableChunk(*examine(cells, number_of_text, places, mark=mark), texts)
 
 
 def _quickly(cells: Sequence[tuple[str, ...]]) -> Rows | None:

@@ -17,14 +17,23 @@ from operator import itemgetter
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.pairs import COLUMNS, REFUSED
-from hypcheck.rows import Rows, invalid
-from hypcheck.tables.chunk import CHUNK, LABELS, Answers, Chunk, Sink, Table, Unread
-from hypcheck.tables.columns import ADDED, check_names
-from hypcheck.tables.examine import Places, examine
-from hypcheck.tables.lines import BYTE_ORDER_MARK, Block, Lines
+from hypcheck.geometry.pair import COLUMNS, REFUSED
+from hypcheck.geometry.rows import Rows, invalid
+from hypcheck.tables.chunk import (
+    ADDED,
+    CHUNK,
+    LABELS,
+    RowPlaces,
+    Sink,
+    Table,
+    TableAnswers,
+    TableChunk,
+    Unread,
+    check_names,
+    examine,
+)
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
-from hypcheck.tables.streams import Reader, Writer
+from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer
 from hypcheck.tables.strict_json import strict_decoder
 
 
@@ -43,7 +52,7 @@ def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
     yield Sink(_lines, writer.write)
 
 
-def _lines(chunk: Chunk, answers: Answers) -> bytes:
+def _lines(chunk: TableChunk, answers: TableAnswers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
     added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     clearances = list(map(repr, answers.clearance.tolist()))
@@ -79,11 +88,11 @@ _CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[Unread]:
-    lines, number, count = Lines(reader), 0, 0
+    lines, number, count = TextLines(reader), 0, 0
     while True:
         while (block := lines.block(number)) is not None:
             number += block.count
-            places = Places(reader.name, count, range(block.first, block.first + block.count))
+            places = RowPlaces(reader.name, count, range(block.first, block.first + block.count))
             yield partial(_chunk_of_block, block, places, mark=mark)
             count += block.count
         texts, numbers = [], []
@@ -97,22 +106,22 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[Unread]:
                 break
         if not texts:
             break
-        yield partial(_chunk, texts, Places(reader.name, count, numbers), mark=mark)
+        yield partial(_chunk, texts, RowPlaces(reader.name, count, numbers), mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
 
 
-def _chunk_of_block(block: Block, places: Places, *, mark: bool) -> Chunk:
+def _chunk_of_block(block: TextBlock, places: RowPlaces, *, mark: bool) -> TableChunk:
     return _chunk([line.rstrip(_BLANKS) for line in block.plain_lines()], places, mark=mark)
 
 
-def _chunk(texts: list[str], places: Places, *, mark: bool) -> Chunk:
+def _chunk(texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
     rows = _quickly(texts)
     if rows is not None:
-        return Chunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
+        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
     values = (_values(text, places.of(index)) for index, text in enumerate(texts))
-    return Chunk(*examine(values, number_of_json, places, mark=mark), texts)
+    return TableChunk(*examine(values, number_of_json, places, mark=mark), texts)
 
 
 def _quickly(texts: Sequence[str]) -> Rows | None:

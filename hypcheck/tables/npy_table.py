@@ -18,11 +18,11 @@ import numpy as np
 from numpy.lib import format as npy
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.pairs import COLUMNS
-from hypcheck.rows import Rows, first_trouble, invalid
-from hypcheck.tables.chunk import CHUNK, Answers, Chunk, Sink, Table, Unread
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import Rows, first_trouble, invalid
+from hypcheck.messages import counted
+from hypcheck.tables.chunk import CHUNK, Sink, Table, TableAnswers, TableChunk, Unread
 from hypcheck.tables.streams import Reader, Writer
-from hypcheck.visible import counted
 
 WIDTH = len(COLUMNS)
 _COPIED_AT_ONCE = 1 << 20
@@ -58,12 +58,12 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
             writer.write(block)
 
 
-def _positions(_chunk: Chunk, answers: Answers) -> bytes:
+def _positions(_chunk: TableChunk, answers: TableAnswers) -> bytes:
     return answers.positions.tobytes()
 
 
 @dataclass(frozen=True, slots=True)
-class _Layout:
+class _NpyLayout:
     """What a header says: how many rows, in which byte order, by rows or by columns, and where they begin."""
 
     count: int
@@ -72,7 +72,7 @@ class _Layout:
     begin: int
 
 
-def _layout(reader: Reader) -> _Layout:
+def _layout(reader: Reader) -> _NpyLayout:
     """The layout of a .npy file that holds what is asked for, and all of it. Raises InputError."""
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
@@ -87,10 +87,10 @@ def _layout(reader: Reader) -> _Layout:
     if size is None:
         if by_columns:
             raise InputError(f"{reader.name} is stored by columns, which a stream cannot be read in; use a file")
-        return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, 0)
+        return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, 0)
     begin = reader.taken
     _require_length(reader.name, size - begin, shape[0])
-    return _Layout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, begin)
+    return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, begin)
 
 
 def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]]:
@@ -130,7 +130,7 @@ def _cut_off(name: str, count: int, have: int) -> str:
     return f"{name} is cut off: its header says {counted(count, 'row')}, and the data ends after {have} of them"
 
 
-def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Unread]:
+def _chunks(reader: Reader, layout: _NpyLayout, *, mark: bool) -> Iterator[Unread]:
     for start in range(0, layout.count, CHUNK):
         rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
         yield partial(_chunk, rows, reader.name, start + 1, mark=mark)
@@ -138,14 +138,14 @@ def _chunks(reader: Reader, layout: _Layout, *, mark: bool) -> Iterator[Unread]:
         raise InputError(f"{reader.name} goes on after its {counted(layout.count, 'row')}; it must hold one array")
 
 
-def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> Chunk:
+def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> TableChunk:
     refused = invalid(rows)
     if not mark and refused.any():
         raise InputError(f"{name}, {first_trouble(rows, first)}")
-    return Chunk(rows, refused, None)
+    return TableChunk(rows, refused, None)
 
 
-def _rows(reader: Reader, layout: _Layout, start: int, count: int) -> Rows:
+def _rows(reader: Reader, layout: _NpyLayout, start: int, count: int) -> Rows:
     """Rows `start` to `start + count`. Raises InputError where they end too early."""
     if layout.by_columns:
         places = [layout.begin + 8 * (column * layout.count + start) for column in range(WIDTH)]

@@ -1,17 +1,26 @@
-"""One number from a person's text or a JSON value, by the same rules on the command line and in every table.
+"""Numbers as text: read by the same rules everywhere; written as decimals, hexadecimal floats and rationals.
+
+One number from a person's text or a JSON value, by the same rules on the command line and in every table.
 
 A number is decimal: an optional sign, ASCII digits with an optional point, an optional exponent, blanks around it. It
 is rounded to the nearest float64, as every reader of decimals does. Python's float() takes more ("1_000", digits of
 other scripts, "infinity"); none of that is a number here.
+
+Exact rationals as text.
+
+How vector files write numbers: shortest decimals, hexadecimal floats as C prints them, rationals as "p/q".
 """
 
 from __future__ import annotations
 
 import json
+import math
 import re
+from decimal import Context, Decimal, InvalidOperation
+from fractions import Fraction
 
-from hypcheck.pairs import SIZES, trouble_with
-from hypcheck.visible import visible
+from hypcheck.geometry.pair import SIZES, trouble_with
+from hypcheck.messages import escaped
 
 CHARACTERS = b"0123456789+-.eE \t"
 """All that a number is written with: text of these alone that float() accepts is a number by the rules above."""
@@ -78,10 +87,101 @@ def _valid(name: str, number: float, text: str) -> float:
 def shown(text: str, *, quoted: bool = True) -> str:
     """`text` as a message shows it: on one line, quoted, and cut where it is long."""
     cut = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"
-    return repr(cut) if quoted else visible(cut)
+    return repr(cut) if quoted else escaped(cut)
 
 
 def shown_json(value: object) -> str:
     """A JSON value as a message shows it: as JSON writes it, cut where it is long."""
     text = value.text if isinstance(value, Literal) else json.dumps(value, ensure_ascii=False, default=repr)
     return shown(text, quoted=False)
+
+
+_SHORT = 24
+_DIGITS = Context(prec=17, Emin=-(10**6), Emax=10**6)
+_BITS = 10_000
+_DIGITS_WRITTEN = (
+    3_000  # 10**_PLACES has fewer bits than _BITS, and Python writes no integer of more than 4300 digits by itself
+)
+
+
+def exact_text(value: Fraction) -> str:
+    """`value` as "3" or "-3/2", whatever its length."""
+    top = _integer_text(value.numerator)
+    return top if value.denominator == 1 else f"{top}/{_integer_text(value.denominator)}"
+
+
+def readable_text(value: Fraction) -> str:
+    """`value` for a person: exact where that is short, else to 17 digits with a sign that it was rounded."""
+    if value.numerator.bit_length() + value.denominator.bit_length() < 4 * _SHORT and len(exact_text(value)) <= _SHORT:
+        return exact_text(value)
+    return f"≈ {_DIGITS.divide(Decimal(value.numerator), Decimal(value.denominator))}"
+
+
+def equals_text(value: Fraction) -> str:
+    """`value` after an equals sign: "= 3/2", or "≈ 0.33333333333333333" where it is rounded."""
+    text = readable_text(value)
+    return text if text.startswith("≈") else f"= {text}"
+
+
+def _integer_text(number: int) -> str:
+    if number < 0:
+        return "-" + _integer_text(-number)
+    if number.bit_length() < _BITS:
+        return str(number)
+    high, low = divmod(number, 10**_DIGITS_WRITTEN)
+    return _integer_text(high) + str(low).zfill(_DIGITS_WRITTEN)
+
+
+_ZEROS = re.compile(r"\.?0+(?=p)")
+_RATIONAL = re.compile(r"(-?)(0|[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
+_LONGEST_RATIONAL = 100_000
+"""Characters of a rational. Shipped ones have 1,236 at most; reading takes a time that grows with the square."""
+_DIGITS_READ = 4000
+_SHIFT: int = 10**_DIGITS_READ
+"""Python turns no text of more than 4300 digits into an integer by itself, so a longer one goes by pieces."""
+
+
+def decimal_of(value: float) -> str:
+    """The shortest decimal that float64 reads back as `value`, as JSON; an infinity or NaN is a string."""
+    return repr(value) if math.isfinite(value) else f'"{value}"'
+
+
+def hex_of(value: float) -> str:
+    """`value` exactly, as C's %a has it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
+    return _ZEROS.sub("", value.hex())
+
+
+def is_shortest(number: float | int) -> bool:
+    """Whether a number read from a file (Literal or int) has the digits of the shortest decimal of its float64.
+
+    Notation is free, so that 2, 2.0 and 20e-1 are the same; a digit too many or too few is not.
+    """
+    text = number.text if isinstance(number, Literal) else str(number)
+    try:
+        value = float(text)
+    except OverflowError:
+        return False
+    try:
+        return math.isfinite(value) and Decimal(text) == Decimal(repr(value))
+    except InvalidOperation:  # of a zero, or what rounds to it, with an exponent that even Decimal cannot hold
+        return False
+
+
+def rational_of(text: str) -> Fraction:
+    """The rational that `text` writes as "p" or "p/q" in lowest terms. Raises ValueError for any other text."""
+    if len(text) > _LONGEST_RATIONAL:
+        raise ValueError(f"must have at most {_LONGEST_RATIONAL} digits")
+    match = _RATIONAL.fullmatch(text)
+    if match is None:
+        raise ValueError("must be an integer or p/q, such as -3/4")
+    sign, top, bottom = match.groups()
+    numerator, denominator = _integer_of(top), _integer_of(bottom or "1")
+    if math.gcd(numerator, denominator) != 1 or (bottom == "1") or (sign and not numerator):
+        raise ValueError("must be in lowest terms, such as -3/4")
+    return Fraction(-numerator if sign else numerator, denominator)
+
+
+def _integer_of(digits: str) -> int:
+    if len(digits) <= _DIGITS_READ:
+        return int(digits)
+    return _integer_of(digits[:-_DIGITS_READ]) * _SHIFT + int(digits[-_DIGITS_READ:])

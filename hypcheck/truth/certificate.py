@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 
 Point = tuple[Fraction, Fraction, Fraction]
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hypcheck.pairs import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.kinds import Kind
 
 

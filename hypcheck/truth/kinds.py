@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum, unique
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hypcheck.truth.nearest_precise import STAGES, Nearest, Point, nearest
+from hypcheck.truth.nearest_exact import STAGES, Nearest, Point, nearest
 
 if TYPE_CHECKING:
-    from hypcheck.rows import Rows
+    from hypcheck.geometry.rows import Rows
     from hypcheck.truth.nearest_batch import NearestBatch, NearestPositions
 
 __all__ = ["STAGES", "Nearest", "Point", "clearances", "nearest", "positions"]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import count
 
-from hypcheck.pairs import Lengths, Pair, Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Point
 from hypcheck.truth.exact import Cubic, Decision

@@ -22,10 +22,10 @@ from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.messages import escaped
 from hypcheck.truth import exact
-from hypcheck.truth.motion import Rational, checked, integers, several
-from hypcheck.visible import visible
+from hypcheck.truth.swept import Rational, checked, checked_sequence, integers
 
 PRECISIONS = (128, 512, 2048)
 """Bits with which enclosures are made, each tried where the one before does not tell."""
@@ -64,10 +64,10 @@ def turning(
 
 
 def _checked_turn(arm: Rational, direction: Sequence[Rational], angle: float) -> tuple[Fraction, ...]:
-    ahead, aside = several("direction", ("x", "y"), direction)
+    ahead, aside = checked_sequence("direction", ("x", "y"), direction)
     for name, number in (("arm", arm), ("direction", ahead), ("direction", aside), ("angle", angle)):
         if isinstance(number, bool) or not isinstance(number, (int, float, Fraction)):
-            raise InputError(f"{name} is {visible(repr(number), 60)}; it must be a number")
+            raise InputError(f"{name} is {escaped(repr(number), 60)}; it must be a number")
         if isinstance(number, float) and not math.isfinite(number):
             raise InputError(f"{name} is {number!r}; it must be finite")
     if arm < 0 or not (ahead or aside):

@@ -9,7 +9,7 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from hypcheck.bench.contenders import c_library
+from hypcheck.bench import c_library
 
 
 @pytest.fixture(autouse=True, scope="package")

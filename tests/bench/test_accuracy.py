@@ -8,13 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck import judge
-from hypcheck.bench.accuracy import NEAREST, MethodAnswers, WorkloadTruth, line, reliable_above
+from hypcheck.bench.accuracy import NEAREST, MethodAnswers, WorkloadTruth, accuracy_line, reliable_above
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.rows import CANNOT_SAY
-from hypcheck.truth import batch
+from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.runs import judge
+from hypcheck.truth import float_filter
 
 INF = math.inf
 
@@ -23,7 +22,7 @@ INF = math.inf
 def truth():
     workload = WORKLOADS["near-contact"]
     rows = workload.rows(5, 120)
-    return WorkloadTruth(workload, rows, batch.positions(rows), judge.flip_octaves(rows))
+    return WorkloadTruth(workload, rows, float_filter.positions(rows), judge.flip_exponents(rows))
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +35,7 @@ def answered(truth, answers):
 
 
 def test_right_answers_make_no_error(contender, truth):
-    found = line(contender, answered(truth, truth.positions), truth)
+    found = accuracy_line(contender, answered(truth, truth.positions), truth)
     assert (found.asked, found.wrong, found.abstained) == (120, 0, 0)
     assert (found.reliable_above, found.worst) == (0.0, [])
     assert sum(number for _, number, _ in found.octaves) == 120
@@ -45,13 +44,13 @@ def test_right_answers_make_no_error(contender, truth):
 def test_what_is_not_said_is_not_wrong(contender, truth):
     answers = truth.positions.copy()
     answers[:7] = CANNOT_SAY
-    found = line(contender, answered(truth, answers), truth)
+    found = accuracy_line(contender, answered(truth, answers), truth)
     assert (found.wrong, found.abstained) == (0, 7)
     assert found.reliable_above > 0
 
 
 def test_who_never_says_anything_is_reliable_nowhere(contender, truth):
-    found = line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
+    found = accuracy_line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
     assert (found.wrong, found.reliable_above) == (0, INF)
 
 
@@ -59,7 +58,7 @@ def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender
     place = int(np.flatnonzero(truth.positions == 1)[0])
     answers = truth.positions.copy()
     answers[place] = 0
-    found = line(contender, answered(truth, answers), truth)
+    found = accuracy_line(contender, answered(truth, answers), truth)
     assert (found.wrong, found.false_contact, found.false_clear, found.wrong_side) == (1, 1, 0, 0)
     assert [octave for octave, _, wrong in found.octaves if wrong] == [int(truth.octaves[place])]
     (worst,) = found.worst
@@ -71,8 +70,8 @@ def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender
 def test_a_one_sided_question_is_judged_as_such(contender, truth):
     one_sided = replace(contender, question="exterior")
     answers = (truth.positions == 1).astype(np.int8)
-    assert line(one_sided, answered(truth, answers), truth).wrong == 0
-    found = line(one_sided, answered(truth, 1 - answers), truth)
+    assert accuracy_line(one_sided, answered(truth, answers), truth).wrong == 0
+    found = accuracy_line(one_sided, answered(truth, 1 - answers), truth)
     assert found.wrong == 120
     assert found.false_clear == np.count_nonzero(truth.positions == 0)
     assert found.wrong_side == np.count_nonzero(truth.positions == -1)

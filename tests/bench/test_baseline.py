@@ -9,15 +9,15 @@ import pytest
 from click.testing import CliRunner
 from msgspec import structs
 
-from hypcheck.bench.baseline import Change, change_of, comparisons, gated, read_baseline, require_common, speeds_of
+from hypcheck.bench.baseline import SpeedChange, change_of, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Drift
-from hypcheck.record.measurements import Noise, Speed
+from hypcheck.record.lines import DriftLine
+from hypcheck.record.measurements import NoiseLine, SpeedLine
 from tests.report import bench_lines
 
 KEY = ("mine", "uniform", "batch")
@@ -33,12 +33,12 @@ def run(slowness=1.0, machine=1.0, spread=0.01, floor=0.01, seed=0):
     def speed(method, time):
         return structs.replace(speed_of(method, time / 10.0), samples_ns=samples(time))
 
-    noise = Noise(workload="uniform", mode="batch", ratio=1.0, ratio_ci95=(1.0, 1.0), floor=floor)
-    return speeds_of([noise, speed(REFERENCE, 10.0), speed("mine", 4.0 * slowness), Drift(sentence="odd")])
+    noise = NoiseLine(workload="uniform", mode="batch", ratio=1.0, ratio_ci95=(1.0, 1.0), floor=floor)
+    return speeds_of([noise, speed(REFERENCE, 10.0), speed("mine", 4.0 * slowness), DriftLine(sentence="odd")])
 
 
 def speed_of(method, ratio):
-    return decoded(bench_lines.speed(method, "uniform", "batch", 10.0 * ratio, 10.0), Speed)
+    return decoded(bench_lines.speed(method, "uniform", "batch", 10.0 * ratio, 10.0), SpeedLine)
 
 
 def verdict(before, after, allowed=1.1):
@@ -92,7 +92,7 @@ def test_what_is_allowed_is_allowed():
     ],
 )
 def test_the_interval_is_widened_by_the_noise_before_it_is_read(low, high, noise, expected):
-    assert Change(1.0, low, high, noise).verdict(1.1) == expected
+    assert SpeedChange(1.0, low, high, noise).verdict(1.1) == expected
 
 
 def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():

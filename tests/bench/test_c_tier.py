@@ -10,14 +10,14 @@ import stat
 import numpy as np
 import pytest
 
-from hypcheck.bench.contenders import c_library, contenders
-from hypcheck.bench.contenders.c_library import FLAGS, compiled
-from hypcheck.bench.needs import prepared
-from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.casebook.families import FAMILIES, select
+from hypcheck.bench import c_library
+from hypcheck.bench.c_library import FLAGS, compiled
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.needs import plan_with_needs
+from hypcheck.bench.plan import WORKLOADS, BenchPlan
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder
+from hypcheck.vectors.families import FAMILIES, select
 
 TIMED_ALONE = ("table-2-reciprocal-float64", "procedure-1-repaired-float64")
 """Compiled for the claims about costs, and compared with numpy there (test_costs.py)."""
@@ -103,7 +103,7 @@ def test_a_run_without_a_compiler_goes_on_with_the_rest_and_says_what_is_missing
     )
     stream = io.StringIO()
     plan = BenchPlan(methods=("table-2-float64*",), folder=tmp_path)
-    found = prepared(plan, Recorder(stream, {}))
+    found = plan_with_needs(plan, Recorder(stream, {}))
     assert list(contenders(found)) == ["table-2-float64"]
     absent = json.loads(stream.getvalue().splitlines()[-1])
     assert (absent["type"], absent["what"], absent["reason"]) == ("absent", "C compiler", "no C compiler is found")

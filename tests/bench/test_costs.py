@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.bench import claims, costs
+from hypcheck.bench import claims, speed
+from hypcheck.bench.c_library import compiled
 from hypcheck.bench.claims import (
     BODIES,
     OURS,
@@ -20,18 +21,15 @@ from hypcheck.bench.claims import (
     REPAIRED_B,
     TRIGONOMETRIC,
 )
-from hypcheck.bench.contenders.c_library import compiled
 from hypcheck.bench.plan import QUICK, BenchPlan
-from hypcheck.bench.rounds import Samples
-from hypcheck.bench.session import COST, FIRST_AGAIN, Measured
-from hypcheck.bench.statistics import Estimate
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.derivation.counting import count
+from hypcheck.bench.session import COST_OF, FIRST_AGAIN, Measurement
+from hypcheck.bench.timing import Estimate, Samples
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.judge import flip_octaves
-from hypcheck.methods.formula import by_rows
-from hypcheck.methods.procedures import PROCEDURES
-from hypcheck.methods.reciprocals import RECIPROCAL
+from hypcheck.derivation.program import count
+from hypcheck.implementations.method import RECIPROCAL, by_rows
+from hypcheck.implementations.procedures import PROCEDURES
+from hypcheck.runs.judge import flip_exponents
+from hypcheck.vectors.families import FAMILIES
 
 FEW = replace(QUICK, bodies=600, timed=600)
 
@@ -45,7 +43,7 @@ def plan(tmp_path_factory):
 def answers(plan):
     return {
         (claim.name, claim.tier): {name: ready.answers().copy() for name, ready in claim.compared(plan).items()}
-        for claim in claims.claims(plan)
+        for claim in claims.cost_claims(plan)
     }
 
 
@@ -72,18 +70,18 @@ def test_the_share_of_positions_that_need_the_rotors_is_that_of_touching_spheroi
 
 def test_reciprocals_leave_additions_and_products_alone_in_the_loop_and_the_answers_but_next_to_touching():
     assert count(RECIPROCAL.program.steps).divisions == count(FORMULAS["table-2"].program.steps).divisions
-    claim = next(each for each in claims.claims(BenchPlan()) if each.name == "divisions")
+    claim = next(each for each in claims.cost_claims(BenchPlan()) if each.name == "divisions")
     printed, changed = claim.operations[PRINTED], claim.operations[RECIPROCALS]
     assert (printed.divisions, changed.divisions) == (2, 0)
     assert changed.multiplications == printed.multiplications + 2
     rows = np.concatenate([FAMILIES[name].rows(1, 400) for name in ("uniform", "tower-body", "tangent-ladder")])
     one, other = (by_rows(formula, "float64")(rows) for formula in (FORMULAS["table-2"], RECIPROCAL))
-    assert (flip_octaves(rows[one != other]) < -40).all()
+    assert (flip_exponents(rows[one != other]) < -40).all()
 
 
 def test_without_a_compiler_the_claims_are_measured_in_numpy_and_a_chosen_few_methods_measure_none():
-    assert {claim.tier for claim in claims.claims(BenchPlan())} == {"numpy"}
-    assert claims.claims(BenchPlan(methods=("fast-numpy",))) == []
+    assert {claim.tier for claim in claims.cost_claims(BenchPlan())} == {"numpy"}
+    assert claims.cost_claims(BenchPlan(methods=("fast-numpy",))) == []
 
 
 @pytest.mark.parametrize(
@@ -98,8 +96,8 @@ def test_without_a_compiler_the_claims_are_measured_in_numpy_and_a_chosen_few_me
 )
 def test_a_verdict_needs_more_than_noise(low, high, noise, is_cheaper, is_dearer):
     ratio = Estimate((low + high) / 2, low, high)
-    assert costs.cheaper(ratio, noise) == is_cheaper
-    assert costs.dearer(ratio, noise) == is_dearer
+    assert speed.cheaper(ratio, noise) == is_cheaper
+    assert speed.dearer(ratio, noise) == is_dearer
 
 
 def measured(times):
@@ -107,10 +105,10 @@ def measured(times):
 
     def parts(key, time):
         jitter = [[time * (1 + (r + p) / 1000) for r in range(3)] for p in range(2)]
-        return [Measured(key, Samples(key[0], 10, 1, 0, part), 0.0, "process") for part in jitter]
+        return [Measurement(key, Samples(key[0], 10, 1, 0, part), 0.0, "process") for part in jitter]
 
     return {
-        (name, f"{COST}{claim}", "batch"): parts((name, f"{COST}{claim}", "batch"), time)
+        (name, f"{COST_OF}{claim}", "batch"): parts((name, f"{COST_OF}{claim}", "batch"), time)
         for claim, ways in times.items()
         for name, time in ways.items()
     }
@@ -129,7 +127,7 @@ def test_lines_say_what_was_found():
         "divisions-numpy": {PRINTED: 10.0, RECIPROCALS: 8.0, REPAIRED_1: 11.0, FIRST_AGAIN: 10.0},
         "roots-numpy": {PRINTED: 10.0, TRIGONOMETRIC: 25.0, claims.EIGENVALUES: 2e4, FIRST_AGAIN: 10.0},
     }
-    lines = list(costs.lines(BenchPlan(amounts=FEW), measured(times)))
+    lines = list(speed.cost_lines(BenchPlan(amounts=FEW), measured(times)))
     assert [line.verdict for line in lines] == ["holds", "does not hold", "holds"]
     assert [each.ratio for each in lines[0].compared] == pytest.approx([1.0, 1 / 3, 1 / 2, 1.0, 0.4], rel=0.01)
     assert FIRST_AGAIN not in {each.name for line in lines for each in line.compared}
@@ -138,4 +136,4 @@ def test_lines_say_what_was_found():
     assert "a position for the roots, none for the coefficients" in lines[2].says
     noisy = {**times["procedures-numpy"], FIRST_AGAIN: 360.0}
     found = measured({**times, "procedures-numpy": noisy})
-    assert next(costs.lines(BenchPlan(amounts=FEW), found)).verdict == "inconclusive"
+    assert next(speed.cost_lines(BenchPlan(amounts=FEW), found)).verdict == "inconclusive"

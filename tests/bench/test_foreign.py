@@ -8,20 +8,19 @@ from dataclasses import replace
 import pytest
 from msgspec import structs
 
+from hypcheck.bench import foreign
 from hypcheck.bench.baseline import alike, speeds_of
-from hypcheck.bench.contenders import contenders, foreign
-from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.rounds import Entry, RefusedError, measure
-from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.methods import implementation
-from hypcheck.methods.faults import StartError
-from hypcheck.methods.limits import Limits
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.bench.timing import TimingEntry, TimingRefusedError, measure
+from hypcheck.implementations import implementation
+from hypcheck.implementations.session import Limits, StartError
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import NotStarted
-from hypcheck.record.measurements import Accuracy, Comparison, Method, Refused, Speed
+from hypcheck.record.lines import NotStartedLine
+from hypcheck.record.measurements import AccuracyLine, ComparisonLine, MethodLine, RefusedLine, SpeedLine
 from tests.bench.test_run import ended
-from tests.miniatures import QUICK, command, compiled
 from tests.report import bench_lines
+from tests.tools.miniatures import QUICK, command, compiled
 
 ROWS = WORKLOADS["uniform"].rows(1, 50)
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -88,9 +87,9 @@ def test_a_command_with_a_clock_is_timed_by_it():
 def test_a_clock_with_a_wrong_checksum_is_refused():
     way = opened(command("miscounts_time", "binary"))
     ready = way.batch(ROWS)
-    with pytest.raises(RefusedError, match="timed with the checksum"):
+    with pytest.raises(TimingRefusedError, match="timed with the checksum"):
         ready.run(1)
-    *_, (_, (found,)) = measure([Entry("it", ready.rows, ready.run)], 2)
+    *_, (_, (found,)) = measure([TimingEntry("it", ready.rows, ready.run)], 2)
     assert "timed with the checksum" in found.refused
     assert found.samples_ns == []
     way.close()
@@ -99,7 +98,7 @@ def test_a_clock_with_a_wrong_checksum_is_refused():
 def test_a_clock_that_tells_far_too_little_is_refused(monkeypatch):
     monkeypatch.setattr(implementation, "_SLACK_NS", 10**9)
     way = opened(command("boasts", "binary"))
-    with pytest.raises(RefusedError, match=r"says that it took 3,000 ns for what took [\d,]+ ns by our clock"):
+    with pytest.raises(TimingRefusedError, match=r"says that it took 3,000 ns for what took [\d,]+ ns by our clock"):
         way.batch(ROWS).run(3)
     way.close()
 
@@ -117,8 +116,8 @@ def test_of_a_command_without_a_clock_a_question_about_one_row_is_taken_off():
 
 def test_two_that_call_themselves_alike_keep_apart(tmp_path):
     first, second = subject(tmp_path), subject(tmp_path, times=2)
-    one = foreign.met(first, Limits(), [])
-    other = foreign.met(second, Limits(), [one.name])
+    one = foreign.foreign_method(first, Limits(), [])
+    other = foreign.foreign_method(second, Limits(), [one.name])
     assert (one.name, other.name) == ("subject", f"subject ({second})")
     found = contenders(BenchPlan(methods=("fast-numpy",), foreign=(one, other)))
     assert list(found)[-2:] == [one.name, other.name]
@@ -126,8 +125,8 @@ def test_two_that_call_themselves_alike_keep_apart(tmp_path):
 
 
 def test_a_slow_one_is_asked_about_fewer_rows(tmp_path):
-    quick = foreign.met(subject(tmp_path), Limits(), [])
-    slow = foreign.met(subject(tmp_path, times=300), Limits(), [])
+    quick = foreign.foreign_method(subject(tmp_path), Limits(), [])
+    slow = foreign.foreign_method(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed
     assert slow.judged < quick.judged
 
@@ -136,19 +135,19 @@ def test_an_interruption_while_it_is_met_does_not_make_it_seem_slow(tmp_path, mo
     """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
     times = itertools.cycle([0.05, 0.0])
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
-    assert foreign.met(subject(tmp_path), Limits(), []).timed == 10_000
+    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 10_000
 
 
 def test_one_that_takes_long_is_tried_once_a_batch(tmp_path, monkeypatch):
     tried = []
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
-    assert foreign.met(subject(tmp_path), Limits(), []).timed == 1
+    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 1
     assert len(tried) == 1
 
 
 def test_held_to_a_baseline_it_is_timed_on_as_many_rows_as_there(tmp_path):
-    other = foreign.met(subject(tmp_path), Limits(), [])
-    line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), Speed)
+    other = foreign.foreign_method(subject(tmp_path), Limits(), [])
+    line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), SpeedLine)
     asked = {("uniform", "batch"): 53, ("flight", "batch"): 50, ("uniform", "single"): 256}
     before = speeds_of(
         structs.replace(line, workload=workload, mode=mode, rows=rows) for (workload, mode), rows in asked.items()
@@ -160,7 +159,7 @@ def test_one_that_never_answers_is_waited_for_once(tmp_path):
     path = tmp_path / "never.py"
     path.write_text("def classify(rows):\n    while True:\n        pass\n", encoding="utf-8")
     with pytest.raises(StartError, match=r"does not answer its first question, about one row: no answer within 0\.7 s"):
-        foreign.met(f"python:{path}:classify", QUICK, [])
+        foreign.foreign_method(f"python:{path}:classify", QUICK, [])
 
 
 SMALL = ["--workloads", "uniform", "--methods", "fast-numpy"]
@@ -176,23 +175,23 @@ def before(tmp_path_factory):
 def test_it_is_judged_and_timed_as_the_others_are(before):
     code, record, _ = before
     assert code == 0
-    (judged,) = [line for line in record.of(Accuracy) if line.method == "subject"]
+    (judged,) = [line for line in record.of(AccuracyLine) if line.method == "subject"]
     assert judged.wrong == 0
-    timed = [line for line in record.of(Speed) if line.method == "subject"]
+    timed = [line for line in record.of(SpeedLine) if line.method == "subject"]
     assert {line.mode for line in timed} == {"batch", "single"}
     assert {line.timed_by for line in timed} == {"worker"}
-    assert [line.kind for line in record.of(Method)][-1] == "foreign"
+    assert [line.kind for line in record.of(MethodLine)][-1] == "foreign"
 
 
 def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp_path):
     *_, baseline = before
     slower = subject(tmp_path, times=60)
     code, record = ended(tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", slower)
-    compared = {(line.method, line.mode): line for line in record.of(Comparison) if line.gates}
+    compared = {(line.method, line.mode): line for line in record.of(ComparisonLine) if line.gates}
     assert compared["subject", "batch"].verdict == "slower"
     assert compared["subject", "batch"].change > 5
     assert code == 3
-    assert {line.method for line in record.of(Comparison)} == {"subject", "fast-numpy"}
+    assert {line.method for line in record.of(ComparisonLine)} == {"subject", "fast-numpy"}
 
 
 def test_the_same_again_is_not_found_slower(before, tmp_path):
@@ -200,25 +199,25 @@ def test_the_same_again_is_not_found_slower(before, tmp_path):
     code, record = ended(
         tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", subject(tmp_path)
     )
-    assert "slower" not in {line.verdict for line in record.of(Comparison) if line.change < 1.5}
-    assert code in (0, 4) or max(line.change for line in record.of(Comparison) if line.gates) > 1.5
+    assert "slower" not in {line.verdict for line in record.of(ComparisonLine) if line.change < 1.5}
+    assert code in (0, 4) or max(line.change for line in record.of(ComparisonLine) if line.gates) > 1.5
 
 
 def test_what_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, f"python:{tmp_path / 'nowhere.py'}:classify")
     assert code == 5
-    assert record.of(NotStarted)
-    assert record.of(Speed)
+    assert record.of(NotStartedLine)
+    assert record.of(SpeedLine)
 
 
 def test_one_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0"))
     assert code == 1
-    refused = record.of(Refused)
+    refused = record.of(RefusedLine)
     assert refused
     assert all("ZeroDivisionError" in line.reason for line in refused)
     assert all("; the row is 2.0, 17.8, 0.25, 0.15, " in line.reason for line in refused)
-    assert "subject" not in {line.method for line in record.of(Speed)}
+    assert "subject" not in {line.method for line in record.of(SpeedLine)}
 
 
 def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
@@ -230,5 +229,5 @@ def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
     path.write_text(begun + path.read_text(encoding="utf-8"), encoding="utf-8")
     code, record = ended(tmp_path / "out", *SMALL, spec)
     assert code == 1
-    reasons = {line.reason for line in record.of(Refused) if line.method == "subject"}
+    reasons = {line.reason for line in record.of(RefusedLine) if line.method == "subject"}
     assert reasons == {"its answers, when it was about to be timed, were not those that were judged"}

@@ -8,20 +8,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.bench import convergence, memory, places, shapes, stability
+from hypcheck.bench import accuracy, error_maps
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import QUICK, BenchPlan
-from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.methods import bounding
-from hypcheck.methods.builtin import builtin
-from hypcheck.methods.engines import FCL
-from hypcheck.truth import batch
+from hypcheck.bench.plan import QUICK, WORKLOADS, BenchPlan
+from hypcheck.implementations import alternatives
+from hypcheck.implementations.builtin import builtin
+from hypcheck.implementations.meshes import FCL
+from hypcheck.truth import float_filter
 
 PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300))
 
 
 def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never_wrong():
-    found = {line.method: line for line in stability.lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
+    found = {line.method: line for line in error_maps.stability_lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
     exact = found["fast-numpy"].bins
     assert len(exact) == 400
     assert all(asked == 4 and wrong == 0 for _, _, asked, wrong in exact)
@@ -31,16 +30,16 @@ def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never
 
 
 def test_cells_hold_the_rows_of_their_sizes():
-    rows, cells = stability._rows(PLAN)
-    side = stability.LAST - stability.FIRST + 1
+    rows, cells = error_maps._stability_rows(PLAN)
+    side = error_maps.LAST - error_maps.FIRST + 1
     a, c = rows[:, 0] / rows[:, 2], rows[:, 1] / rows[:, 3]
-    assert (np.abs(2 * np.log10(a) - (stability.FIRST + cells // side + 0.5)) <= 0.5 + 1e-9).all()
-    assert (np.abs(2 * np.log10(c) - (stability.FIRST + cells % side + 0.5)) <= 0.5 + 1e-9).all()
-    assert set(Counter(batch.positions(rows).tolist())) == {-1, 0, 1}
+    assert (np.abs(2 * np.log10(a) - (error_maps.FIRST + cells // side + 0.5)) <= 0.5 + 1e-9).all()
+    assert (np.abs(2 * np.log10(c) - (error_maps.FIRST + cells % side + 0.5)) <= 0.5 + 1e-9).all()
+    assert set(Counter(float_filter.positions(rows).tolist())) == {-1, 0, 1}
 
 
 def test_the_maps_know_the_ring():
-    whole, ring = next(places.lines(PLAN, ["table-2-float32"], None))
+    whole, ring = next(error_maps.place_lines(PLAN, ["table-2-float32"], None))
     assert (whole.region, ring.region) == ("whole", "ring")
     for line, columns in ((whole, 29), (ring, 15)):
         assert len(line.wrong) == line.z[2] == 15
@@ -51,19 +50,19 @@ def test_the_maps_know_the_ring():
 
 
 def test_a_map_has_a_letter_for_each_mistake():
-    r, z = places.regions(PLAN)["whole"]
-    rows = places.grid(r, z)
-    truth = batch.positions(rows)
-    lines = places.drawn(np.zeros_like(truth), rows, "position", r[2])
+    r, z = error_maps.mapped_regions(PLAN)["whole"]
+    rows = error_maps.grid(r, z)
+    truth = float_filter.positions(rows)
+    lines = error_maps.letters_of(np.zeros_like(truth), rows, "position", r[2])
     assert "".join(lines).count("w") == np.count_nonzero(truth)
-    lines = places.drawn(np.ones_like(truth), rows, "position", r[2])
+    lines = error_maps.letters_of(np.ones_like(truth), rows, "position", r[2])
     assert "".join(lines).count("c") == np.count_nonzero(truth == 0)
     assert "".join(lines).count("s") == np.count_nonzero(truth == -1)
-    assert set("".join(places.drawn(truth, rows, "position", r[2]))) == {"."}
+    assert set("".join(error_maps.letters_of(truth, rows, "position", r[2]))) == {"."}
 
 
 def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not():
-    lines = list(shapes.lines(PLAN))
+    lines = list(error_maps.bounding_lines(PLAN))
     assert {(line.shape, line.workload) for line in lines} == {
         (shape, workload) for shape in ("sphere", "cylinder") for workload in ("uniform", "flight")
     }
@@ -80,15 +79,18 @@ def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not()
 
 def test_an_open_shape_is_found_to_be_dangerous():
     rows = WORKLOADS["uniform"].rows(1, 300)
-    assert shapes.compared(rows, lambda some: np.ones(len(some), dtype=np.int8), "sphere", "uniform").false_clear > 0
-    assert shapes.compared(rows, bounding.sphere, "sphere", "uniform").false_clear == 0
+    assert (
+        error_maps.bounding_line(rows, lambda some: np.ones(len(some), dtype=np.int8), "sphere", "uniform").false_clear
+        > 0
+    )
+    assert error_maps.bounding_line(rows, alternatives.bounding_sphere, "sphere", "uniform").false_clear == 0
 
 
 @pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
 def test_convergence_counts_triangles_against_errors():
-    lines = list(convergence.lines(PLAN))
+    lines = list(error_maps.convergence_lines(PLAN))
     assert [line.method for line in lines] == ["fcl-point"] * 2 + ["fcl-sphere"] * 2 + ["fcl-ellipsoid"] * 2
-    assert len(lines) == convergence.steps(PLAN)
+    assert len(lines) == error_maps.convergence_steps(PLAN)
     assert lines[1].deviation < lines[0].deviation
     assert lines[1].wrong < lines[0].wrong < lines[0].asked
     assert lines[0].build_ns > 0
@@ -97,7 +99,7 @@ def test_convergence_counts_triangles_against_errors():
 
 def test_memory_is_what_a_batch_takes():
     names = ["table-2-float64", "bounding-cylinder"]
-    found = {line.method: line for line in memory.lines(replace(PLAN, workers=2), names)}
+    found = {line.method: line for line in accuracy.memory_lines(replace(PLAN, workers=2), names)}
     answers = found["bounding-cylinder"].rows
     assert answers == QUICK.timed
     # The cylinder makes arrays of all rows, Table 2 of a chunk at a time.
@@ -107,9 +109,12 @@ def test_memory_is_what_a_batch_takes():
 
 def test_methods_that_are_mapped_can_answer_many_rows():
     found = contenders(PLAN)
-    assert "table-2-float32" in stability.mapped(found)
-    assert "fast-numpy" in stability.mapped(found)
-    assert not {name for name in stability.mapped(found) if name.startswith(("mpmath", "fcl", "bounding"))}
-    assert {"bounding-sphere", "fcl-point-1000"} & set(places.mapped(found)) == {"bounding-sphere", "fcl-point-1000"}
-    assert not {name for name in places.mapped(found) if name.endswith("-c")}
+    assert "table-2-float32" in error_maps.stability_methods(found)
+    assert "fast-numpy" in error_maps.stability_methods(found)
+    assert not {name for name in error_maps.stability_methods(found) if name.startswith(("mpmath", "fcl", "bounding"))}
+    assert {"bounding-sphere", "fcl-point-1000"} & set(error_maps.place_methods(found)) == {
+        "bounding-sphere",
+        "fcl-point-1000",
+    }
+    assert not {name for name in error_maps.place_methods(found) if name.endswith("-c")}
     assert builtin("mpmath-roots-15").most is not None

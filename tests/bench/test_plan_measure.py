@@ -16,7 +16,7 @@ COMPILER = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C 
 @pytest.fixture
 def few(monkeypatch):
     """Few rounds."""
-    monkeypatch.setattr(scene, "ROUNDS", 2)
+    monkeypatch.setattr(scene, "KERNEL_ROUNDS", 2)
 
 
 @COMPILER

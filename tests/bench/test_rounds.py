@@ -7,7 +7,7 @@ import gc
 import numpy as np
 import pytest
 
-from hypcheck.bench.rounds import MOST_LOOPS, Entry, clocked, measure
+from hypcheck.bench.timing import MOST_LOOPS, TimingEntry, clocked, measure
 
 
 class Clock:
@@ -32,13 +32,13 @@ def measured(entries, rounds=3, **options):
 def test_each_round_begins_with_another_and_leaves_none_out():
     order = []
     names = ["a", "b", "c"]
-    entries = [Entry(name, 10, Clock(name, order), loops=1) for name in names]
+    entries = [TimingEntry(name, 10, Clock(name, order), loops=1) for name in names]
     measured(entries, rounds=4, first=1)
     assert "".join(order[3:]) == "bca" + "cab" + "abc" + "bca"
 
 
 def test_loops_make_a_sample_of_the_length_that_is_asked_for():
-    found = measured([Entry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
+    found = measured([TimingEntry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
     assert found.loops * found.takes == 1000
     assert found.samples_ns == [250.0] * 3
     assert found.median_ns == 250.0
@@ -46,29 +46,29 @@ def test_loops_make_a_sample_of_the_length_that_is_asked_for():
 
 def test_slow_work_is_done_once_a_sample():
     clock = Clock("a", [], ns=10**8)
-    found = measured([Entry("a", 1, clock)], shortest_s=1e-3)["a"]
+    found = measured([TimingEntry("a", 1, clock)], shortest_s=1e-3)["a"]
     assert (found.loops, found.takes) == (1, 1)
     assert clock.repeats[2:] == [1, 1, 1]
 
 
 def test_a_sample_is_the_fastest_of_its_takes_so_that_an_interruption_does_not_count():
     times = iter([9000, 1000, 1100, 8000, 7000] * 3)
-    entry = Entry("a", 1, lambda repeat: (0 if repeat == 1 else repeat * next(times), 3), 3, loops=7, takes=5)
+    entry = TimingEntry("a", 1, lambda repeat: (0 if repeat == 1 else repeat * next(times), 3), 3, loops=7, takes=5)
     assert measured([entry])["a"].samples_ns == [1000.0] * 3
 
 
 def test_a_clock_that_stands_still_does_not_hang():
-    assert measured([Entry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
+    assert measured([TimingEntry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
 
 
 def test_given_loops_are_kept():
-    assert measured([Entry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
+    assert measured([TimingEntry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
 
 
 def test_who_answers_otherwise_while_it_is_timed_is_refused_and_no_longer_asked():
     order = []
     changing = Clock("b", order, checksums=[7, 7, 8])
-    found = measured([Entry("a", 1, Clock("a", order), 7, 1), Entry("b", 1, changing, 7, 1)], rounds=5)
+    found = measured([TimingEntry("a", 1, Clock("a", order), 7, 1), TimingEntry("b", 1, changing, 7, 1)], rounds=5)
     assert found["a"].refused is None
     assert len(found["a"].samples_ns) == 5
     assert found["b"].refused == "its answers summed to 8 while it was timed; they must sum to 7"
@@ -77,7 +77,7 @@ def test_who_answers_otherwise_while_it_is_timed_is_refused_and_no_longer_asked(
 
 
 def test_a_first_answer_that_is_not_the_expected_one_is_refused():
-    found = measured([Entry("a", 1, Clock("a", [], checksums=[6]), 7, 1)])["a"]
+    found = measured([TimingEntry("a", 1, Clock("a", [], checksums=[6]), 7, 1)])["a"]
     assert found.refused is not None
     assert found.samples_ns == []
 
@@ -109,7 +109,7 @@ def test_garbage_collection_is_off_in_a_round_and_as_before_after_it(enabled):
     before = gc.isenabled()
     (gc.enable if enabled else gc.disable)()
     try:
-        measured([Entry("a", 1, work, loops=1)])
+        measured([TimingEntry("a", 1, work, loops=1)])
         assert gc.isenabled() is enabled
         assert seen[1:] == [False] * 3
     finally:

@@ -15,8 +15,8 @@ from hypcheck.cli.bench import bench
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
-from hypcheck.record.measurements import Accuracy, Method, Noise, Speed, Workload
-from tests.schemas import violations
+from hypcheck.record.measurements import AccuracyLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
+from tests.support.records import violations
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -56,18 +56,18 @@ def test_it_ends_well_and_every_line_fits_the_schema(small):
 
 def test_what_was_chosen_is_compared_and_the_reference_with_it(small):
     _, record = small
-    assert [line.method for line in record.of(Method)] == [
+    assert [line.method for line in record.of(MethodLine)] == [
         REFERENCE,
         "table-2-float16",
         "fast-numpy",
         "bounding-cylinder",
     ]
-    assert [line.workload for line in record.of(Workload)] == ["uniform", "ring"]
+    assert [line.workload for line in record.of(WorkloadLine)] == ["uniform", "ring"]
 
 
 def test_every_method_is_judged_on_every_workload(small):
     _, record = small
-    judged = {(line.method, line.workload): line for line in record.of(Accuracy)}
+    judged = {(line.method, line.workload): line for line in record.of(AccuracyLine)}
     assert len(judged) == 8
     assert judged["fast-numpy", "ring"].wrong == 0
     assert judged[REFERENCE, "ring"].wrong > 0
@@ -76,7 +76,7 @@ def test_every_method_is_judged_on_every_workload(small):
 
 def test_methods_are_timed_in_every_process_and_round(small):
     _, record = small
-    timed = {(line.method, line.workload, line.mode): line for line in record.of(Speed)}
+    timed = {(line.method, line.workload, line.mode): line for line in record.of(SpeedLine)}
     assert {key[1] for key in timed} == {"uniform"}
     assert {key[0] for key in timed} == {REFERENCE, "fast-numpy", "bounding-cylinder"}
     assert {key[2] for key in timed} == {"batch", "single"}
@@ -89,7 +89,7 @@ def test_methods_are_timed_in_every_process_and_round(small):
 
 def test_a_call_of_numpy_for_one_row_costs_more_than_a_row_in_a_batch(small):
     _, record = small
-    timed = {(line.method, line.mode): line.median_ns for line in record.of(Speed)}
+    timed = {(line.method, line.mode): line.median_ns for line in record.of(SpeedLine)}
     assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]
 
 
@@ -97,7 +97,7 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
     _, record = small
     kinds = [line.type for line in record.lines if line.type in ("noise", "speed")]
     assert kinds[:2] == ["noise", "noise"]
-    for line in record.of(Noise):
+    for line in record.of(NoiseLine):
         low, high = line.ratio_ci95
         assert line.floor == pytest.approx(max(high, 1 / low) - 1)
 

@@ -11,20 +11,19 @@ import pytest
 from click.testing import CliRunner
 from msgspec.structs import astuple
 
-from hypcheck.bench import scene_kernel, scenes
-from hypcheck.bench.forest import contenders, growth, stepping
+from hypcheck.bench import forest as contenders
+from hypcheck.bench import scene as scene_kernel
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.cli.bench import bench
 from hypcheck.errors import InputError, NothingJudgedError
+from hypcheck.implementations.meshes import FCL
+from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.specialise.plan import plan_of
-from hypcheck.kernel.world.scene import Scene
-from hypcheck.methods.engines import FCL
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
-from hypcheck.record.measurements import Forest
-from hypcheck.record.measurements import Scene as SceneLine
-from tests.schemas import violations
-from tests.specialise.scenes import HILLS, PLAIN
+from hypcheck.record.measurements import ForestLine, SceneLine
+from tests.support.records import violations
+from tests.support.scenes import HILLS, PLAIN
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -46,17 +45,17 @@ def ended(folder, *options):
 @pytest.fixture
 def small(monkeypatch):
     """Few trees, few steps, few rows."""
-    monkeypatch.setattr(stepping, "TREES", (10, 200))
-    monkeypatch.setattr(stepping, "STEPS", 48)
-    monkeypatch.setattr(stepping, "QUICK_ROUNDS", 2)
-    monkeypatch.setattr(scenes, "QUICK_ROUNDS", 2)
-    monkeypatch.setattr(scenes, "ROWS", 4096)
+    monkeypatch.setattr(contenders, "TREES", (10, 200))
+    monkeypatch.setattr(contenders, "STEPS", 48)
+    monkeypatch.setattr(contenders, "QUICK_ROUNDS", 2)
+    monkeypatch.setattr(scene_kernel, "QUICK_ROUNDS", 2)
+    monkeypatch.setattr(scene_kernel, "ROWS", 4096)
 
 
 def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
     code, record, report = ended(tmp_path, "--forest")
     assert code == 0
-    lines = record.of(Forest)
+    lines = record.of(ForestLine)
     assert {line.trees for line in lines} == {10, 200}
     for line in lines:
         assert not violations(as_json(line), DEFINITIONS, closed=True)
@@ -71,26 +70,26 @@ def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
 def test_only_a_whole_run_measures_scenes_and_forests_unasked():
     whole = BenchPlan()
     assert whole.whole
-    assert stepping.sizes(whole)[-1] == stepping.MOST < stepping.sizes(BenchPlan(forest=True))[-1]
+    assert contenders.sizes(whole)[-1] == contenders.MOST < contenders.sizes(BenchPlan(forest=True))[-1]
     chosen = [{"quick": True}, {"specs": ("builtin:fast",)}, {"methods": ("fast",)}, {"workloads": ("uniform",)}]
     assert not any(BenchPlan(**each).whole for each in chosen)
 
 
 def test_a_way_through_the_forest_touches_trees_and_is_judged_without_the_grid():
-    forest = growth.forest_of(300, 5)
+    forest = contenders.forest_of(300, 5)
     scene = Scene(forest.model)
-    way = growth.walk(scene, forest, 400, 5)
+    way = contenders.walk(scene, forest, 400, 5)
     truth = [int(forest.clear(centre)) for centre in way]
     assert 0 < truth.count(0) < 200
     assert [scene.position(*centre) for centre in way] == truth
-    assert len({growth.KINDS[kind] for kind in forest.kinds.tolist()}) == len(growth.KINDS)
+    assert len({contenders.KINDS[kind] for kind in forest.kinds.tolist()}) == len(contenders.KINDS)
 
 
 @pytest.mark.skipif(FCL.trouble() is not None, reason="there is no FCL")
 @pytest.mark.parametrize("name", [name for name in contenders.WALKERS if name != contenders.OURS])
 def test_fcl_is_asked_the_same_question(name):
     """Away from contact a mesh and a cylinder answer as the truth does."""
-    forest = growth.forest_of(50, 2)
+    forest = contenders.forest_of(50, 2)
     clear = contenders.WALKERS[name].make(forest)
     for place in forest.places[:20].tolist():
         assert clear(place[0] + 0.45, place[1], 0.0) == int(forest.clear((place[0] + 0.45, place[1], 0.0)))
@@ -106,7 +105,7 @@ def test_an_exact_walker_that_errs_fails_the_run(small, tmp_path, monkeypatch):
     monkeypatch.setattr(contenders, "WALKERS", walkers)
     code, record, report = ended(tmp_path, "--forest")
     assert code == 1
-    assert any(line.wrong for line in record.of(Forest))
+    assert any(line.wrong for line in record.of(ForestLine))
     assert "promises to be exact" in report
 
 
@@ -126,9 +125,9 @@ def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_pat
 
 
 def test_shares_of_a_scene_are_the_mean_of_its_pairs():
-    found = scenes.shares(plan_of(PLAIN).settings)
+    found = scene_kernel.stage_shares(plan_of(PLAIN).settings)
     assert found == {"always": 0.0, "thresholds": 1.0, "lines": 0.0, "discriminant": 0.0, "search": 0.0}
-    assert sum(scenes.shares(plan_of(HILLS).settings).values()) == pytest.approx(1)
+    assert sum(scene_kernel.stage_shares(plan_of(HILLS).settings).values()) == pytest.approx(1)
 
 
 @COMPILER
@@ -162,7 +161,7 @@ def test_what_is_measured_alone_goes_with_nothing(options, sentence):
 
 def test_a_scene_that_is_none_is_refused_before_anything_is_measured():
     with pytest.raises(InputError, match="there is no such file"):
-        scenes.plans_of(("nowhere.toml",))
+        scene_kernel.plans_of(("nowhere.toml",))
 
 
 def test_a_scene_that_cannot_be_measured_without_a_compiler_is_no_pass(tmp_path, monkeypatch):

@@ -11,12 +11,12 @@ from hypcheck.bench import run, speed
 from hypcheck.bench.baseline import speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.rounds import Samples
-from hypcheck.bench.session import AGAIN, Measured
+from hypcheck.bench.session import REFERENCE_AGAIN, Measurement
+from hypcheck.bench.timing import Samples
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
-from hypcheck.record.measurements import Speed, Unmeasured
+from hypcheck.record.measurements import SpeedLine, UnmeasuredLine
 from tests.report import bench_lines
 
 WHERE = ("uniform", "single")
@@ -25,12 +25,14 @@ WHERE = ("uniform", "single")
 def parts(name, samples, calls=()):
     """What two processes measured of a method, a call that does nothing already taken off."""
     key = (name, *WHERE)
-    return key, [Measured(key, Samples(name, 10, 5, 0, list(samples)), 0.0, "worker", tuple(calls)) for _ in range(2)]
+    return key, [
+        Measurement(key, Samples(name, 10, 5, 0, list(samples)), 0.0, "worker", tuple(calls)) for _ in range(2)
+    ]
 
 
 def lines(*found):
-    reference = [parts(name, [100.0, 101.0, 102.0]) for name in (REFERENCE, AGAIN)]
-    return list(speed.lines(dict([*reference, *found])))
+    reference = [parts(name, [100.0, 101.0, 102.0]) for name in (REFERENCE, REFERENCE_AGAIN)]
+    return list(speed.speed_lines(dict([*reference, *found])))
 
 
 def of(found, kind, name):
@@ -40,24 +42,24 @@ def of(found, kind, name):
 def test_an_impossible_sample_is_dropped_and_counted():
     """30 ns were taken off each; one of the calls was much shorter, as no call can be that does the work."""
     found = lines(parts("theirs", [20.0, -29.0, 21.0, 22.0, 21.0, 21.0, 21.0], [30.0] * 7))
-    (line,) = of(found, Speed, "theirs")
+    (line,) = of(found, SpeedLine, "theirs")
     assert line.samples_ns == [[20.0, 21.0, 22.0, 21.0, 21.0, 21.0]] * 2
     assert line.dropped == 2
     assert (line.median_ns, line.ratio) == (21.0, pytest.approx(0.2, rel=0.03))
-    assert of(found, Speed, REFERENCE)[0].dropped is UNSET
+    assert of(found, SpeedLine, REFERENCE)[0].dropped is UNSET
 
 
 @pytest.mark.parametrize("samples", [[-3.0, 2.0, -1.0, 4.0], [0.01, 0.0, -0.02, 0.0], [12.0, 12.0, 11.9, 12.1]])
 def test_a_time_that_cannot_be_told_from_an_empty_call_is_not_measured_and_says_why(samples):
     found = lines(parts("theirs", samples, [200.0, 210.0, 190.0, 205.0]))
-    assert of(found, Speed, "theirs") == []
-    (line,) = of(found, Unmeasured, "theirs")
+    assert of(found, SpeedLine, "theirs") == []
+    (line,) = of(found, UnmeasuredLine, "theirs")
     assert (line.workload, line.mode) == WHERE
     assert "cannot be told from that of a call that does nothing, 202 ns (190 to 210)" in line.reason
 
 
 def test_a_time_of_which_nothing_was_taken_off_is_always_measured():
-    assert len(of(lines(parts("theirs", [0.5, 0.6])), Speed, "theirs")) == 1
+    assert len(of(lines(parts("theirs", [0.5, 0.6])), SpeedLine, "theirs")) == 1
 
 
 def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_pass(tmp_path):
@@ -75,7 +77,7 @@ def test_what_was_not_measured_in_both_runs_is_held_to_no_baseline_and_does_not_
 
 def test_a_baseline_of_an_earlier_version_is_not_compared_where_its_times_were_lost():
     """It wrote 0.01 ns where an empty call was no shorter, and gated 46 millionths to 17,900."""
-    line = decoded({**bench_lines.speed("theirs", "uniform", "single", 0.01, 10_000.0)}, Speed)
+    line = decoded({**bench_lines.speed("theirs", "uniform", "single", 0.01, 10_000.0)}, SpeedLine)
     lost = structs.replace(line, samples_ns=[[0.01, 0.01, 7.0]])
     kept = structs.replace(line, mode="batch", samples_ns=[[5.0, 6.0]])
     known = speeds_of([lost, kept])

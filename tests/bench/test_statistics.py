@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.bench.statistics import Estimate, estimate, ratios
+from hypcheck.bench.timing import Estimate, estimate, ratios
 
 DRAWN = 300
 

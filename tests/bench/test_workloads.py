@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck import judge
-from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
-from hypcheck.rows import first_trouble
-from hypcheck.truth import batch
+from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
+from hypcheck.geometry.rows import first_trouble
+from hypcheck.runs import judge
+from hypcheck.truth import float_filter
 from hypcheck.truth.nearest import clearances
 
 
@@ -30,7 +30,7 @@ def test_two_workloads_are_about_one_scene(name):
 
 def test_near_contact_takes_its_scenes_in_turn_and_is_on_both_sides_of_contact():
     rows = WORKLOADS["near-contact"].rows(1, 1200)
-    positions = batch.positions(rows)
+    positions = float_filter.positions(rows)
     for place, scene in enumerate(NEAR_SCENES):
         assert (rows[place :: len(NEAR_SCENES), :4] == scene).all()
         assert {0, 1} <= set(positions[place :: len(NEAR_SCENES)].tolist())
@@ -42,10 +42,10 @@ def test_near_contact_reaches_from_half_a_radius_to_less_than_a_unit_of_float64(
     gaps = np.abs(clearances(rows).clearance)
     decades = np.floor(np.log10(gaps[gaps > 0])).astype(int)
     assert {*range(-15, 0)} <= set(decades.tolist())
-    octaves = judge.flip_octaves(rows)
+    octaves = judge.flip_exponents(rows)
     assert np.count_nonzero(octaves < -53) > 50
 
 
 def test_half_of_the_ring_is_clear_with_a_vanishing_discriminant():
     rows = WORKLOADS["ring"].rows(1, 400)
-    assert (batch.positions(rows[::2]) == 1).all()
+    assert (float_filter.positions(rows[::2]) == 1).all()

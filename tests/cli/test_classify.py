@@ -9,14 +9,12 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 
-from hypcheck.classification.answer import answer
-from hypcheck.classification.as_json import answer_as_json
-from hypcheck.classification.rationals import exact, readable
-from hypcheck.classification.text import answer_as_text
+from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.cli.main import main
-from hypcheck.pairs import Pair
+from hypcheck.geometry.pair import Pair
+from hypcheck.tables.numbers import exact_text, readable_text
 from hypcheck.truth.exact import Decision
-from tests.strategies import pairs
+from tests.support.pairs import pairs
 
 
 def options(*row: object) -> list[str]:
@@ -134,7 +132,7 @@ def test_a_false_proof_would_be_noticed(row):
     for name, value in proof["proof"].items():
         if name == "by" or isinstance(value, list):
             continue
-        changed = proof | {"proof": proof["proof"] | {name: exact(number(value) + 1)}}
+        changed = proof | {"proof": proof["proof"] | {name: exact_text(number(value) + 1)}}
         with pytest.raises(AssertionError):
             check_printed_proof(pair, changed)
 
@@ -142,14 +140,14 @@ def test_a_false_proof_would_be_noticed(row):
 @pytest.mark.parametrize("power", [10, 2999, 3000, 3001, 4301, 12_345])
 def test_integers_are_written_whatever_their_length(power):
     for value in (10**power, 10**power - 1, -(7**power)):
-        assert number(exact(Fraction(value))) == value
-        assert number(exact(Fraction(value, 3**power))) == Fraction(value, 3**power)
-        assert len(readable(Fraction(value, 3))) < 40
+        assert number(exact_text(Fraction(value))) == value
+        assert number(exact_text(Fraction(value, 3**power))) == Fraction(value, 3**power)
+        assert len(readable_text(Fraction(value, 3))) < 40
 
 
 def test_what_is_rounded_says_so():
-    assert readable(Fraction(25, 4)) == "25/4"
-    assert readable(Fraction(1, 3) ** 80).startswith("≈ 6.765")
+    assert readable_text(Fraction(25, 4)) == "25/4"
+    assert readable_text(Fraction(1, 3) ** 80).startswith("≈ 6.765")
 
 
 @pytest.mark.parametrize("left_out", ["--alpha", "--gamma", "--b", "--d", "--center"])
@@ -216,7 +214,7 @@ def test_oracles_that_disagree_end_the_run_with_6(monkeypatch, capsys):
 
 
 def test_a_proof_that_does_not_hold_is_not_printed(monkeypatch, capsys):
-    from hypcheck.classification import answer as module
+    from hypcheck import answer as module
     from hypcheck.truth.certificate import Certificate
 
     def wrong(pair, decision):

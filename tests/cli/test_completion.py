@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.cli import COMPLETE
-from hypcheck.cli.completion import SHELLS
+from hypcheck.cli.commands import SHELLS
 from hypcheck.cli.main import main
 
 BASH = """

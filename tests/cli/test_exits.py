@@ -16,7 +16,7 @@ import pytest
 
 from hypcheck.cli import commands
 from hypcheck.cli import main as cli_main
-from hypcheck.cli.exits import ending_of
+from hypcheck.cli.commands import ending_of
 from hypcheck.cli.main import main
 from hypcheck.cli.progress import in_colour
 from hypcheck.errors import (

@@ -6,11 +6,11 @@ import json
 
 import pytest
 
-from hypcheck.casebook import vectors
 from hypcheck.cli.main import main
 from hypcheck.scene.reading import shipped_text
-from tests.records import resealed
+from hypcheck.vectors import frozen
 from tests.report.test_hostile import UNSEEN
+from tests.support.records import resealed
 
 ACTS = "\x1b]0;title\x07\x1b[2J\x9b31m\u202e\r"
 """Sets a terminal's title, clears it, turns colours and directions, and writes over what stood in the line."""
@@ -76,6 +76,6 @@ def test_commands_that_take_a_scene_escape_the_names_in_it(words, tmp_path, caps
 
 def test_cases_check_escapes_names_of_files_and_cases(tmp_path, capsys):
     path = tmp_path / f"{ACTS}.json"
-    text = vectors.path_of("ring").read_text(encoding="utf-8")
+    text = frozen.path_of("ring").read_text(encoding="utf-8")
     path.write_text(text.replace('"tangent":false', '"tangent":true', 1), encoding="utf-8")
     assert r"\x1b]0;title" in said(capsys, "cases", "check", path, codes=(1,))

@@ -12,9 +12,9 @@ import pytest
 from hypcheck import processes
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError, SystemLimitError, limit_reached
-from hypcheck.methods.opening import open_implementation
+from hypcheck.implementations.implementation import open_implementation
 from hypcheck.record import Recorder
-from tests.miniatures import LIMITS, command, function, rows, truth
+from tests.tools.miniatures import LIMITS, command, function, rows, truth
 
 LIMITED = """
 import resource, sys

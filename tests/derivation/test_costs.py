@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.derivation.costs import cost_of, costs, discriminant_share, loop_as_printed
-from hypcheck.derivation.counting import Operations
-from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.repaired_formulas import REPAIRED
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.derivation.program import Operations
 
 
 def test_table_2():

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from hypcheck.derivation.evaluation import evaluate
 from hypcheck.derivation.float_arithmetic import FORMATS, float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.listing import program_of
-from hypcheck.pairs import COLUMNS
+from hypcheck.derivation.program import program_of
+from hypcheck.geometry.pair import COLUMNS
 
 DIGITS = {"float16": 11, "float32": 24, "float64": 53}
 ROW = {"alpha": 3.1, "gamma": 5.3, "b": 0.7, "d": 0.9, "x": 2.2, "y": -1.1, "z": 0.6}

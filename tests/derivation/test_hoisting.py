@@ -7,13 +7,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.derivation.evaluation import outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.costs import loop_body
+from hypcheck.derivation.evaluation import EXACT, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.hoisting import loop_body
-from hypcheck.pairs import COLUMNS, SIZES
+from hypcheck.geometry.pair import COLUMNS, SIZES
+from hypcheck.vectors.families import FAMILIES
 
 NAMES = [name for name, formula in FORMULAS.items() if formula.classifies_pairs]
 ROWS = np.concatenate([FAMILIES[name].rows(1, 50) for name in ("tower-body", "ring", "forest-type-2", "stiff-both")])

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.identities import identities, vanishes
-from hypcheck.derivation.plain_text import plain, read, symbol
+from hypcheck.derivation.links import identities, vanishes
+from hypcheck.derivation.pencil import plain, read, symbol
 
 positive = st.fractions(Fraction(1, 8), 8, max_denominator=8)
 coordinate = st.fractions(-8, 8, max_denominator=8)

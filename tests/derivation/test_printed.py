@@ -6,10 +6,8 @@ import pytest
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.differences import difference
-from hypcheck.derivation.plain_text import read, symbol
-from hypcheck.derivation.printed import check, check_equations
-from hypcheck.derivation.printed_equations import Claim, equality, printed_claims
+from hypcheck.derivation.pencil import difference, read, symbol
+from hypcheck.derivation.printed_equations import PrintedClaim, check, check_equations, equality, printed_claims
 
 NUMBERS = [*map(str, range(1, 22)), "A.1", "A.2a", "A.2b", "A.3", "A.4", "A.5", "A.6", "22", "23"]
 MISPRINTS = {
@@ -78,13 +76,13 @@ def test_what_no_single_term_repairs_is_called_false():
 
 
 def test_what_should_vanish_and_does_not_is_a_stray_term():
-    result = check((Claim("0", "H = diag(1, 1, 1)", ((symbol("a"), sympy.Integer(0)),), {}),))
+    result = check((PrintedClaim("0", "H = diag(1, 1, 1)", ((symbol("a"), sympy.Integer(0)),), {}),))
     assert result.finding == "right − left = a: the sum a has a stray + a"
 
 
 def test_a_factor_that_moves_roots_is_not_called_harmless():
     right = read("(a² + λ)·g")
-    result = check((Claim("0", "f = λ·(a² + λ)·g", ((symbol("lambda") * right, right),), {}),))
+    result = check((PrintedClaim("0", "f = λ·(a² + λ)·g", ((symbol("lambda") * right, right),), {}),))
     assert result.finding == "the right side is λ times the left"
 
 
@@ -95,7 +93,7 @@ def test_each_claim_would_be_seen_to_fail(number):
             for index, (printed, derived) in enumerate(claim.pairs):
                 broken = list(claim.pairs)
                 broken[index] = (printed + symbol("x0") ** 2 / 7, derived)
-                assert not check((Claim(number, claim.statement, tuple(broken), claim.meanings),)).holds
+                assert not check((PrintedClaim(number, claim.statement, tuple(broken), claim.meanings),)).holds
 
 
 def test_the_circle_is_taken_into_account():

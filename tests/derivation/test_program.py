@@ -8,14 +8,11 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.derivation.counting import Operations, count
-from hypcheck.derivation.evaluation import Arithmetic, evaluate, outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.costs import hoist
+from hypcheck.derivation.evaluation import EXACT, Arithmetic, evaluate, outputs
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.hoisting import hoist
-from hypcheck.derivation.listing import listing_of, program_of, steps_of
-from hypcheck.derivation.program import Program, Step, cut, needed
-from hypcheck.pairs import COLUMNS, SIZES
+from hypcheck.derivation.program import Operations, Program, Step, count, cut, listing_of, needed, program_of, steps_of
+from hypcheck.geometry.pair import COLUMNS, SIZES
 
 SMALL = program_of("small", ("x", "y"), "s = x + y\nt = s * s\nunused = x - y\nlarge = t > 4\nanswer = large ? t : 0")
 ROW = dict(zip(COLUMNS, (3, 5, 2, 1, 4, 1, 2), strict=True))

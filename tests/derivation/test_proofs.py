@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.listing import line_of, steps_of
-from hypcheck.derivation.program import OPERATIONS, Program, Step
+from hypcheck.derivation.program import OPERATIONS, Program, Step, line_of, steps_of
 from hypcheck.derivation.proofs import prove, prove_formulas
 
 SAMPLED = {

@@ -8,17 +8,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.derivation.chains.book import proved
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.chain_book import proved
+from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, answers
 from hypcheck.derivation.proofs import proofs_of, prove
-from hypcheck.derivation.repaired_formulas import REPAIRED
-from hypcheck.pairs import COLUMNS, Position
-from hypcheck.paper.ledger import statements as say
-from hypcheck.paper.ledger.facts import Point, facts
-from hypcheck.paper.ledger.quadcopter import quadcopters
-from hypcheck.paper.ledger.strata import facts_in_order
+from hypcheck.geometry.pair import COLUMNS, Position
+from hypcheck.paper.ledger import entry
+from hypcheck.paper.ledger.points import Point, facts, facts_in_order
+from hypcheck.paper.ledger.procedures import quadcopters
 from hypcheck.truth import exact
 from tests.derivation.test_proofs import mutants
 
@@ -34,13 +32,13 @@ def test_the_chain_of_procedure_1_holds():
 
 
 def test_procedure_1_put_right_is_exterior_for_every_tall_pair_of_the_space():
-    asked = [each for each in facts_in_order() if say.tall(each)]
+    asked = [each for each in facts_in_order() if entry.tall(each)]
     assert len(asked) > 5000
     wrong = 0
     for each in asked:
         row = dict(zip(COLUMNS, each.point.pair.row, strict=True))
-        assert answers(REPAIRED["procedure-1-repaired"], EXACT, row) == say.exterior(each), each.point
-        wrong += answers(FORMULAS["table-2"], EXACT, row) != say.exterior(each)
+        assert answers(REPAIRED["procedure-1-repaired"], EXACT, row) == entry.exterior(each), each.point
+        wrong += answers(FORMULAS["table-2"], EXACT, row) != entry.exterior(each)
     assert wrong > 10  # the ring
 
 
@@ -54,22 +52,22 @@ def quadcopter_says(formula, each):
 def test_procedure_2a_put_right_is_all_four_rotors_interior_on_the_axis():
     """All four rotors stand alike to the hyperboloid then: one unit sphere at r says it."""
     for each in facts_in_order():
-        if say.wide(each) and each.point.r**2 >= 2:
+        if entry.wide(each) and each.point.r**2 >= 2:
             point = each.point
             inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z}
             found = answers(REPAIRED["procedure-2a-repaired"], EXACT, {**inputs, "l": point.r, "cosine": 1, "sine": 0})
-            assert bool(found) == say.interior(each), point
+            assert bool(found) == entry.interior(each), point
 
 
 def test_procedure_2b_put_right_is_hull_or_rotors_interior_where_the_printed_one_refuses():
     """At hulls whose farthest rotor is interior, and at hulls that are; all with a zero coefficient, some others."""
     differ = 0
     for place, hull in enumerate(facts_in_order()):
-        if not say.wide(hull) or (hull.c1 and hull.c2 and place % 25):
+        if not entry.wide(hull) or (hull.c1 and hull.c2 and place % 25):
             continue
         for each in quadcopters(hull)[:1]:
             rotors = exact.position(each.farthest.pair.lengths) is Position.INTERIOR
-            if say.interior(hull) or rotors:
+            if entry.interior(hull) or rotors:
                 assert quadcopter_says(REPAIRED["procedure-2b-repaired"], each), hull.point
                 differ += not each.answer
     assert differ > 10

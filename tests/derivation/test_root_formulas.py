@@ -7,15 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.listing import listing_of, steps_of
+from hypcheck.derivation.formulas import APPROXIMATIONS, FORMULAS, ROOTS_TRIGONOMETRIC, SWEEP, answers
+from hypcheck.derivation.program import listing_of, steps_of
 from hypcheck.derivation.proofs import prove
-from hypcheck.derivation.root_formulas import APPROXIMATIONS, ROOTS_TRIGONOMETRIC, SWEEP
-from hypcheck.pairs import COLUMNS
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.vectors.families import FAMILIES
 
 FLOAT64 = float_arithmetic("float64")
 

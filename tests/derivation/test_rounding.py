@@ -9,14 +9,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import evaluate
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.listing import program_of
-from hypcheck.derivation.program import OPERATIONS
+from hypcheck.derivation.program import OPERATIONS, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
-from hypcheck.pairs import COLUMNS
+from hypcheck.geometry.pair import COLUMNS
 
 UNIT = {"float16": Fraction(1, 2**11), "float32": Fraction(1, 2**24), "float64": Fraction(1, 2**53)}
 TINIEST_NORMAL = {"float16": Fraction(1, 2**14), "float32": Fraction(1, 2**126), "float64": Fraction(1, 2**1022)}

@@ -9,8 +9,8 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.plain_text import read, symbol
-from hypcheck.derivation.signs import RELATIONS, has_sign
+from hypcheck.derivation.links import RELATIONS, has_sign
+from hypcheck.derivation.pencil import read, symbol
 
 A, B, P, Q = (symbol(name) for name in "ABPQ")
 

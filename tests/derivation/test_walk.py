@@ -8,10 +8,9 @@ from functools import cache
 import sympy
 
 from hypcheck.derivation import pencil, walk
-from hypcheck.derivation.differences import difference
 from hypcheck.derivation.links import matrix_identity
-from hypcheck.derivation.printed import check_equations
-from hypcheck.derivation.printed_equations import printed_claims
+from hypcheck.derivation.pencil import difference
+from hypcheck.derivation.printed_equations import check_equations, printed_claims
 
 
 @cache

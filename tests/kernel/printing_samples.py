@@ -7,7 +7,7 @@ import numpy as np
 from hypcheck.derivation.evaluation import evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.listing import program_of
+from hypcheck.derivation.program import program_of
 
 EVERYTHING = program_of(
     "everything",

@@ -13,7 +13,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.kernel import choice as module
-from hypcheck.kernel.choice import LEVELS, Choice, choice, most_threads
+from hypcheck.kernel.choice import LEVELS, KernelChoice, choice, most_threads
 
 CPUINFO = Path("/proc/cpuinfo")
 
@@ -33,7 +33,7 @@ WITHOUT = "it was not built at install, which takes a C compiler and Python's he
 
 def test_without_a_compiled_kernel_it_is_numpy_and_the_reason_is_told(fresh):
     fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
-    assert choice() == Choice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
+    assert choice() == KernelChoice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
 
 
 def test_asking_for_what_is_not_there_is_bad_input(fresh):

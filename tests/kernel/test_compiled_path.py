@@ -11,10 +11,10 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.kernel import compiled_path, numpy_path
+from hypcheck.kernel import compiled_kernel, numpy_kernel
 from hypcheck.scene.model import QUESTIONS
-from hypcheck.truth import batch
-from tests.attack.places import near_contact, scenes
+from hypcheck.truth import float_filter
+from tests.tools.attack.places import near_contact, scenes
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
 
@@ -31,20 +31,20 @@ def scene():
     return next(scenes(np.random.default_rng(5), 1, 5000))
 
 
-@pytest.mark.parametrize("kernel", [compiled_path, numpy_path], ids=["compiled", "numpy"])
+@pytest.mark.parametrize("kernel", [compiled_kernel, numpy_kernel], ids=["compiled", "numpy"])
 @pytest.mark.parametrize("question", QUESTIONS)
 def test_a_question_is_answered_yes_where_the_position_is_the_one(kernel, question, rows, scene):
     yes = {"exterior": 1, "interior": -1, "contact": 0}
     for truth, (answers, refused) in (
-        (batch.positions(rows), kernel.answer_rows(rows, question)),
-        (batch.positions(scene.rows), kernel.answer_scene(scene.sizes, (scene.x, scene.y, scene.z), question)),
+        (float_filter.positions(rows), kernel.answer_rows(rows, question)),
+        (float_filter.positions(scene.rows), kernel.answer_scene(scene.sizes, (scene.x, scene.y, scene.z), question)),
     ):
         assert refused == 0
         assert answers.tolist() == (truth if question == "position" else (truth == yes[question]).astype(int)).tolist()
 
 
 @pytest.mark.parametrize("question", QUESTIONS)
-@pytest.mark.parametrize("kernel", [compiled_path, numpy_path], ids=["compiled", "numpy"])
+@pytest.mark.parametrize("kernel", [compiled_kernel, numpy_kernel], ids=["compiled", "numpy"])
 def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, question):
     random = np.random.default_rng(1)
     x, y, z = random.uniform(-4, 4, (3, 40_000))
@@ -62,10 +62,10 @@ def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, ques
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 7, np.int64(2), 10**9])
 def test_any_number_of_threads_answers_the_same(threads, rows, scene):
-    truth = batch.positions(rows)
+    truth = float_filter.positions(rows)
     assert (hypcheck.classify(rows, threads=threads) == truth).all()
     found = hypcheck.classify_scene(scene.sizes, scene.x, scene.y, scene.z, threads=threads)
-    assert (found == batch.positions(scene.rows)).all()
+    assert (found == float_filter.positions(scene.rows)).all()
     assert hypcheck.classify(rows[:2], threads=threads).tolist() == truth[:2].tolist()
     assert hypcheck.classify(rows[:0], threads=threads).tolist() == []
 
@@ -91,11 +91,11 @@ def test_a_question_that_is_none_asks_c_for_the_position(scene):
     for question in (-1, 4, 1 << 20):
         refused = library.hypcheck_ask_scene(question, pointers[0], ctypes.c_size_t(len(answers)), *pointers[1:])
         assert refused == 0
-        assert (answers == batch.positions(scene.rows)).all()
+        assert (answers == float_filter.positions(scene.rows)).all()
 
 
 def test_a_million_rows_are_shared_among_threads(monkeypatch):
-    monkeypatch.setattr(compiled_path, "ROWS_A_THREAD", 1000)
+    monkeypatch.setattr(compiled_kernel, "ROWS_A_THREAD", 1000)
     monkeypatch.setenv("HYPCHECK_THREADS", "3")
     seen = set()
     ask = compiled.ask_scene
@@ -106,12 +106,12 @@ def test_a_million_rows_are_shared_among_threads(monkeypatch):
             seen.add(threading.current_thread().name)
             return ask(*arguments)
 
-    monkeypatch.setattr(compiled_path, "compiled", lambda: Watched)
+    monkeypatch.setattr(compiled_kernel, "compiled", lambda: Watched)
     x, y, z = np.random.default_rng(1).uniform(-4, 4, (3, 10_001))
-    answers, refused = compiled_path.answer_scene(SIZES, (x, y, z), "position")
+    answers, refused = compiled_kernel.answer_scene(SIZES, (x, y, z), "position")
     assert len(seen) == 3
     assert refused == 0
-    assert (answers == numpy_path.positions_of_scene(SIZES, x, y, z)).all()
+    assert (answers == numpy_kernel.positions_of_scene(SIZES, x, y, z)).all()
 
 
 def test_python_runs_on_while_c_computes():
@@ -147,14 +147,14 @@ def test_what_goes_wrong_in_a_thread_is_raised_and_no_answer_given(bad, monkeypa
                 raise MemoryError("no room")
             return compiled.ask_scene(*arguments)
 
-    monkeypatch.setattr(compiled_path, "compiled", lambda: Failing)
+    monkeypatch.setattr(compiled_kernel, "compiled", lambda: Failing)
     with pytest.raises(MemoryError, match="no room"):
         hypcheck.classify_scene(SIZES, np.zeros(1000), 0, 0, threads=3)
 
 
 def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):
-    monkeypatch.setattr(compiled_path, "CHUNK", 999)
-    truth = batch.positions(scene.rows)
+    monkeypatch.setattr(compiled_kernel, "CHUNK", 999)
+    truth = float_filter.positions(scene.rows)
     table = np.column_stack([scene.x, scene.y, scene.z])
     assert (hypcheck.classify_scene(scene.sizes, *table.T) == truth).all()
     assert (hypcheck.classify_scene(scene.sizes, scene.x[::-1], scene.y[::-1], scene.z[::-1]) == truth[::-1]).all()
@@ -167,7 +167,7 @@ def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):
 
 def test_rows_of_any_alignment_will_do(rows):
     shifted = np.frombuffer(b"\0" + rows.tobytes(), np.float64, rows.size, 1).reshape(rows.shape)
-    assert (hypcheck.classify(shifted) == batch.positions(rows)).all()
+    assert (hypcheck.classify(shifted) == float_filter.positions(rows)).all()
 
 
 def test_the_extension_looks_at_its_buffers():

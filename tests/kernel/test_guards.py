@@ -10,13 +10,12 @@ from math import isqrt
 
 import pytest
 
-from hypcheck.derivation.evaluation import outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, outputs
 from hypcheck.derivation.program import cut
-from hypcheck.kernel import integers, scene_parallels
-from hypcheck.kernel.programs import certified, lines, parallel_lines
+from hypcheck.geometry.pair import Lengths, Pair, Position, to_integers
+from hypcheck.kernel import integers, scene_lines
+from hypcheck.kernel.programs import certified, lines
 from hypcheck.kernel.programs.integers import FLOAT64_BITS
-from hypcheck.pairs import Lengths, Pair, Position, to_integers
 from hypcheck.truth import exact
 from tests.kernel.compiling import STRICT, needs_compiler, program
 
@@ -103,13 +102,11 @@ def test_nothing_overflows_or_is_lost_in_the_first_stage():
 
 def test_squares_lost_in_single_precision_are_within_tiny():
     least_normal = Fraction(1, 2**126)
-    lost = 2 * 2 * least_normal * (1 + Fraction(parallel_lines.GREATEST_SLOPE))
-    assert lost < Fraction(parallel_lines.TINY)
-    beside_the_axis = scene_parallels.thresholds(
-        {"beyond": None, "under": None, "within": None, "above": (0.0, 0.0)}, 1.0
-    )
+    lost = 2 * 2 * least_normal * (1 + Fraction(lines.FLOAT32_GREATEST_SLOPE))
+    assert lost < Fraction(lines.FLOAT32_TINY)
+    beside_the_axis = scene_lines.thresholds({"beyond": None, "under": None, "within": None, "above": (0.0, 0.0)}, 1.0)
     assert beside_the_axis is not None
-    assert beside_the_axis["K_above"] >= parallel_lines.TINY
+    assert beside_the_axis["K_above"] >= lines.FLOAT32_TINY
 
 
 @pytest.mark.parametrize("at", [0, 1])

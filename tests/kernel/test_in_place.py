@@ -7,8 +7,8 @@ import pytest
 
 from hypcheck.derivation.evaluation import evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.listing import program_of
-from hypcheck.kernel.printing.in_place import in_place_statements
+from hypcheck.derivation.program import program_of
+from hypcheck.kernel.printing.modules import in_place_statements
 from tests.kernel.printing_samples import PROGRAMS, columns
 
 WITHOUT_CHOICES = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.kernel import numpy_path, scene_lines, scene_parallels
-from hypcheck.truth import batch
-from tests.attack.places import Scene, sizes
+from hypcheck.kernel import numpy_kernel, scene_lines
+from hypcheck.truth import float_filter
+from tests.tools.attack.places import Scene, sizes
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
 COUNT = 1 << 14
@@ -54,9 +54,9 @@ def wrong(scene: Scene) -> int:
     columns = scene.x, scene.y, scene.z
     for start in range(0, COUNT, 1024):  # so that one chunk in which too much is left does not end the stage
         part = slice(start, start + 1024)
-        rest = numpy_path._by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
+        rest = numpy_kernel._by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
         answers[start + rest] = 99
-    return int(((answers != 99) & (answers != batch.positions(scene.rows))).sum())
+    return int(((answers != 99) & (answers != float_filter.positions(scene.rows))).sum())
 
 
 SCENES = [TOWER, *(tuple(some) for some in sizes(np.random.default_rng(2), 60).tolist())]
@@ -69,19 +69,20 @@ def test_no_threshold_is_passed_by_a_centre_on_its_other_side():
     assert [wrong(scene) for scene in near] == [0] * len(near)
     for scene in near[:4]:
         assert (
-            numpy_path.positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == batch.positions(scene.rows)
+            numpy_kernel.positions_of_scene(scene.sizes, scene.x, scene.y, scene.z)
+            == float_filter.positions(scene.rows)
         ).all()
 
 
-@pytest.mark.parametrize("margin", [0.0, -scene_parallels.MARGIN])
+@pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
 def test_without_its_margin_it_is_wrong_there(margin, monkeypatch):
-    monkeypatch.setattr(scene_parallels, "MARGIN", margin)
+    monkeypatch.setattr(scene_lines, "FLOAT32_MARGIN", margin)
     assert sum(wrong(touching(four, seed)) for seed, four in enumerate(SCENES[:10])) > 0
 
 
 @pytest.fixture
 def tower():
-    return np.random.default_rng(3).uniform(-4, 4, (3, numpy_path.LINES_CHUNK))
+    return np.random.default_rng(3).uniform(-4, 4, (3, numpy_kernel.LINES_CHUNK))
 
 
 def lines_left(columns, four=TOWER):
@@ -89,7 +90,7 @@ def lines_left(columns, four=TOWER):
     lines = scene_lines.lines_of(four, columns[2])
     answers = np.zeros(len(columns[0]), np.int8)
     with np.errstate(all="ignore"):
-        return numpy_path._by_lines(lines, tuple(columns), answers)
+        return numpy_kernel._by_lines(lines, tuple(columns), answers)
 
 
 def test_few_centres_are_left(tower):
@@ -103,8 +104,8 @@ def test_a_centre_without_room_in_single_precision_is_left_to_later_stages(colum
     rows = np.column_stack([np.tile(TOWER, (len(tower[0]), 1)), *tower])
     expected = np.full(len(rows), 127)
     valid = np.isfinite(rows).all(axis=1)
-    expected[valid] = batch.positions(rows[valid])
-    assert (numpy_path.positions_of_scene(TOWER, *tower) == expected).all()
+    expected[valid] = float_filter.positions(rows[valid])
+    assert (numpy_kernel.positions_of_scene(TOWER, *tower) == expected).all()
 
 
 @pytest.mark.parametrize("unit", [1e-12, 1e12])
@@ -118,6 +119,6 @@ def test_a_scene_without_room_in_single_precision_has_its_other_lines(unit, towe
 
 def test_a_line_that_proves_nothing_decides_nothing():
     nothing = dict.fromkeys(("beyond", "under", "within", "above"))
-    found = scene_parallels.thresholds(nothing, 1.0)
+    found = scene_lines.thresholds(nothing, 1.0)
     assert found is not None
     assert [found[f"K_{side}"] for side in ("beyond", "under", "within", "above")] == [np.inf, -np.inf, -np.inf, np.inf]

@@ -7,9 +7,8 @@ import ctypes
 import numpy as np
 import pytest
 
-from hypcheck.derivation.listing import program_of
-from hypcheck.derivation.program import OPERATIONS
-from hypcheck.kernel.printing.c import c_statements
+from hypcheck.derivation.program import OPERATIONS, program_of
+from hypcheck.kernel.printing.languages import c_statements
 from tests.kernel.compiling import needs_compiler, shared_library
 from tests.kernel.printing_samples import EVERYTHING, PROGRAMS, assert_same_bits, columns
 

@@ -10,11 +10,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from hypcheck.derivation.listing import program_of
-from hypcheck.kernel.printing.cpp import cpp_statements
-from hypcheck.kernel.printing.javascript import javascript_statements
-from hypcheck.kernel.printing.python import python_statements
-from hypcheck.kernel.printing.rust import rust_statements
+from hypcheck.derivation.program import program_of
+from hypcheck.kernel.printing.languages import cpp_statements, javascript_statements, python_statements, rust_statements
 from tests.kernel.printing_samples import EVERYTHING, PROGRAMS, assert_same_bits, columns
 
 FORMATS = {"double": "float64", "f64": "float64", "number": "float64", "float": "float32", "f32": "float32"}

@@ -9,16 +9,15 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.pencil import A, B, P, Q
 from hypcheck.derivation.program import cut, needed
+from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.derivation.rounding import gamma, relative_error_counts
-from hypcheck.derivation.symbolic import SYMBOLIC
-from hypcheck.kernel.programs import certified, lines, parallel_lines, single
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.kernel.programs import certified, lines
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
-from hypcheck.pairs import COLUMNS
 
 U = Fraction(certified.U)
 WITHOUT_MARGINS = {"u_8": 0, "more": 1, "less": 1}
@@ -26,7 +25,7 @@ positives = st.fractions(Fraction(1, 64), 64, max_denominator=64)
 sevens = st.tuples(*[positives] * 7)
 
 
-@pytest.mark.parametrize("program", [certified.CERTIFIED, single.SINGLE], ids=lambda program: program.name)
+@pytest.mark.parametrize("program", [certified.CERTIFIED, certified.SINGLE], ids=lambda program: program.name)
 def test_the_arithmetic_is_that_of_the_proved_formula(program):
     """Step for step the discriminant of the formula "hessian", which the derivation proves equal to g's."""
     proved = needed(FORMULAS["hessian"].program, ("delta_3", "c1", "c2", "c0"))
@@ -36,7 +35,7 @@ def test_the_arithmetic_is_that_of_the_proved_formula(program):
 @pytest.mark.parametrize(("step", "constant"), [("c0", "u_8"), ("c1", "u_12"), ("c2", "u_8")])
 @pytest.mark.parametrize(
     ("program", "constants"),
-    [(certified.CERTIFIED, certified.CONSTANTS), (single.SINGLE, single.CONSTANTS)],
+    [(certified.CERTIFIED, certified.CONSTANTS), (certified.SINGLE, certified.SINGLE_CONSTANTS)],
     ids=["certified", "single"],
 )
 def test_constants_of_the_coefficients_cover_the_counted_roundings(program, constants, step, constant):
@@ -54,28 +53,28 @@ def test_constant_of_the_discriminants_parts_covers_their_roundings(step):
 
 
 def test_constant_of_the_discriminant_in_single_covers_the_counted_roundings():
-    count = relative_error_counts(single.SINGLE, ["delta_3"]).counts["delta_3"]
-    assert gamma(count, U) * (1 + 64 * U) * 32 < single.CONSTANTS["u_1536"]
+    count = relative_error_counts(certified.SINGLE, ["delta_3"]).counts["delta_3"]
+    assert gamma(count, U) * (1 + 64 * U) * 32 < certified.SINGLE_CONSTANTS["u_1536"]
 
 
 def test_sizes_of_the_terms_of_the_discriminant_are_bounded_by_a_product():
     """The counted magnitude of 3Δ is 4 H1 H3 + H2²; 32 (M2 M1)² less that has no negative coefficient."""
     a, c, r, h = sympy.symbols("a c r h", positive=True)
     zero, one = sympy.Integer(0), sympy.Integer(1)
-    row = dict(zip(COLUMNS, (a, c, one, one, r, zero, h), strict=True)) | single.CONSTANTS
-    counted = relative_error_counts(single.SINGLE, ("delta_3",))
+    row = dict(zip(COLUMNS, (a, c, one, one, r, zero, h), strict=True)) | certified.SINGLE_CONSTANTS
+    counted = relative_error_counts(certified.SINGLE, ("delta_3",))
     (magnitude,) = outputs(counted.program, SYMBOLIC, row, (counted.magnitudes["delta_3"],))
-    (product_squared,) = outputs(single.SINGLE, SYMBOLIC, row, ("product_squared",))
+    (product_squared,) = outputs(certified.SINGLE, SYMBOLIC, row, ("product_squared",))
     assert min(sympy.Poly(sympy.expand(32 * product_squared - magnitude), a, c, r, h).coeffs()) > 0
 
 
 @given(sevens)
 def test_terms_of_the_bounds_are_the_counted_magnitudes(values):
     row = dict(zip(COLUMNS, values, strict=True))
-    inputs = {**row, **certified.CONSTANTS, **single.CONSTANTS}
+    inputs = {**row, **certified.CONSTANTS, **certified.SINGLE_CONSTANTS}
     for program, names in (
         (certified.CERTIFIED, {"c1": "terms_1", "c2": "terms_2", "c0": "AB"}),
-        (single.SINGLE, {"c1": "M1", "c2": "M2"}),
+        (certified.SINGLE, {"c1": "M1", "c2": "M2"}),
     ):
         counted = relative_error_counts(program, tuple(names))
         magnitudes = evaluate(counted.program, EXACT, inputs)
@@ -159,16 +158,16 @@ def test_sides_of_a_line_carry_the_roundings_that_the_margins_allow(program, ste
 
 def test_thresholds_in_single_precision_are_moved_by_more_than_the_roundings():
     """4 factors on R and on M T, the rounding of x, y, z included, and one more: 5, and MARGIN is three times that."""
-    plane, compared = parallel_lines.PLANE, parallel_lines.PARALLEL_LINES
-    u, of_inputs = Fraction(parallel_lines.U), 2
+    plane, compared = lines.PLANE, lines.PARALLEL_LINES
+    u, of_inputs = Fraction(lines.FLOAT32_U), 2
     counts = relative_error_counts(plane, ["R", "T"]).counts
     assert (counts["R"] + of_inputs, counts["T"] + of_inputs) == (4, 3)
     for step in ("outer", "inner"):
         after = relative_error_counts(compared, [step]).counts[step]
         assert after == 2  # of which R has the difference's alone
         assert gamma(max(counts["R"] + of_inputs + 1, counts["T"] + of_inputs + after), u) < 6 * u
-    assert Fraction(parallel_lines.MARGIN) == 16 * u
-    assert Fraction(parallel_lines.LESS) * (1 + 6 * u) < 1
+    assert Fraction(lines.FLOAT32_MARGIN) == 16 * u
+    assert Fraction(lines.FLOAT32_LESS) * (1 + 6 * u) < 1
 
 
 def test_integers_are_the_cubic_times_the_squares_of_b_and_d():

@@ -9,9 +9,9 @@ from hypothesis import given
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.kernel.scalar import exact_position
-from hypcheck.truth import batch, exact
-from tests.attack.places import near_contact, on_the_ring
-from tests.strategies import pairs
+from hypcheck.truth import exact, float_filter
+from tests.support.pairs import pairs
+from tests.tools.attack.places import near_contact, on_the_ring
 
 FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_position], ids=["public", "plain-python"])
 
@@ -26,7 +26,7 @@ def test_a_pair_of_any_size_is_answered_exactly(function, pair):
 def test_pairs_at_the_borders_are_answered_exactly(function):
     random = np.random.default_rng(6)
     rows = np.concatenate([near_contact(random, 3000), on_the_ring(random, 500)])
-    assert [function(*row) for row in rows.tolist()] == batch.positions(rows).tolist()
+    assert [function(*row) for row in rows.tolist()] == float_filter.positions(rows).tolist()
 
 
 @FUNCTIONS

@@ -10,12 +10,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.derivation.evaluation import evaluate
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.kernel import integers, tilted_integers
 from hypcheck.kernel.core import tilted
 from hypcheck.kernel.programs.tilted_integers import AXIS, COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
-from hypcheck.pairs import COLUMNS, Pair
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
 from tests.tilted_fractions import exact_position, interpolated, matrices
 

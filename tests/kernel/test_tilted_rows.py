@@ -7,8 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.exact_arithmetic import EXACT
+from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
 from hypcheck.derivation.program import cut
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel.programs import tilted

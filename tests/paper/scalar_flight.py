@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from tests.fractions_truth import exact_position
+from tests.support.fractions_truth import exact_position
 
 
 @dataclass

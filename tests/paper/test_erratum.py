@@ -10,12 +10,12 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit
 from hypcheck.paper.derive import erratum
-from hypcheck.paper.derive.choosing import Chosen
+from hypcheck.paper.derive.selection import Selection
 
 
 @pytest.fixture(scope="module")
 def note():
-    return "\n".join(erratum.lines(Chosen(())))
+    return "\n".join(erratum.lines(Selection(())))
 
 
 def test_everything_is_filled_in_and_well_formed(note):

@@ -9,12 +9,12 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from hypcheck.casebook.draw import Draw
 from hypcheck.errors import InputError
 from hypcheck.paper.flights import LANES, fly
-from hypcheck.paper.flights_craft import craft_of
+from hypcheck.paper.quadcopter import craft_of
 from hypcheck.scene.model import Span
 from hypcheck.scene.reading import read_scene
+from hypcheck.vectors.draw import Draw
 from tests.paper.scalar_flight import Quadcopter
 
 SCENES = {name: read_scene(name) for name in ("tower", "tower-simplest")}

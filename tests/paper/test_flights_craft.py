@@ -8,13 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.casebook.draw import Draw
 from hypcheck.errors import InputError
-from hypcheck.paper.flights_circle import EIGHTH, any_angle, quarter_turns, small_angle, turned
-from hypcheck.paper.flights_craft import Craft, Procedures, craft_of
-from hypcheck.paper.flights_ways import valid
+from hypcheck.paper.motion import valid
+from hypcheck.paper.quadcopter import EIGHTH, Craft, Procedures, any_angle, craft_of, quarter_turns, small_angle, turned
 from hypcheck.scene.model import Span, Start
 from hypcheck.scene.reading import read_scene
+from hypcheck.vectors.draw import Draw
 
 SCENES = {name: read_scene(name) for name in ("tower", "tower-simplest")}
 

@@ -7,16 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.casebook.draw import Draw
 from hypcheck.errors import InputError
 from hypcheck.paper import flights
-from hypcheck.paper.flights_circle import any_angle
-from hypcheck.paper.flights_craft import craft_of
-from hypcheck.paper.flights_start import require_valid_start, rims
-from hypcheck.paper.flights_ways import valid
+from hypcheck.paper.motion import valid
+from hypcheck.paper.quadcopter import any_angle, craft_of, require_valid_start, rims
 from hypcheck.paper.tower import TowerPlan
 from hypcheck.scene.model import Span, Start
 from hypcheck.scene.reading import read_scene
+from hypcheck.vectors.draw import Draw
 
 TOWER = read_scene("tower")
 STEEP = replace(TOWER, hyperboloids=(replace(TOWER.hyperboloids[0], gamma=2.0),))

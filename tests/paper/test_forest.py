@@ -11,17 +11,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.casebook.draw import Draw
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.errors import InputError
 from hypcheck.paper.forest import ForestPlan, simulate_forest
-from hypcheck.paper.forest_trees import Procedure1, Trees
-from hypcheck.paper.forest_walk import judged, walk
+from hypcheck.paper.forest_walk import Procedure1, Trees, judged, walk
 from hypcheck.scene.model import Hyperboloid, Region, Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth.motion import passage
-from tests.fractions_truth import exact_position
+from hypcheck.truth.swept import passage
+from hypcheck.vectors.draw import Draw
+from tests.support.fractions_truth import exact_position
 
 FOREST = read_scene("forest")
 TREES = Trees(FOREST)

@@ -10,10 +10,10 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.derivation.chains.book import chains
+from hypcheck.derivation.chain_book import chains
 from hypcheck.errors import Exit
-from hypcheck.paper.derive import choosing
-from hypcheck.paper.derive.choosing import entries_of
+from hypcheck.paper.derive import selection
+from hypcheck.paper.derive.selection import entries_of
 from hypcheck.paper.ledger import entries
 
 
@@ -112,7 +112,7 @@ def test_a_link_that_fails_ends_with_6_and_is_shown(capsys, monkeypatch, form):
     link = chain.links[0]
     wrong = replace(link.parts[0], relation="<")
     broken = replace(chain, links=(replace(link, parts=(wrong, *link.parts[1:])), *chain.links[1:]))
-    monkeypatch.setattr(choosing, "chains", lambda: {**chains(), chain.name: broken})
+    monkeypatch.setattr(selection, "chains", lambda: {**chains(), chain.name: broken})
     code, output, errors = told(capsys, "--only", "propositions", "--format", form)
     assert code == Exit.ORACLES_DISAGREE
     assert errors == ("hypcheck: our derivation disagrees with what it is said to show: Proposition 3, repaired\n")
@@ -128,7 +128,7 @@ def test_a_verdict_that_is_not_borne_out_ends_with_6(capsys, monkeypatch, form):
     changed = tuple(
         replace(entry, verdict="proved", grounds=tuple) if entry.number == "Table 2" else entry for entry in entries()
     )
-    monkeypatch.setattr(choosing, "entries", lambda: changed)
+    monkeypatch.setattr(selection, "entries", lambda: changed)
     code, output, errors = told(capsys, "--only", "ledger", "--format", form)
     assert code == Exit.ORACLES_DISAGREE
     assert errors.endswith("to show: Table 2\n")

@@ -10,20 +10,19 @@ from pathlib import Path
 import pytest
 from matplotlib.mathtext import MathTextParser
 
-from hypcheck.derivation.chains.book import chains
-from hypcheck.derivation.counting import Operations
+from hypcheck.derivation.chain_book import chains
+from hypcheck.derivation.program import Operations
 from hypcheck.derivation.walk import walk
 from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
-from hypcheck.paper.derive.asking import FORMATS, PARTS, writer
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.layout import WIDTH, broken, columns, paragraph
-from hypcheck.paper.derive.tex import UnknownCharacterError, formula, sentence
+from hypcheck.paper.derive.formats import FORMATS, PARTS, writer
+from hypcheck.paper.derive.latex import UnknownCharacterError, formula, sentence
+from hypcheck.paper.derive.selection import WIDTH, Selection, broken, columns, paragraph
 from hypcheck.paper.ledger import entries
 from hypcheck.version import VERSION
-from tests.schemas import violations
+from tests.support.records import violations
 
-ALL = Chosen(tuple(PARTS))
-CLAIM = Chosen((), "Proposition 3")
+ALL = Selection(tuple(PARTS))
+CLAIM = Selection((), "Proposition 3")
 SCHEMA = json.loads(
     resources.files("hypcheck.paper").joinpath("schemas", f"derive-{as_json.SCHEMA}.json").read_text(encoding="utf-8")
 )
@@ -62,7 +61,7 @@ def test_a_claim_is_shown_with_its_witness_a_command_and_a_certificate():
 
 
 def test_an_equation_is_shown_as_printed():
-    shown = " ".join(" ".join(written(text, Chosen((), "12"))).split())
+    shown = " ".join(" ".join(written(text, Selection((), "12"))).split())
     assert "printed g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c²)·λ²" in shown
     assert "lacks − z_c²" in shown
 
@@ -138,7 +137,9 @@ def test_a_character_without_latex_is_refused():
 
 
 @pytest.mark.parametrize(
-    "chosen", [ALL, CLAIM, Chosen(("costs",)), Chosen(("ledger", "derivation"))], ids=["all", "claim", "costs", "two"]
+    "chosen",
+    [ALL, CLAIM, Selection(("costs",)), Selection(("ledger", "derivation"))],
+    ids=["all", "claim", "costs", "two"],
 )
 def test_json_fits_its_schema(chosen):
     document = json.loads("\n".join(written(as_json, chosen)))
@@ -155,7 +156,7 @@ def test_json_counts_what_operations_has():
 
 def test_the_page_for_the_web_is_fresh():
     """`make paper` writes it anew."""
-    fresh = "\n".join(markdown.lines(Chosen(("ledger", "costs")))) + "\n"
+    fresh = "\n".join(markdown.lines(Selection(("ledger", "costs")))) + "\n"
     assert PAGE.read_text(encoding="utf-8") == fresh
 
 

@@ -10,13 +10,11 @@ from functools import cache
 import pytest
 
 import hypcheck
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import entries
-from hypcheck.paper.ledger import statements as say
-from hypcheck.paper.ledger.facts import Point, facts
-from hypcheck.paper.ledger.procedures import PROCEDURE_2A, program_says
-from hypcheck.paper.ledger.quadcopter import Quadcopter, quadcopters, refused_though_inside
-from hypcheck.paper.ledger.search import counterexample
+from hypcheck.paper.ledger import entry as say
+from hypcheck.paper.ledger.points import Point, counterexample, facts
+from hypcheck.paper.ledger.procedures import PROCEDURE_2A, Quadcopter, program_says, quadcopters, refused_though_inside
 
 
 @cache

@@ -9,15 +9,27 @@ from functools import cache
 import pytest
 import sympy
 
-from hypcheck.derivation.chains.positions import PATTERNS
-from hypcheck.pairs import Position
-from hypcheck.paper.ledger import statements as say
-from hypcheck.paper.ledger.facts import Point, facts, rational
-from hypcheck.paper.ledger.search import Statement, Witness, counterexample, first, witness
-from hypcheck.paper.ledger.strata import facts_in_order, numbers, root, space, strata
+from hypcheck.derivation.root_chains import PATTERNS
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger import entry
+from hypcheck.paper.ledger.points import (
+    Point,
+    PointWitness,
+    Statement,
+    counterexample,
+    facts,
+    facts_in_order,
+    first_point,
+    numbers,
+    rational,
+    root,
+    space,
+    strata,
+    witness,
+)
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.roots import classify_by_roots
-from tests.fractions_truth import exact_position
+from tests.support.fractions_truth import exact_position
 
 LAMBDA = sympy.Symbol("lambda")
 
@@ -67,7 +79,7 @@ def pattern_of(each):
         crowded = g.count_roots(-sympy.oo, -A) == 2
     else:
         crowded = g.count_roots(0, B) < 2
-    signs = (sign, each.c2 < 0 and each.c1 > 0, crowded, say.ring(each))
+    signs = (sign, each.c2 < 0 and each.c1 > 0, crowded, entry.ring(each))
     (found,) = (p for p in PATTERNS if (p.delta, p.all_positive, p.crowded, p.ring) == signs)
     return found
 
@@ -116,10 +128,10 @@ def test_each_stratum_is_what_its_name_says():
 @pytest.mark.parametrize(
     ("statement", "expected"),
     [
-        (say.PROPOSITION_3_1, (1, 2, Fraction(5, 2), 0)),
-        (say.PROPOSITION_5_2, (7, 7, 10, 0)),
-        (say.ALL_POSITIVE, (1, 1, 1, 0)),
-        (say.PROPOSITION_5_1_WITH_C1, (3, 1, 1, 0)),
+        (entry.PROPOSITION_3_1, (1, 2, Fraction(5, 2), 0)),
+        (entry.PROPOSITION_5_2, (7, 7, 10, 0)),
+        (entry.ALL_POSITIVE, (1, 1, 1, 0)),
+        (entry.PROPOSITION_5_1_WITH_C1, (3, 1, 1, 0)),
     ],
 )
 def test_the_witness_is_the_simplest(statement, expected):
@@ -135,30 +147,31 @@ def beyond_B(each):
 
 def outside(each, *, ring=True):
     """The rule of all sizes for exterior, with the ring or without it."""
-    return (each.delta > 0 and say.three_positive(each) and not beyond_B(each)) or (ring and say.ring(each))
+    return (each.delta > 0 and entry.three_positive(each) and not beyond_B(each)) or (ring and entry.ring(each))
 
 
 def two_negative(each):
-    return each.delta > 0 and not say.three_positive(each)
+    return each.delta > 0 and not entry.three_positive(each)
 
 
 MISTAKES = {
-    "without the ring": lambda each: say.exterior(each) == outside(each, ring=False),
+    "without the ring": lambda each: entry.exterior(each) == outside(each, ring=False),
     "the ring with A = B²": lambda each: (
-        say.exterior(each) == (outside(each) or (each.Q == 0 and each.slope_at_B == 0 and each.A == each.B**2))
+        entry.exterior(each) == (outside(each) or (each.Q == 0 and each.slope_at_B == 0 and each.A == each.B**2))
     ),
     "c2 ≥ −3B alone": lambda each: (
-        say.exterior(each)
-        == ((each.delta > 0 and say.three_positive(each) and each.c2 >= -3 * each.B) or say.ring(each))
+        entry.exterior(each)
+        == ((each.delta > 0 and entry.three_positive(each) and each.c2 >= -3 * each.B) or entry.ring(each))
     ),
     "g'(B) ≤ 0 alone": lambda each: (
-        say.exterior(each) == ((each.delta > 0 and say.three_positive(each) and each.slope_at_B <= 0) or say.ring(each))
+        entry.exterior(each)
+        == ((each.delta > 0 and entry.three_positive(each) and each.slope_at_B <= 0) or entry.ring(each))
     ),
-    "c2 < 3A alone": lambda each: say.interior(each) == (two_negative(each) and each.c2 < 3 * each.A),
-    "g'(−A) > 0 alone": lambda each: say.interior(each) == (two_negative(each) and each.slope_at_minus_A > 0),
+    "c2 < 3A alone": lambda each: entry.interior(each) == (two_negative(each) and each.c2 < 3 * each.A),
+    "g'(−A) > 0 alone": lambda each: entry.interior(each) == (two_negative(each) and each.slope_at_minus_A > 0),
     "Δ ≥ 0": lambda each: (
-        say.interior(each)
-        == (each.delta >= 0 and not say.three_positive(each) and each.c2 < 3 * each.A and each.slope_at_minus_A > 0)
+        entry.interior(each)
+        == (each.delta >= 0 and not entry.three_positive(each) and each.c2 < 3 * each.A and each.slope_at_minus_A > 0)
     ),
 }
 
@@ -172,27 +185,27 @@ def test_the_space_contradicts_every_other_rule_for_all_sizes(name):
 
 
 def test_without_its_regime_a_repaired_proposition_is_contradicted():
-    for statement in (say.REPAIRED_3, say.REPAIRED_5):
+    for statement in (entry.REPAIRED_3, entry.REPAIRED_5):
         found = counterexample(Statement(statement.text, lambda _: True, statement.says)).found
         assert found is not None
         assert not statement.where(found)
 
 
 def test_a_search_counts_what_it_tried():
-    assert first(lambda _: False).tried == len(everything())
-    assert first(lambda _: True).tried == 1
-    tall = first(lambda _: False, say.tall).tried
+    assert first_point(lambda _: False).tried == len(everything())
+    assert first_point(lambda _: True).tried == 1
+    tall = first_point(lambda _: False, entry.tall).tried
     assert 0 < tall < len(everything())
 
 
 def test_a_witness_with_another_position_or_certificate_is_none():
-    found = counterexample(say.PROPOSITION_3_1).found
+    found = counterexample(entry.PROPOSITION_3_1).found
     right = witness(found, "the ring")
     assert right.holds
     for position in (Position.INTERIOR, Position.CONTACT):
-        assert not Witness(replace(found, position=position), right.certificate, "").holds
-        assert not Witness(found, replace(right.certificate, position=position), "").holds
-    assert not Witness(found, Certificate(Position.EXTERIOR, multiplier=Fraction(9)), "").holds
+        assert not PointWitness(replace(found, position=position), right.certificate, "").holds
+        assert not PointWitness(found, replace(right.certificate, position=position), "").holds
+    assert not PointWitness(found, Certificate(Position.EXTERIOR, multiplier=Fraction(9)), "").holds
 
 
 def test_numbers_and_roots_are_exact():

@@ -12,12 +12,12 @@ import pytest
 
 import hypcheck
 from hypcheck.derivation.links import printed
-from hypcheck.derivation.plain_text import symbol
-from hypcheck.derivation.printed import check, check_equations
-from hypcheck.derivation.printed_equations import printed_claims
-from hypcheck.pairs import Position
-from hypcheck.paper.ledger import entries, procedures, propositions, statements
-from hypcheck.paper.ledger.costs import BENCH
+from hypcheck.derivation.pencil import symbol
+from hypcheck.derivation.printed_equations import check, check_equations, printed_claims
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger import entries, procedures, propositions
+from hypcheck.paper.ledger import entry as statements
+from hypcheck.paper.ledger.book import REASONS, coverage, sentences
 from hypcheck.paper.ledger.entry import (
     DEFINITION,
     FALSE,
@@ -26,17 +26,14 @@ from hypcheck.paper.ledger.entry import (
     NOT_CHECKABLE,
     PROVED,
     VERDICTS,
-    Entry,
     Evidence,
+    LedgerEntry,
     by_chain,
     with_counterexample,
     without_counterexample,
 )
-from hypcheck.paper.ledger.equations import equation
-from hypcheck.paper.ledger.facts import Point, facts
-from hypcheck.paper.ledger.search import Statement
-from hypcheck.paper.ledger.sentences import REASONS, coverage, sentences
-from hypcheck.paper.ledger.strata import facts_in_order
+from hypcheck.paper.ledger.equations import BENCH, equation
+from hypcheck.paper.ledger.points import Point, Statement, facts, facts_in_order
 
 OTHERWISE = {
     "(11)": MISPRINT,
@@ -158,7 +155,9 @@ def named(statement: Statement) -> str:
 
 @pytest.mark.parametrize("statement", TRUE_STATEMENTS, ids=named)
 def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
-    entry = Entry("X", "2", statement.text, FALSE, "so they say", "nothing", lambda: (with_counterexample(statement),))
+    entry = LedgerEntry(
+        "X", "2", statement.text, FALSE, "so they say", "nothing", lambda: (with_counterexample(statement),)
+    )
     assert not entry.confirmed
     assert "nothing found among" in entry.evidence[0].text
     assert without_counterexample(statement).holds
@@ -167,12 +166,12 @@ def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
 @pytest.mark.parametrize("statement", FALSE_STATEMENTS, ids=named)
 def test_a_false_statement_that_is_called_proved_is_not_confirmed(statement):
     evidence = (by_chain("rule"), without_counterexample(statement))
-    assert not Entry("X", "2", statement.text, PROVED, "so they say", "nothing", lambda: evidence).confirmed
+    assert not LedgerEntry("X", "2", statement.text, PROVED, "so they say", "nothing", lambda: evidence).confirmed
     assert with_counterexample(statement).holds
 
 
 def test_a_verdict_needs_evidence_unless_nothing_can_be_checked():
-    entry = Entry("X", "2", "so it is", PROVED, "because", "nothing")
+    entry = LedgerEntry("X", "2", "so it is", PROVED, "because", "nothing")
     assert not entry.confirmed
     assert replace(entry, verdict=NOT_CHECKABLE).confirmed
     assert not replace(entry, verdict=NOT_CHECKABLE, grounds=lambda: (Evidence("count", "1", holds=True),)).confirmed

@@ -8,18 +8,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.casebook.draw import Draw
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.paper import motion
 from hypcheck.paper.flights import Moves, fly
-from hypcheck.paper.flights_circle import any_angle, small_angle
-from hypcheck.paper.flights_craft import craft_of
-from hypcheck.paper.flights_ways import TOLD, Contact, Ways, valid
-from hypcheck.paper.motion import always, always_turning
+from hypcheck.paper.motion import TOLD, Contact, MoveVerdicts, stays_on_side, stays_on_side_turning, valid
+from hypcheck.paper.quadcopter import any_angle, craft_of, small_angle
 from hypcheck.scene.model import Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth.motion import passage
+from hypcheck.truth.swept import passage
 from hypcheck.truth.turning import turning
+from hypcheck.vectors.draw import Draw
 
 INTERIOR, EXTERIOR = Position.INTERIOR, Position.EXTERIOR
 TOWER = (2.0, 17.8, 0.25, 0.15)
@@ -66,7 +64,7 @@ def alone(side, sizes, start, end, center, lane):
 def test_a_way_keeps_to_a_side_exactly_where_it_alone_does(side, sizes, reach, center):
     seen = set()
     for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
-        clear = always(side, sizes, start, end, center)
+        clear = stays_on_side(side, sizes, start, end, center)
         for lane in range(2 * number, COUNT, 24):
             assert clear[lane] == alone(side, sizes, start, end, center, lane)
             seen.add(bool(clear[lane]))
@@ -80,9 +78,9 @@ def test_a_way_within_rounding_of_a_tangency_is_decided_exactly():
     low, high = np.full(4, -1.0), np.full(4, 1.0)
     for center in ((0.0, 0.0, 0.0), (0.25, 0.0, 0.0)):
         at = radius + center[0]
-        found = always(INTERIOR, TOWER, (at, zero, low), (at, zero, high), center)
+        found = stays_on_side(INTERIOR, TOWER, (at, zero, low), (at, zero, high), center)
         assert found.tolist() == [False, True, False, True]
-        ahead = always(INTERIOR, TOWER, (zero + center[0], zero, zero), (at, zero, zero), center)
+        ahead = stays_on_side(INTERIOR, TOWER, (zero + center[0], zero, zero), (at, zero, zero), center)
         assert ahead.tolist() == [False, True, False, True]
 
 
@@ -90,8 +88,8 @@ def test_most_ways_need_no_exact_passage(monkeypatch):
     asked = []
     monkeypatch.setattr(motion, "passage", lambda *way: asked.append(way) or passage(*way))
     for start, end in ways_of_each_kind(Draw("few"), (2, 2, 9)):
-        always(INTERIOR, TOWER, start, (end[0], end[1], start[2]))
-        always(INTERIOR, TOWER, start, (start[0], start[1], end[2]))
+        stays_on_side(INTERIOR, TOWER, start, (end[0], end[1], start[2]))
+        stays_on_side(INTERIOR, TOWER, start, (start[0], start[1], end[2]))
     assert len(asked) < 1000  # of 7,200: those through the throat whose ends are clear
 
 
@@ -100,7 +98,7 @@ def test_an_arm_keeps_inside_exactly_where_it_alone_does(largest):
     draw, rotor, arm = Draw("arms", largest), (2.0, 17.8, 0.1, 0.05), 0.135
     at = (draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, -5, 5))
     direction, degrees = any_angle(draw.between(COUNT, -180, 180)), draw.between(COUNT, -largest, largest)
-    clear = always_turning(rotor, arm, at, direction, degrees)
+    clear = stays_on_side_turning(rotor, arm, at, direction, degrees)
     assert 10 < clear.sum() < COUNT - 10
     for lane in range(0, COUNT, 3):
         ahead = (float(direction[0][lane]), float(direction[1][lane]))
@@ -117,7 +115,7 @@ def test_an_arm_within_rounding_of_a_tangency_is_decided_exactly(monkeypatch):
     at = (np.full(4, 1.5), np.zeros(4), np.zeros(4))
     direction = any_angle(np.array([-30.0, 30.0, 30.0, -90.0]))
     degrees = np.array([60.0, 60.0, -30.0, 89.0])
-    assert always_turning(rotor, arm, at, direction, degrees).tolist() == [False, True, False, True]
+    assert stays_on_side_turning(rotor, arm, at, direction, degrees).tolist() == [False, True, False, True]
     assert len(asked) == 2
 
 
@@ -156,7 +154,7 @@ def watched_alone(craft, moves, place, expected):
 
 def test_flights_are_watched_move_by_move():
     scene = read_scene("tower")
-    craft, counted, expected = craft_of(scene), Ways(), Ways()
+    craft, counted, expected = craft_of(scene), MoveVerdicts(), MoveVerdicts()
 
     def observe(moves: Moves) -> None:
         counted.watch(craft, moves)
@@ -173,7 +171,7 @@ def test_flights_are_watched_move_by_move():
 
 def test_a_move_through_the_waist_touches_first_where_its_first_rotor_does():
     """Both ends are a metre and more from the waist, where the tower is wider than a rotor needs; the waist is not."""
-    craft, counted, expected = craft_of(read_scene("tower")), Ways(), Ways()
+    craft, counted, expected = craft_of(read_scene("tower")), MoveVerdicts(), MoveVerdicts()
     yes, no = np.ones(40, dtype=bool), np.zeros(40, dtype=bool)
     start = (np.linspace(1.76, 1.79, 40), np.zeros(40), np.full(40, -1.0))
     moves = Moves(

@@ -13,7 +13,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.scene.reading import shipped_text
-from tests.schemas import violations
+from tests.support.records import violations
 
 SHORT = shipped_text("tower").replace("distance = 500.0", "distance = 3.0")
 FOREST = ("simulate", "forest", "--seed", "3")

@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.proofs.build import CHECKER
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
+from hypcheck.vectors.families import FAMILIES
 
 BATCH = 5000
 

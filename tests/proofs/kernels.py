@@ -9,11 +9,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.proof import proof_of
-from hypcheck.kernel.specialise.formats import FORMATS
+from hypcheck.kernel.printing.coq import proof_of
 from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.kernel.specialise.settings import FORMATS
 from hypcheck.proofs.build import ProofError, check_kernel
-from tests.specialise.scenes import random_scene
+from tests.support.scenes import random_scene
 
 
 def main() -> None:

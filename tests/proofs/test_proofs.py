@@ -12,19 +12,19 @@ from pathlib import Path
 
 import pytest
 
-from hypcheck.casebook import vectors
 from hypcheck.cli.main import main
-from hypcheck.cli.plan import planned
+from hypcheck.cli.scene import planned
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.proof import proof_of
 from hypcheck.kernel.printing import coq
-from hypcheck.kernel.programs import certified, single
+from hypcheck.kernel.printing.coq import proof_of
+from hypcheck.kernel.programs import certified
 from hypcheck.paper.ledger import propositions
 from hypcheck.paper.ledger.book import COQ
 from hypcheck.proofs import build
-from hypcheck.proofs.weakened import CONTROL, WEAKENED, accepted
+from hypcheck.proofs.build import CONTROL, WEAKENED, accepted
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots_patterns import PATTERNS
+from hypcheck.truth.roots import PATTERNS
+from hypcheck.vectors import frozen
 from tests.proofs.agreement import disagreements
 
 ALWAYS_CLEAR = """
@@ -122,7 +122,7 @@ def test_constants_proved_in_coq_are_those_of_the_kernel():
     kernel = build.source("Kernel")
     for step, units, constant in (("c0", 8, "u_8"), ("c1", 12, "u_12"), ("c2", 8, "u_8"), ("delta_3", 1536, "u_1536")):
         assert re.search(rf"Theorem error_of_{step} .*?<= {units} \* u \*", kernel, re.DOTALL), step
-        unit = Fraction(single.CONSTANTS[constant]) / Fraction(certified.SLACK)
+        unit = Fraction(certified.SINGLE_CONSTANTS[constant]) / Fraction(certified.SLACK)
         assert unit == units * Fraction(certified.U) == units * Fraction(1, 2**52)
     bound = build.source("RunningBound")
     assert "Definition unit := / 2 ^ 52.\nDefinition slack := 1 + / 2 ^ 20.\n" in bound
@@ -165,7 +165,7 @@ def test_coq_proves_the_bound_of_an_emitted_kernel_and_refuses_a_smaller_one(tmp
 
 @compiled
 def test_the_proved_checker_accepts_every_frozen_vector(capfd):
-    files = sorted(str(path) for path in vectors.folder().glob("*.json"))
+    files = sorted(str(path) for path in frozen.folder().glob("*.json"))
     cases = sum(len(json.loads(Path(file).read_text(encoding="utf-8"))["cases"]) for file in files)
     assert build.run_checker(files) == 0
     assert capfd.readouterr().out == f"{cases} cases checked by the proved checker, none with a wrong label\n"
@@ -186,7 +186,7 @@ def _root_moved(case):
 @compiled
 @pytest.mark.parametrize("damage", [_interior_called_exterior, _tangency_called_crossing, _root_moved])
 def test_the_proved_checker_refuses_a_wrong_label(damage, capfd, tmp_path):
-    file = json.loads((vectors.folder() / "tangent.json").read_text(encoding="utf-8"))
+    file = json.loads((frozen.folder() / "tangent.json").read_text(encoding="utf-8"))
     damage(file["cases"][7])
     (tmp_path / "wrong.json").write_text(json.dumps(file), encoding="utf-8")
     assert build.run_checker([str(tmp_path / "wrong.json")]) == 1

@@ -9,9 +9,9 @@ from itertools import combinations
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.record.scanning import DamagedError, Scan
+from hypcheck.record.integrity import DamagedError, RecordScan
 from hypcheck.tables.streams import Reader
-from tests.records import resealed
+from tests.support.records import resealed
 
 LINES = [
     {"type": "header", "schema": "1.2.0"},
@@ -28,7 +28,7 @@ def data():
 
 def outcome(data):
     """What becomes of it (refused, truncated, whole), and the lines that are read."""
-    scan = Scan(Reader(io.BytesIO(data), "it"))
+    scan = RecordScan(Reader(io.BytesIO(data), "it"))
     try:
         lines = list(scan)
     except InputError:
@@ -95,7 +95,7 @@ def test_a_record_cannot_lose_its_checksums_by_calling_itself_older(data):
 def test_the_damage_is_told_with_its_byte(data):
     start = data.index(b"\n") + 1
     with pytest.raises(DamagedError, match=f"^it is damaged in line 2, at byte {start}: its checksum is") as caught:
-        list(Scan(Reader(io.BytesIO(data.replace(b"\\\\", b"/\\")), "it")))
+        list(RecordScan(Reader(io.BytesIO(data.replace(b"\\\\", b"/\\")), "it")))
     assert caught.value.at == start
 
 

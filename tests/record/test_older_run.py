@@ -7,8 +7,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.cli.recording import recording
 from hypcheck.record import Recorder
-from hypcheck.record.growing import Growing
 from hypcheck.record.reader import FILE, GROWING
+from hypcheck.record.writer import GrowingFile
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -35,7 +35,7 @@ def test_reports_of_an_earlier_run_are_gone_while_a_run_goes_on_and_its_record_i
 @pytest.fixture
 def killed(held):
     """The same folder, in which a newer run was killed."""
-    with Growing(held / GROWING) as growing:
+    with GrowingFile(held / GROWING) as growing:
         Recorder(growing, {"specs": ["builtin:fast"], "max_abstained": 0})
     return held
 

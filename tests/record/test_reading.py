@@ -11,10 +11,10 @@ import pytest
 from msgspec import UNSET
 
 from hypcheck.errors import InputError
-from hypcheck.record import SCHEMA, Recorder, read, scanning
+from hypcheck.record import SCHEMA, Recorder, integrity, read
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Drift, Footer, Implementation
-from tests.records import resealed
+from hypcheck.record.lines import DriftLine, FooterLine, ImplementationLine
+from tests.support.records import resealed
 
 HEADER = {
     "type": "header",
@@ -58,7 +58,7 @@ def written(path, close=True):
     stream = io.StringIO()
     recorder = Recorder(stream, {"seed": 3})
     domain = {"regimes": [], "ratio": [0.1, math.inf], "magnitude": None, "settings": [SETTING]}
-    recorder.add(decoded({**SAMPLE, "used": {**SAMPLE["used"], "domain": domain}}, Implementation))
+    recorder.add(decoded({**SAMPLE, "used": {**SAMPLE["used"], "domain": domain}}, ImplementationLine))
     record = recorder.close(0) if close else None
     path.write_text(stream.getvalue(), encoding="utf-8")
     return record
@@ -72,7 +72,7 @@ def path(tmp_path):
 def test_what_is_read_is_what_was_written(path):
     record = written(path)
     assert read(path) == record
-    domain = read(path).of(Implementation)[0].used.domain
+    domain = read(path).of(ImplementationLine)[0].used.domain
     assert (domain.ratio, domain.settings[0].x) == ((0.1, math.inf), (-math.inf, 3.5))
     assert '"ratio": [0.1, "inf"]' in path.read_text(encoding="utf-8")
 
@@ -92,9 +92,9 @@ def test_lines_that_end_as_on_windows_are_the_same_lines(path):
 def test_a_text_that_utf_8_cannot_hold_comes_back(path):
     stream = io.StringIO()
     recorder = Recorder(stream, {})
-    recorder.add(Drift(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
+    recorder.add(DriftLine(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
     path.write_text(stream.getvalue(), encoding="utf-8")
-    assert read(path).of(Drift)[0].sentence == "a lone surrogate \udc80, a line \u2028 and \x00"
+    assert read(path).of(DriftLine)[0].sentence == "a lone surrogate \udc80, a line \u2028 and \x00"
 
 
 OLDER = '{"type": "header", "schema": "%s"}\n{"type": "group", "n": 1}\n{"type": "footer", "lines": 3}\n'
@@ -106,8 +106,8 @@ def test_an_older_version_is_read_without_checksums(path, version):
     path.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
     record = read(path)
     assert (record.header.schema, record.header.files, record.header.settings) == (version, UNSET, UNSET)
-    assert record.lines == (Drift(sentence="odd"),)
-    assert record.footer == Footer(lines=3, exit_code=0, seconds=0.5)
+    assert record.lines == (DriftLine(sentence="odd"),)
+    assert record.footer == FooterLine(lines=3, exit_code=0, seconds=0.5)
 
 
 def test_progress_is_read_as_the_first_versions_of_schema_1_3_wrote_it(path):
@@ -126,7 +126,7 @@ def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
     path.write_bytes(resealed([*lines, {**FOOTER, "lines": 4}]))
     record = read(path)
     assert record.header.schema == "1.99.0"
-    assert record.lines == (Drift(sentence="odd"),)
+    assert record.lines == (DriftLine(sentence="odd"),)
     assert record.footer is not None
 
 
@@ -187,11 +187,11 @@ def test_a_line_of_a_gigabyte_is_refused_without_being_loaded(path, beginning):
         file.write(beginning)
         file.truncate(1 << 30)
     tracemalloc.start()
-    with pytest.raises(InputError, match=f"it is longer than {scanning.LONGEST} bytes"):
+    with pytest.raises(InputError, match=f"it is longer than {integrity.LONGEST} bytes"):
         read(path)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert peak < 5 * scanning.LONGEST
+    assert peak < 5 * integrity.LONGEST
 
 
 def test_every_line_is_strict_json_with_its_checksum_last(path):

@@ -13,8 +13,8 @@ from hypcheck.cli.recording import recording
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Description, Retest, Unavailable
-from hypcheck.record.progress import Progress, SavedAllowance, SavedResult, SavedState
+from hypcheck.record.lines import DescriptionPart, Retest, UnavailableLine
+from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState
 from hypcheck.record.reader import FILE, GROWING
 from tests.record.test_reading import DESCRIPTION
 
@@ -22,7 +22,7 @@ NOTHING = SavedResult(
     tallies={}, open=[], again=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
 )
 BEGUN = SavedState(done=0, left=SavedAllowance(restarts=0), total=NOTHING)
-PROGRESS = Progress(number=0, declared=decoded(DESCRIPTION, Description), cases=1, state=BEGUN)
+PROGRESS = ProgressLine(number=0, declared=decoded(DESCRIPTION, DescriptionPart), cases=1, state=BEGUN)
 
 
 @pytest.mark.parametrize("end", [None, KeyboardInterrupt, NothingJudgedError("nothing")])
@@ -41,7 +41,7 @@ def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gon
             raise end
 
     with contextlib.suppress(KeyboardInterrupt, NothingJudgedError), recording(out, {}) as running:
-        running.recorder.add(Unavailable(oracle="mesh", reason="before"))
+        running.recorder.add(UnavailableLine(oracle="mesh", reason="before"))
         removes()
     assert not (out / GROWING).exists()
     if not isinstance(end, NothingJudgedError):

@@ -6,9 +6,9 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
-from hypcheck.record.lines import Drift
+from hypcheck.record.lines import DriftLine
 from tests.record.test_reading import HEADER
-from tests.records import resealed
+from tests.support.records import resealed
 
 LINES = [
     {**HEADER, "schema": "1.2.0"},
@@ -80,7 +80,7 @@ def test_a_damaged_one_is_refused_and_saved_up_to_the_damage(path, capsys, tmp_p
     assert "its checksum is" in text
     assert saved.read_bytes() == data[:start]
     assert read(saved).footer is None
-    assert read(saved).lines == (Drift(sentence="one"),)
+    assert read(saved).lines == (DriftLine(sentence="one"),)
 
 
 def test_a_cut_one_is_saved_without_what_is_half(path, capsys, tmp_path):

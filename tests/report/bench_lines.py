@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tests.report_samples import ON_THE_RING, TOWER, hexes, record
+from tests.report.record_samples import ON_THE_RING, TOWER, hexes, record
 
 OPTIONS = {"command": "bench", "quick": True, "seed": 1, "processes": 2, "rounds": 3}
 

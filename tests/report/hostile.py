@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 
-from tests import report_samples as samples
-from tests.report import bench_lines
+from tests.report import bench_lines, record_samples
 
 SCRIPT = "</script><script>alert(1)</script><img src=x onerror=alert(1)>"
 MARKS = "\"'><b>&amp;{{7*7}}{% raw %}\u202e\u200f\x00\x1b[31m\r\n\u2028\ud800"
@@ -46,6 +45,6 @@ def hostile_record():
     """A verification and a benchmark at once, with one name of a megabyte."""
     kept = {each[0] for each in bench_lines.METHODS[:4]}
     few = [line for line in bench_lines.lines() if line.get("method") in (None, *kept) or line["type"] == "places"]
-    lines = [spoilt(line, number) for number, line in enumerate([*samples.lines(), *few])]
-    lines.append({**samples.group(ENDLESS, "float64", "ring", {"wrong": 3}), "title": ENDLESS})
-    return samples.record(lines, exit_code=1)
+    lines = [spoilt(line, number) for number, line in enumerate([*record_samples.lines(), *few])]
+    lines.append({**record_samples.group(ENDLESS, "float64", "ring", {"wrong": 3}), "title": ENDLESS})
+    return record_samples.record(lines, exit_code=1)

@@ -12,7 +12,7 @@ from hypcheck.report.verdict import failures, verdict
 from tests.report import bench_lines
 from tests.report.bench_lines import bench_record
 from tests.report.test_schemas import SUMMARY
-from tests.schemas import violations
+from tests.support.records import violations
 
 
 def lines(kind, **changes):

@@ -8,7 +8,7 @@ import json
 import pytest
 
 from hypcheck.record.fields import as_json, decoded
-from hypcheck.record.lines import Header
+from hypcheck.record.lines import HeaderLine
 from hypcheck.report import markdown, terminal
 from hypcheck.report.changes import (
     FASTER,
@@ -16,13 +16,12 @@ from hypcheck.report.changes import (
     UNCLEAR,
     accuracy_changes,
     conditions,
-    in_one_alone,
+    only_in_one,
     ratio_changes,
     status_changes,
 )
-from hypcheck.report.write import Around
-from tests import report_samples as samples
-from tests.report import bench_lines
+from hypcheck.report.write import ReportContext
+from tests.report import bench_lines, record_samples
 
 
 def changed(body, kind, change, **named):
@@ -33,12 +32,12 @@ def changed(body, kind, change, **named):
     return copy
 
 
-BEFORE = samples.record()
-WORSE = samples.record(
+BEFORE = record_samples.record()
+WORSE = record_samples.record(
     changed(
-        samples.lines(),
+        record_samples.lines(),
         "group",
-        {"counts": {"right": 17, "wrong": 3}, "worst": [samples.worst("tower-body/1/1/5", "wrong", 40.0)]},
+        {"counts": {"right": 17, "wrong": 3}, "worst": [record_samples.worst("tower-body/1/1/5", "wrong", 40.0)]},
         method="table-2-float32",
         family="tower-body",
     )
@@ -51,8 +50,8 @@ def test_nothing_changes_from_a_record_to_itself():
         assert status_changes(record, record) == []
         assert accuracy_changes(record, record) == []
         assert {change.verdict for change in ratio_changes(record, record)} <= {UNCLEAR}
-        assert [*conditions(record, record), *in_one_alone(record, record)] == []
-    assert "No case ended otherwise." in markdown.render(BEFORE, Around(against=BEFORE)).decode()
+        assert [*conditions(record, record), *only_in_one(record, record)] == []
+    assert "No case ended otherwise." in markdown.render(BEFORE, ReportContext(against=BEFORE)).decode()
 
 
 def test_a_family_that_got_worse_and_one_that_got_better():
@@ -65,13 +64,13 @@ def test_a_family_that_got_worse_and_one_that_got_better():
 
 def test_worse_is_a_greater_share_and_not_a_greater_number():
     many = changed(
-        samples.lines(),
+        record_samples.lines(),
         "group",
         {"counts": {"right": 90, "wrong": 8, "tolerated": 2}},
         method="table-2-float32",
         family="ring",
     )
-    (change,) = status_changes(BEFORE, samples.record(many))  # 10 of 19 before, 10 of 100 now
+    (change,) = status_changes(BEFORE, record_samples.record(many))  # 10 of 19 before, 10 of 100 now
     assert not change.worse
 
 
@@ -82,7 +81,7 @@ def test_worse_is_a_greater_share_and_not_a_greater_number():
 def test_ratios_differ_where_their_intervals_are_apart(interval, verdict):
     body = [bench_lines.speed("m", "uniform", "batch", 60.0, 100.0)]  # 0.576 to 0.624
     after = changed(body, "speed", {"ratio_ci95": interval})
-    (change,) = ratio_changes(samples.record(body), samples.record(after))
+    (change,) = ratio_changes(record_samples.record(body), record_samples.record(after))
     assert change.verdict == verdict
 
 
@@ -93,17 +92,20 @@ def test_times_alone_are_no_change():
         if line["type"] == "speed":
             line["median_ns"] *= 10
             line["samples_ns"] = [[10 * sample for sample in process] for process in line["samples_ns"]]
-    other = samples.record(slow)
+    other = record_samples.record(slow)
     assert {change.verdict for change in ratio_changes(BENCH, other)} == {UNCLEAR}
     section = (
-        markdown.render(other, Around(against=BENCH)).decode().partition("## What changed")[2].partition("\n## ")[0]
+        markdown.render(other, ReportContext(against=BENCH))
+        .decode()
+        .partition("## What changed")[2]
+        .partition("\n## ")[0]
     )
     assert " ns" not in section
 
 
 def test_errors_of_a_benchmark():
     after = changed(bench_lines.lines(), "accuracy", {"wrong": 7, "reliable_above": 0.25}, method="dual-numpy-float32")
-    (change,) = accuracy_changes(BENCH, samples.record(after))
+    (change,) = accuracy_changes(BENCH, record_samples.record(after))
     assert (change.method, change.workload, change.after[0], change.reliable_after) == (
         "dual-numpy-float32",
         "uniform",
@@ -117,7 +119,7 @@ def test_what_else_is_not_the_same_is_said():
     header["machine"]["processor"] = "another"
     header["options"]["seed"] = 2
     header["hypcheck"] = "9.9.9"
-    other = dataclasses.replace(BEFORE, header=decoded(header, Header), footer=None)
+    other = dataclasses.replace(BEFORE, header=decoded(header, HeaderLine), footer=None)
     said = list(conditions(BEFORE, other))
     assert any(each.startswith("another machine: processor") for each in said)
     assert "option seed 1, now 2" in said
@@ -126,22 +128,22 @@ def test_what_else_is_not_the_same_is_said():
 
 
 def test_what_one_record_lacks_is_named_and_not_compared():
-    fewer = [line for line in samples.lines() if line.get("method") != "table-2-float64"]
+    fewer = [line for line in record_samples.lines() if line.get("method") != "table-2-float64"]
     fewer = [line for line in fewer if (line.get("method"), line.get("family")) != ("fast", "ring")]
-    other = samples.record(fewer)
+    other = record_samples.record(fewer)
     assert status_changes(BEFORE, other) == []
-    assert list(in_one_alone(BEFORE, other)) == [
+    assert list(only_in_one(BEFORE, other)) == [
         "methods in the other record alone: table-2-float64",
         "families in the other record alone: ring",
     ]
-    assert [each.replace("this", "the other") for each in in_one_alone(other, BEFORE)] == list(
-        in_one_alone(BEFORE, other)
+    assert [each.replace("this", "the other") for each in only_in_one(other, BEFORE)] == list(
+        only_in_one(BEFORE, other)
     )
 
 
 def test_reports_show_it_behind_what_failed():
-    text = markdown.render(WORSE, Around(against=BEFORE)).decode()
+    text = markdown.render(WORSE, ReportContext(against=BEFORE)).decode()
     assert text.index("## What changed") < text.index("## The oracles")
     assert "| `table-2-float32` | `tower-body` | 19 right and 1 tolerated | 17 right and 3 wrong | 2.5 | 40 |" in text
-    lines = terminal.render(WORSE, Around(against=BEFORE)).decode()
+    lines = terminal.render(WORSE, ReportContext(against=BEFORE)).decode()
     assert "1 family of a method changed, worse: table-2-float32 on tower-body" in lines

@@ -8,8 +8,8 @@ import os
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.report.write import REPORTS, kept
-from tests import report_samples as samples
+from hypcheck.report.write import REPORTS, kept_formats
+from tests.report import record_samples
 
 
 @pytest.fixture
@@ -17,13 +17,13 @@ def run(tmp_path):
     """A folder with a record and nothing else."""
     folder = tmp_path / "run"
     folder.mkdir()
-    (folder / "record.jsonl").write_text(samples.text_and_record()[0], encoding="utf-8")
+    (folder / "record.jsonl").write_text(record_samples.text_and_record()[0], encoding="utf-8")
     return folder
 
 
 def test_the_summary_is_printed(run, capsys):
     assert main(["report", str(run)]) == 0
-    assert capsys.readouterr().out.splitlines()[0] == samples.HELD
+    assert capsys.readouterr().out.splitlines()[0] == record_samples.HELD
     assert os.listdir(run) == ["record.jsonl"]
 
 
@@ -51,7 +51,7 @@ def samples_read(run):
 
 def test_a_folder_gets_what_a_run_writes(run, tmp_path):
     assert main(["report", str(run), "--out", str(tmp_path / "new")]) == 0
-    assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept()} - {
+    assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept_formats()} - {
         REPORTS[name].file for name in OF_A_BENCHMARK
     }
     assert main(["report", str(run), "--out", str(tmp_path / "two"), "--format", "json", "--format", "terminal"]) == 0
@@ -91,7 +91,7 @@ def test_what_makes_no_sense_is_refused(run, monkeypatch, capsys, words, said):
 
 
 def test_a_truncated_record_is_reported_and_noted(run, capsys):
-    (run / "record.jsonl").write_text(samples.text_and_record(exit_code=None)[0], encoding="utf-8")
+    (run / "record.jsonl").write_text(record_samples.text_and_record(exit_code=None)[0], encoding="utf-8")
     assert main(["report", str(run)]) == 0
     out, err = capsys.readouterr()
     assert out.startswith("TRUNCATED")

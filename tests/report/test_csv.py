@@ -7,9 +7,8 @@ import io
 
 import pytest
 
-from hypcheck.report.table_csv import HEAD, MEASUREMENTS, render
-from tests import report_samples as samples
-from tests.report import bench_lines
+from hypcheck.report.csv import HEAD, MEASUREMENTS, render
+from tests.report import bench_lines, record_samples
 from tests.report.bench_lines import bench_record
 
 
@@ -57,7 +56,7 @@ def test_counts_add_up():
 
 
 def test_a_verification_has_its_counts():
-    found = rows(samples.record())
+    found = rows(record_samples.record())
     assert values(found, kind="group", method="table-2-float32", workload="ring", detail="", quantity="wrong") == ["6"]
     assert values(found, kind="oracle", method="roots", workload="ring", quantity="undecided") == ["2"]
     assert values(found, kind="timing", method="fast path", detail="round 1") == ["90.0"]
@@ -65,12 +64,14 @@ def test_a_verification_has_its_counts():
 
 def test_every_kind_of_line_that_measures_is_there():
     measuring = {kind.__struct_config__.tag for kind in MEASUREMENTS}
-    assert {row["kind"] for row in rows(samples.record([*samples.lines(), *bench_lines.lines()]))} == measuring
+    assert {
+        row["kind"] for row in rows(record_samples.record([*record_samples.lines(), *bench_lines.lines()]))
+    } == measuring
 
 
 @pytest.mark.parametrize("name", ["=1+1", "@SUM(A1)", "-2+3", "+x", '"quoted", with commas', "two\nlines"])
 def test_foreign_names_stay_names(name):
-    body = samples.rewritten(bench_lines.lines(), "foreign-adapter", name)
+    body = record_samples.rewritten(bench_lines.lines(), "foreign-adapter", name)
     names = {row["method"] for row in rows(bench_record(body))}
     assert not any(each[:1] in "=+-@" for each in names if each)
     assert any(name.replace("\n", " ") in each for each in names)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from hypcheck.cli.main import main
 from hypcheck.report import github, markdown
-from tests import report_samples as samples
+from tests.report import record_samples
 
 ANNOTATION = re.compile(r"::error title=([^,:\r\n]*)::([^\r\n]*)")
 
@@ -20,7 +20,7 @@ ANNOTATION = re.compile(r"::error title=([^,:\r\n]*)::([^\r\n]*)")
 def failing(number, text="not proved"):
     """A record with that many failed proofs."""
     proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": text}
-    return samples.record([proof] * number, exit_code=6)
+    return record_samples.record([proof] * number, exit_code=6)
 
 
 def unescaped(text):
@@ -39,10 +39,10 @@ def test_ten_annotations_at_most(number):
     assert all(ANNOTATION.fullmatch(line) for line in lines)
 
 
-@given(samples.FOREIGN, samples.FOREIGN)
+@given(record_samples.FOREIGN, record_samples.FOREIGN)
 def test_strangers_cannot_break_out_of_an_annotation(name, text):
     body = [{"type": "implementation", "spec": name, "name": name, "started": False, "trouble": text}]
-    (line,) = github.error_lines(samples.record(body, exit_code=5))
+    (line,) = github.error_lines(record_samples.record(body, exit_code=5))
     title, message = ANNOTATION.fullmatch(line).groups()
     assert unescaped(title).startswith("hypcheck: ")
     assert unescaped(message).isprintable()
@@ -50,16 +50,16 @@ def test_strangers_cannot_break_out_of_an_annotation(name, text):
 
 def test_escapes_are_those_of_the_runner():
     body = [{"type": "implementation", "spec": "s", "name": "a,b:c%0A", "started": False, "trouble": "1:2,3%25"}]
-    (line,) = github.error_lines(samples.record(body, exit_code=5))
+    (line,) = github.error_lines(record_samples.record(body, exit_code=5))
     assert line == "::error title=hypcheck%3A a%2Cb%3Ac%250A%2C start::1:2,3%2525"
 
 
 def test_the_replay_has_a_line_of_its_own():
-    case = samples.worst("ring/1/1/7", "wrong", 3.1e6)
-    group = samples.group(
+    case = record_samples.worst("ring/1/1/7", "wrong", 3.1e6)
+    group = record_samples.group(
         "m", "float64", "ring", {"wrong": 1}, [case], spec="command:a b", failing=["wrong"], faults=[]
     )
-    (line,) = github.error_lines(samples.record([group], exit_code=1))
+    (line,) = github.error_lines(record_samples.record([group], exit_code=1))
     assert line.endswith("%0Areplay: hypcheck replay ring/1/1/7 'command:a b'")
 
 
@@ -80,7 +80,9 @@ def test_a_report_is_cut_at_the_end_of_a_line(texts, room):
 def test_a_report_of_more_than_a_mebibyte_is_cut_and_says_so(tmp_path):
     path = tmp_path / "summary.md"
     path.write_bytes(b"of an earlier command\n")
-    record = samples.record([samples.finding(f"f{n}", "ring", inside=True, reason=f"{n} " * 40) for n in range(6000)])
+    record = record_samples.record(
+        [record_samples.finding(f"f{n}", "ring", inside=True, reason=f"{n} " * 40) for n in range(6000)]
+    )
     assert len(markdown.render(record)) > 1 << 20
     assert github.append_summary(record, path) is None
     written = path.read_bytes()
@@ -92,7 +94,7 @@ def test_a_report_of_more_than_a_mebibyte_is_cut_and_says_so(tmp_path):
 
 
 def test_a_summary_that_cannot_be_written_is_told(tmp_path):
-    assert "no step summary" in github.append_summary(samples.record(), tmp_path)
+    assert "no step summary" in github.append_summary(record_samples.record(), tmp_path)
 
 
 def run(monkeypatch, tmp_path, capsys, *words, on=True):
@@ -142,4 +144,4 @@ def test_the_environment_says_whether_it_is_github():
 
 
 def test_the_sample_fails_nothing():
-    assert github.error_lines(samples.record()) == []
+    assert github.error_lines(record_samples.record()) == []

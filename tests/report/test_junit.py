@@ -9,15 +9,15 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given, settings
 
-from hypcheck.record.lines import Footer
+from hypcheck.messages import escaped
+from hypcheck.record.lines import FooterLine
 from hypcheck.report.junit import render
-from hypcheck.visible import visible
-from tests import report_samples as samples
+from tests.report import record_samples
 from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 
 
 def junit(*extra, exit_code=0, body=None):
-    return parsed(samples.record([*(samples.lines() if body is None else body), *extra], exit_code))
+    return parsed(record_samples.record([*(record_samples.lines() if body is None else body), *extra], exit_code))
 
 
 def parsed(record):
@@ -64,13 +64,13 @@ def test_the_numbers_add_up(root):
 def test_times_are_seconds_to_the_millisecond():
     root = junit()
     assert case(root, "oracles.nearest", "ring").get("time") == "0.250"
-    short = junit(body=[samples.oracle("exact", "ring", {"proved": 1}, seconds=0.0074)])
+    short = junit(body=[record_samples.oracle("exact", "ring", {"proved": 1}, seconds=0.0074)])
     assert case(short, "oracles.exact", "ring").get("time") == "0.007"
 
 
 def test_the_time_of_the_run_stands_once_and_a_case_that_was_not_timed_has_none():
-    _, record = samples.text_and_record(exit_code=0)
-    record = dataclasses.replace(record, footer=Footer(lines=9, exit_code=0, seconds=12.5))
+    _, record = record_samples.text_and_record(exit_code=0)
+    record = dataclasses.replace(record, footer=FooterLine(lines=9, exit_code=0, seconds=12.5))
     root = parsed(record)
     assert root.get("time") == "12.500"
     assert case(root, "run", "ended").get("time") == "11.500"  # the four oracles' 0.25 s have cases of their own
@@ -81,8 +81,8 @@ def test_the_time_of_the_run_stands_once_and_a_case_that_was_not_timed_has_none(
 @pytest.mark.parametrize(
     ("good", "bad"),
     [
-        (samples.group("fast", "float64", "tangent", {"right": 30}, exact=True), EXACT_WRONG),
-        (samples.group("theirs", "float64", "tangent", {"right": 30}), CRASHED),
+        (record_samples.group("fast", "float64", "tangent", {"right": 30}, exact=True), EXACT_WRONG),
+        (record_samples.group("theirs", "float64", "tangent", {"right": 30}), CRASHED),
         (None, DRIFT),
     ],
 )
@@ -121,7 +121,7 @@ def test_what_was_not_asked_is_skipped():
         ("hypcheck.oracles.mesh", "available"),
         ("hypcheck.implementations.table-2-float64", "tower-body"),
     ]
-    undecided = samples.oracle("mesh", "tangent", {"undecided": 4}, undecided=4)
+    undecided = record_samples.oracle("mesh", "tangent", {"undecided": 4}, undecided=4)
     assert ("hypcheck.oracles.mesh", "tangent") in ended(junit(undecided), "skipped")
 
 
@@ -151,8 +151,8 @@ def test_a_failure_says_how_to_look_at_it(line, suite):
 
 
 def test_every_disagreement_is_listed():
-    cases = [samples.disagreement("roots", f"tangent/1/1/{place}") for place in range(20)]
-    line = samples.oracle("roots", "tangent", {"signs suffice": 50}, cases=cases, disagreeing=33)
+    cases = [record_samples.disagreement("roots", f"tangent/1/1/{place}") for place in range(20)]
+    line = record_samples.oracle("roots", "tangent", {"signs suffice": 50}, cases=cases, disagreeing=33)
     (failure,) = junit(line, exit_code=6).iter("failure")
     assert failure.get("message").startswith("33 disagreements in 50 cases; first: ")
     assert all(f"case {each['case']}: " in failure.text for each in cases)
@@ -196,17 +196,17 @@ PLACES = (
 
 @pytest.mark.parametrize("old", PLACES)
 @settings(max_examples=25)
-@given(foreign=samples.FOREIGN)
+@given(foreign=record_samples.FOREIGN)
 def test_no_control_character_reaches_the_file(old, foreign):
     failing = [DISAGREEMENT, UNPROVED, EXACT_WRONG, DRIFT]
-    changed = samples.rewritten([*samples.lines(), *failing], old, foreign)
-    content = render(samples.record(changed, 6)).decode("utf-8")
+    changed = record_samples.rewritten([*record_samples.lines(), *failing], old, foreign)
+    content = render(record_samples.record(changed, 6)).decode("utf-8")
     root = ElementTree.fromstring(content)  # noqa: S314
     texts = [content, *(part for element in root.iter() for part in (element.text or "", *element.attrib.values()))]
     assert all(character == "\n" or character.isprintable() for text in texts for character in text)
 
 
-@given(samples.FOREIGN)
+@given(record_samples.FOREIGN)
 def test_a_name_comes_through(foreign):
-    root = parsed(samples.record(samples.rewritten(samples.lines(), "table-2-float32", foreign)))
-    assert visible(f"implementations.{foreign}") in [suite.get("name") for suite in root]
+    root = parsed(record_samples.record(record_samples.rewritten(record_samples.lines(), "table-2-float32", foreign)))
+    assert escaped(f"implementations.{foreign}") in [suite.get("name") for suite in root]

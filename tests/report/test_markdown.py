@@ -8,19 +8,19 @@ import pytest
 from hypothesis import example, given, settings
 from markdown_it import MarkdownIt
 
-from hypcheck.report import markup
+from hypcheck.messages import escaped
+from hypcheck.report import markdown
 from hypcheck.report.markdown import render
-from hypcheck.report.write import Around
-from hypcheck.visible import visible
-from tests import report_samples as samples
+from hypcheck.report.write import ReportContext
+from tests.report import record_samples
 from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 
 PARSER = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"])
 
 
 def report(*extra, exit_code=0, body=None, picture=()):
-    lines = [*(samples.lines() if body is None else body), *extra]
-    return render(samples.record(lines, exit_code), Around(picture)).decode("utf-8")
+    lines = [*(record_samples.lines() if body is None else body), *extra]
+    return render(record_samples.record(lines, exit_code), ReportContext(picture)).decode("utf-8")
 
 
 def headings(text):
@@ -39,7 +39,7 @@ def test_the_verdict_stands_first():
     assert report().splitlines()[:3] == [
         "# hypcheck verify",
         "",
-        f"**{samples.HELD}**",
+        f"**{record_samples.HELD}**",
     ]
     assert report(exit_code=None).splitlines()[2].startswith("**TRUNCATED: ")
 
@@ -113,7 +113,7 @@ def test_mathematical_findings_with_one_witness_share_a_line():
             "`out-of-regime/1/1/0`",
         ],
     ]
-    unknown = samples.finding("hessian", "ring", inside=True, reason=None)
+    unknown = record_samples.finding("hessian", "ring", inside=True, reason=None)
     assert "**not a known finding; cause: ring**" in report(unknown)
 
 
@@ -150,7 +150,7 @@ def test_timings():
         ["fast path", "how fast path works", "1,000", "80", "50 to 90", "0.5"],
         ["plain numpy formula", "how plain numpy formula works", "1,000", "100", "100 to 200", "1"],
     ]
-    alone = [line for line in samples.lines() if line.get("name") != "plain numpy formula"]
+    alone = [line for line in record_samples.lines() if line.get("name") != "plain numpy formula"]
     assert rows(report(body=alone), "Timings")[1][-1] == "–"
 
 
@@ -162,7 +162,7 @@ def test_the_picture_is_linked_only_where_it_was_written():
 
 def inline(text):
     """What a reader sees of a table's only cell, and of nothing more."""
-    tokens = PARSER.parse("\n".join(markup.table(["head"], [[text]])))
+    tokens = PARSER.parse("\n".join(markdown.table_lines(["head"], [[text]])))
     kinds = [token.type for token in tokens]
     assert kinds.count("td_open") == 1
     assert kinds.count("tr_open") == 2
@@ -170,48 +170,48 @@ def inline(text):
     return next(tokens[place + 1] for place, kind in enumerate(kinds) if kind == "td_open")
 
 
-@given(samples.FOREIGN)
+@given(record_samples.FOREIGN)
 @example("a|b")
 @example("\\|")
 @example("`|`")
 @example("**x** [y](z) <b> &amp; ~~s~~ `c`")
 def test_foreign_text_in_a_cell_means_itself(foreign):
-    children = inline(markup.text(foreign)).children
+    children = inline(markdown.escape_text(foreign)).children
     assert {child.type for child in children} <= {"text", "text_special"}
-    assert "".join(child.content for child in children) == visible(foreign)
+    assert "".join(child.content for child in children) == escaped(foreign)
 
 
-@given(samples.FOREIGN)
+@given(record_samples.FOREIGN)
 @example("a|b")
 @example("`")
 @example("\\")
 @example("<script>|")
 def test_foreign_code_in_a_cell_means_itself(foreign):
-    children = inline(markup.code(foreign)).children
+    children = inline(markdown.code_span(foreign)).children
     shown = "".join(child.content for child in children if child.type != "html_inline")
     assert {child.type for child in children} <= {"text", "text_special", "code_inline", "html_inline"}
     assert {child.content for child in children if child.type == "html_inline"} <= {"<code>", "</code>"}
-    assert shown == visible(foreign)
+    assert shown == escaped(foreign)
 
 
-@given(samples.FOREIGN)
+@given(record_samples.FOREIGN)
 @example("- x")
 @example("1. x")
 @example("# x")
 @example("===")
 def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
-    tokens = PARSER.parse("\n".join(markup.bullets([markup.text(foreign)])))
+    tokens = PARSER.parse("\n".join(markdown.bullet_lines([markdown.escape_text(foreign)])))
     kinds = [token.type for token in tokens if token.type.endswith("_open")]
     assert kinds in (["bullet_list_open", "list_item_open", "paragraph_open"], ["bullet_list_open", "list_item_open"])
-    assert (kinds[-1] == "paragraph_open") == bool(visible(foreign))
+    assert (kinds[-1] == "paragraph_open") == bool(escaped(foreign))
 
 
 @pytest.mark.parametrize("old", ["table-2-float32", "ring", "the ring: Δ = 0 without contact", "how fast path works"])
 @settings(max_examples=25)
-@given(foreign=samples.FOREIGN)
+@given(foreign=record_samples.FOREIGN)
 def test_foreign_text_breaks_no_table(old, foreign):
-    changed = samples.rewritten(samples.lines(), old, foreign)
-    text = render(samples.record(changed), Around(["map.svg"])).decode("utf-8")
+    changed = record_samples.rewritten(record_samples.lines(), old, foreign)
+    text = render(record_samples.record(changed), ReportContext(["map.svg"])).decode("utf-8")
     assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\ud800-\udfff]", text)
     for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
         lines = table.splitlines()

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from hypcheck.cli.main import main
-from hypcheck.report import overview
-from hypcheck.report.facts import benchmark_facts, claim_facts
-from hypcheck.report.write import Around
-from tests import report_samples as samples
+from hypcheck.report import markdown
+from hypcheck.report.terminal import benchmark_facts, claim_facts
+from hypcheck.report.write import ReportContext
+from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 from tests.report.test_benchmark import REFUSED
 
 
 def test_a_verification():
-    text = overview.render(samples.record(), Around(["map.svg"])).decode()
-    assert text.startswith(f"# hypcheck verify\n\n**{samples.HELD}**\n\n## Pictures\n")
+    text = markdown.render_overview(record_samples.record(), ReportContext(["map.svg"])).decode()
+    assert text.startswith(f"# hypcheck verify\n\n**{record_samples.HELD}**\n\n## Pictures\n")
     assert "- Equations of the paper: 1 of 2 hold; misprint: (12)." in text
     assert "](map.svg)" in text
-    assert "](" not in overview.render(samples.record()).decode()
+    assert "](" not in markdown.render_overview(record_samples.record()).decode()
 
 
 def test_a_benchmark():
-    text = overview.render(bench_record(), Around(["front.svg", "pareto.svg", "errors.svg"])).decode()
+    text = markdown.render_overview(bench_record(), ReportContext(["front.svg", "pareto.svg", "errors.svg"])).decode()
     order = [
         "## Which method to use when",
         "](front.svg)",
@@ -46,12 +46,12 @@ def test_what_a_benchmark_shows():
 
 
 def test_failures_come_first():
-    text = overview.render(bench_record([*bench_record().lines, REFUSED], 1)).decode()
+    text = markdown.render_overview(bench_record([*bench_record().lines, REFUSED], 1)).decode()
     assert text.index("## What failed") < text.index("## Which method to use when")
 
 
 def test_as_the_readme_of_a_run(tmp_path, capsys):
-    (tmp_path / "record.jsonl").write_text(samples.text_and_record()[0], encoding="utf-8")
+    (tmp_path / "record.jsonl").write_text(record_samples.text_and_record()[0], encoding="utf-8")
     (tmp_path / "map.svg").write_text("<svg/>", encoding="utf-8")
     assert main(["report", str(tmp_path), "--format", "overview", "--out", str(tmp_path / "README.md")]) == 0
     assert "](map.svg)" in (tmp_path / "README.md").read_text(encoding="utf-8")

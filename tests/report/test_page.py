@@ -14,14 +14,12 @@ from msgspec import structs
 
 from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import decoded
-from hypcheck.record.lines import Settings
-from hypcheck.report import markdown
-from hypcheck.report.content import failed
-from hypcheck.report.content.blocks import LONGEST
-from hypcheck.report.html import page
-from hypcheck.report.plots.table import PLOTS, draw
-from hypcheck.report.write import Around
-from tests import report_samples as samples
+from hypcheck.record.lines import SettingsPart
+from hypcheck.report import contents, html, markdown
+from hypcheck.report.document import LONGEST
+from hypcheck.report.plots.pictures import PLOTS, draw_plots
+from hypcheck.report.write import ReportContext
+from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 from tests.report.pages import page_of
 
@@ -144,18 +142,18 @@ def test_ids_are_ones_own_and_links_lead_somewhere(pages, name):
 
 def test_what_failed_stands_before_what_holds(no_plots):
     proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": "x"}
-    text = page.render(samples.record([*samples.lines(), proof], exit_code=6)).decode("utf-8")
+    text = html.render(record_samples.record([*record_samples.lines(), proof], exit_code=6)).decode("utf-8")
     assert text.index("verdict failed") < text.index("What failed") < text.rindex("The oracles")
-    assert "verdict held" in page.render(samples.record()).decode("utf-8")
-    assert "TRUNCATED" in page.render(samples.record(exit_code=None)).decode("utf-8")
+    assert "verdict held" in html.render(record_samples.record()).decode("utf-8")
+    assert "TRUNCATED" in html.render(record_samples.record(exit_code=None)).decode("utf-8")
 
 
 def test_failures_beyond_the_length_of_the_table_or_of_the_list_are_counted(no_plots, monkeypatch):
-    monkeypatch.setattr(failed, "IN_TABLE", 3)
-    monkeypatch.setattr(failed, "LISTED", 2)
+    monkeypatch.setattr(contents, "IN_TABLE", 3)
+    monkeypatch.setattr(contents, "LISTED", 2)
     proof = {"type": "proof", "formula": "f", "holds": False, "statement": "x"}
-    record = samples.record([{**proof, "quantity": f"quantity-{number}"} for number in range(9)], exit_code=6)
-    text = page.render(record).decode("utf-8")
+    record = record_samples.record([{**proof, "quantity": f"quantity-{number}"} for number in range(9)], exit_code=6)
+    text = html.render(record).decode("utf-8")
     assert "… and 6 more failures; <code>junit.xml</code> and <code>summary.json</code> list them all." in text
     assert "quantity-2" in text
     assert "quantity-3" not in text
@@ -164,23 +162,23 @@ def test_failures_beyond_the_length_of_the_table_or_of_the_list_are_counted(no_p
 
 def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_plots):
     weakened = [{"option": "--tolerance", "value": "1e+18", "default": "8", "source": "hypcheck.toml"}]
-    record = samples.record()
-    settings = decoded({"file": "hypcheck.toml", "weakened": weakened}, Settings)
+    record = record_samples.record()
+    settings = decoded({"file": "hypcheck.toml", "weakened": weakened}, SettingsPart)
     header = structs.replace(record.header, settings=settings)
-    text = page.render(replace(record, header=header)).decode("utf-8")
+    text = html.render(replace(record, header=header)).decode("utf-8")
     assert "weaker than the default: --tolerance 1e+18, not 8 (hypcheck.toml)." in text
     assert text.index("weaker than the default") < text.rindex("The oracles")
-    assert "Settings" not in page.render(record).decode("utf-8")
+    assert "Settings" not in html.render(record).decode("utf-8")
 
 
 def test_changes_stand_there_too(no_plots):
-    text = page.render(bench_record(), Around(against=bench_record())).decode("utf-8")
+    text = html.render(bench_record(), ReportContext(against=bench_record())).decode("utf-8")
     assert text.index("What changed") < text.index("Which method to use when")
 
 
 def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
-    records = (samples.record(), bench_record())
-    drawn = {name: [plot.name for record in records for plot in draw(name, record)] for name in PLOTS}
+    records = (record_samples.record(), bench_record())
+    drawn = {name: [plot.name for record in records for plot in draw_plots(name, record)] for name in PLOTS}
     assert all(drawn.values()), drawn
     names = [each for found in drawn.values() for each in found]
     assert len(names) == len(set(names))
@@ -195,9 +193,9 @@ def test_without_an_extra(monkeypatch, module, what):
     without(monkeypatch, module)
     if module == "jinja2":
         with pytest.raises(UnavailableError, match=r"hypcheck\[report\]"):
-            page.render(samples.record())
+            html.render(record_samples.record())
     else:
-        text = page.render(samples.record()).decode("utf-8")
+        text = html.render(record_samples.record()).decode("utf-8")
         assert what in text
         assert "<table" in text
         assert 'class="plot"' not in text

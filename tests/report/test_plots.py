@@ -7,12 +7,12 @@ from itertools import combinations
 
 import pytest
 
-from hypcheck.report.plots import curves, heat, labels, pareto
+from hypcheck.report.plots import curves, heat, pareto
 from hypcheck.report.plots.curves import TANGENT, Octave, curve, in_parts
-from hypcheck.report.plots.pareto import Point, front
-from hypcheck.report.plots.style import ROLES, decades, look, new_figure, power_of_ten, styled, ticks
-from hypcheck.report.plots.table import PLOTS, draw
-from tests import report_samples as samples
+from hypcheck.report.plots.pareto import ParetoPoint, front
+from hypcheck.report.plots.pictures import PLOTS, draw_plots
+from hypcheck.report.plots.style import ROLES, curve_style, decades, new_figure, power_of_ten, styled, ticks
+from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 
 
@@ -40,11 +40,11 @@ def test_each_role_has_a_colour_of_its_own():
 
 
 def test_curves_are_told_apart_without_colour():
-    looks = [look(place) for place in range(curves.AT_MOST)]
+    looks = [curve_style(place) for place in range(curves.AT_MOST)]
     for one, other in combinations(looks, 2):
         assert one.marker != other.marker
         assert one.dashes != other.dashes
-    assert len({(each.colour, each.marker, str(each.dashes)) for each in map(look, range(40))}) == 40
+    assert len({(each.colour, each.marker, str(each.dashes)) for each in map(curve_style, range(40))}) == 40
 
 
 def test_none_of_n_is_drawn_as_its_upper_limit():
@@ -66,7 +66,7 @@ def test_octaves_are_merged_where_they_are_many_and_nothing_is_lost():
 def test_a_curve_s_marks_stand_where_their_octaves_are():
     found = curve("m", {-9.0: (10, 5), -5.0: (100, 1), -1.0: (1000, 0)})
     with styled():
-        plot = curves.plot("p", "title", [found])
+        plot = curves.curve_plot("p", "title", [found])
     axes = plot.figure.axes[0]
     marks = {line.get_gid(): line for line in axes.lines if line.get_gid()}
     assert [list(line) for line in zip(*marks["p-0-wrong"].get_data(), strict=True)] == [[-8.5, 0.5], [-4.5, 0.01]]
@@ -103,20 +103,20 @@ def test_cells_are_merged_by_sums_also_below_zero():
 
 def test_the_front_is_what_no_other_beats():
     points = [
-        Point("fast", "C", 1.0, 1e-3, 5000, exact=False),
-        Point("beaten", "C", 2.0, 1e-2, 5000, exact=False),
-        Point("alike", "C", 2.0, 1e-3, 5000, exact=False),
-        Point("better", "C", 3.0, 1e-6, 5000, exact=False),
-        Point("never wrong", "numpy", 9.0, 0.0, 5000, exact=False),
-        Point("slow and sure", "numpy", 10.0, 0.0, 5000, exact=False),
-        Point("useless", "FCL", 20.0, math.inf, 5000, exact=False),
+        ParetoPoint("fast", "C", 1.0, 1e-3, 5000, exact=False),
+        ParetoPoint("beaten", "C", 2.0, 1e-2, 5000, exact=False),
+        ParetoPoint("alike", "C", 2.0, 1e-3, 5000, exact=False),
+        ParetoPoint("better", "C", 3.0, 1e-6, 5000, exact=False),
+        ParetoPoint("never wrong", "numpy", 9.0, 0.0, 5000, exact=False),
+        ParetoPoint("slow and sure", "numpy", 10.0, 0.0, 5000, exact=False),
+        ParetoPoint("useless", "FCL", 20.0, math.inf, 5000, exact=False),
     ]
     assert [point.name for point in front(points)] == ["fast", "better", "never wrong"]
 
 
 def test_few_answers_are_drawn_hollow():
-    assert Point("a", "C", 1.0, 0.0, pareto.ENOUGH, exact=False).shown
-    assert not Point("a", "C", 1.0, 0.0, pareto.ENOUGH - 1, exact=False).shown
+    assert ParetoPoint("a", "C", 1.0, 0.0, pareto.ENOUGH, exact=False).shown
+    assert not ParetoPoint("a", "C", 1.0, 0.0, pareto.ENOUGH - 1, exact=False).shown
     assert 3 / pareto.ENOUGH == 1 / 1000
 
 
@@ -127,7 +127,7 @@ def test_labels_cover_neither_each_other_nor_points_nor_lines():
         drawn = new_figure(380, 300)
         axes = drawn.subplots()
         axes.set(xlim=(0, 1), ylim=(0, 1))
-        labels.place(axes, points, [f"name {number}" for number in range(len(points))], lines)
+        pareto.place_labels(axes, points, [f"name {number}" for number in range(len(points))], lines)
         renderer = drawn.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in axes.texts]
         places = [axes.transData.transform(point) for point in points]
@@ -159,7 +159,7 @@ def test_powers_of_ten():
 
 @pytest.mark.parametrize("name", PLOTS)
 def test_every_plot_has_named_axes_words_and_tooltips(name):
-    found = [plot for record in (samples.record(), bench_record()) for plot in draw(name, record)]
+    found = [plot for record in (record_samples.record(), bench_record()) for plot in draw_plots(name, record)]
     assert found
     for plot in found:
         assert plot.title
@@ -175,4 +175,4 @@ def test_every_plot_has_named_axes_words_and_tooltips(name):
 
 def test_without_their_lines_there_are_no_plots():
     for name in PLOTS:
-        assert list(draw(name, samples.record([]))) == []
+        assert list(draw_plots(name, record_samples.record([]))) == []

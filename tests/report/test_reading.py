@@ -11,23 +11,22 @@ from hypcheck.record import plain
 from hypcheck.record.reader import notes, read
 from hypcheck.record.schema import schema
 from hypcheck.report.write import REPORTS
-from tests import report_samples as samples
-from tests.records import resealed
-from tests.report import bench_lines
+from tests.report import bench_lines, record_samples
+from tests.support.records import resealed
 
 REQUIRED = {name: part.get("required", ()) for name, part in schema()["$defs"].items()}
 """The fields that each type of line must have."""
 
 
 def written(tmp_path, body=None, **header):
-    first, *_, last = map(json.loads, samples.text_and_record()[0].splitlines())
-    lines = plain(samples.lines() if body is None else body)
+    first, *_, last = map(json.loads, record_samples.text_and_record()[0].splitlines())
+    lines = plain(record_samples.lines() if body is None else body)
     path = tmp_path / "record.jsonl"
     path.write_bytes(resealed([{**first, **header}, *lines, {**last, "lines": len(lines) + 2}]))
     return path
 
 
-@pytest.mark.parametrize("body", [samples.lines(), bench_lines.lines()])
+@pytest.mark.parametrize("body", [record_samples.lines(), bench_lines.lines()])
 def test_a_record_from_its_file_or_its_folder(tmp_path, body):
     path = written(tmp_path, body)
     assert read(path) == read(tmp_path)
@@ -51,13 +50,13 @@ def test_a_record_from_its_file_or_its_folder(tmp_path, body):
         ("equation", {"verdict": "odd"}, 'verdict is "odd"; it must be a text out of holds, misprint, false'),
         (
             "group",
-            {"worst": [samples.worst("x", "wrong", "inf") | {"backward_error": "nan"}]},
+            {"worst": [record_samples.worst("x", "wrong", "inf") | {"backward_error": "nan"}]},
             "worst[0].backward_error",
         ),
     ],
 )
 def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
-    body = [{**line, **spoilt} if line["type"] == kind else line for line in samples.lines()]
+    body = [{**line, **spoilt} if line["type"] == kind else line for line in record_samples.lines()]
     number = 2 + next(place for place, line in enumerate(body) if line["type"] == kind)
     with pytest.raises(InputError) as caught:
         read(written(tmp_path, body))
@@ -90,9 +89,9 @@ def test_constants_that_are_no_json_are_refused(tmp_path, constant):
 
 def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
     """Whatever is left out, there is a sentence or a report."""
-    every = [*samples.lines(), *bench_lines.lines()]
+    every = [*record_samples.lines(), *bench_lines.lines()]
     first = {line["type"]: line for line in reversed(every)}
-    header, *lines = map(json.loads, samples.text_and_record(list(first.values()))[0].splitlines())
+    header, *lines = map(json.loads, record_samples.text_and_record(list(first.values()))[0].splitlines())
     path = tmp_path / "record.jsonl"
     path.write_bytes(resealed([header, *lines]))
     read(path)
@@ -106,7 +105,7 @@ def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
 
 
 def test_other_versions(tmp_path):
-    later = read(written(tmp_path, [*samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
+    later = read(written(tmp_path, [*record_samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
     assert notes(later) == [
         "the record has schema 1.9.0, later than this program's 1.4.0; what it adds is not shown",
     ]
@@ -121,7 +120,7 @@ def test_other_versions(tmp_path):
 
 
 def test_a_truncated_record_is_noted(tmp_path):
-    text, _ = samples.text_and_record(exit_code=None)
+    text, _ = record_samples.text_and_record(exit_code=None)
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
     assert "interrupted" in notes(read(path))[0]

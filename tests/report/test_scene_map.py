@@ -14,31 +14,30 @@ from matplotlib.colors import to_rgb
 
 from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import Map
-from hypcheck.report.pictures import map as picture
-from hypcheck.report.plots import scene_map
+from hypcheck.record.lines import MapLine
+from hypcheck.report.plots import half_plane, pictures
 from hypcheck.report.plots.style import styled
-from tests import report_samples as samples
+from tests.report import record_samples
 
 
 def maps(body=None):
-    return samples.record(body).of(Map)
+    return record_samples.record(body).of(MapLine)
 
 
 def of_figure(body=None):
     with styled():
-        return scene_map.together(samples.record(body)).figure
+        return half_plane.maps_together(record_samples.record(body)).figure
 
 
 def test_it_is_svg_without_a_date():
-    content = picture.render(samples.record())
+    content = pictures.render_map(record_samples.record())
     assert ElementTree.fromstring(content).tag == "{http://www.w3.org/2000/svg}svg"  # noqa: S314 - just written
     assert b"<dc:date>" not in content
     assert b"Matplotlib v" not in content
 
 
 def test_each_grid_point_has_its_colour():
-    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in scene_map.REGIONS.items()}
+    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in half_plane.REGIONS.items()}
     panels = [axes for axes in of_figure().axes if axes.images]
     assert len(panels) == len(maps())
     for axes, line in zip(panels, maps(), strict=True):
@@ -46,7 +45,7 @@ def test_each_grid_point_has_its_colour():
         assert axes.images[0].origin == "lower"  # the first line is the lowest z
         for up, text in enumerate(line.lines):
             for across, letter in enumerate(text):
-                wanted = to_rgb(scene_map.WRONG) if letter.isupper() else colours[letter]
+                wanted = to_rgb(half_plane.WRONG) if letter.isupper() else colours[letter]
                 assert np.allclose(image[up, across], [*wanted, 1])
 
 
@@ -84,7 +83,7 @@ def test_colours_differ_in_lightness():
     """Whoever sees no colours, or prints without them, still tells them apart."""
     lightness = sorted(
         float(np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)))
-        for colour in (scene_map.WRONG, *(colour for _, colour in scene_map.REGIONS.values()))
+        for colour in (half_plane.WRONG, *(colour for _, colour in half_plane.REGIONS.values()))
     )
     assert min(np.diff(lightness)) > 0.11
     assert lightness[1] - lightness[0] > 0.25  # what is wrong stands out
@@ -93,17 +92,17 @@ def test_colours_differ_in_lightness():
 def test_nobodys_settings_are_used_or_changed():
     import matplotlib
 
-    drawn = picture.render(samples.record())
+    drawn = pictures.render_map(record_samples.record())
 
     with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red"}):
         before = dict(matplotlib.rcParams)
-        assert picture.render(samples.record()) == drawn
+        assert pictures.render_map(record_samples.record()) == drawn
         assert dict(matplotlib.rcParams) == before
 
 
 def test_without_a_map_there_is_no_picture():
     with pytest.raises(UnavailableError, match="has no map"):
-        picture.render(samples.record([]))
+        pictures.render_map(record_samples.record([]))
 
 
 def test_without_matplotlib_there_is_a_reason(monkeypatch):
@@ -116,7 +115,7 @@ def test_without_matplotlib_there_is_a_reason(monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(UnavailableError) as caught:
-        picture.render(samples.record())
+        pictures.render_map(record_samples.record())
     assert "matplotlib" in str(caught.value)
     assert "hypcheck[report]" in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -128,8 +127,8 @@ def test_it_is_loaded_only_where_it_is_used():
 
 
 @settings(max_examples=4)
-@given(foreign=samples.FOREIGN)
+@given(foreign=record_samples.FOREIGN)
 def test_any_name_can_be_drawn(foreign):
-    body = samples.rewritten([as_json(line) for line in maps()], "table-2-float32", f"${foreign}$ \\frac")
-    content = picture.render(samples.record(body))
+    body = record_samples.rewritten([as_json(line) for line in maps()], "table-2-float32", f"${foreign}$ \\frac")
+    content = pictures.render_map(record_samples.record(body))
     ElementTree.fromstring(content)  # noqa: S314

@@ -9,9 +9,8 @@ from importlib import resources
 
 import pytest
 
-from hypcheck.bench.rounds import measure
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.derivation.printed import EquationCheck
+from hypcheck.bench.timing import measure
+from hypcheck.derivation.printed_equations import EquationCheck
 from hypcheck.derivation.proofs import Proof
 from hypcheck.errors import RunOutcome
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
@@ -20,14 +19,13 @@ from hypcheck.record.fields import as_json
 from hypcheck.record.reader import LINES
 from hypcheck.record.schema import text
 from hypcheck.report import summary
-from hypcheck.verify import run
-from hypcheck.verify.contenders import Contender
-from hypcheck.verify.contenders import line as timing_line
-from hypcheck.verify.plan import Plan
-from tests import report_samples as samples
-from tests.published_schemas import PUBLISHED
-from tests.report import bench_lines
-from tests.schemas import violations
+from hypcheck.runs import self_check
+from hypcheck.runs.findings import SelfCheckPlan
+from hypcheck.runs.self_check import TimedMethod, timing_line
+from hypcheck.vectors.families import FAMILIES
+from tests.report import bench_lines, record_samples
+from tests.support.records import violations
+from tests.tools.published_schemas import PUBLISHED
 
 
 def schema(name):
@@ -66,7 +64,7 @@ def test_a_published_schema_is_that_of_the_classes(file):
 
 
 def test_every_line_of_the_sample_fits():
-    text, _ = samples.text_and_record()
+    text, _ = record_samples.text_and_record()
     kinds = set()
     for line in lines_of(text):
         assert violations(line, RECORD, closed=True) == []
@@ -90,7 +88,7 @@ def test_a_line_that_fits_an_older_schema_fits_this_one(version):
         before, now = older["$defs"][kind], RECORD["$defs"][kind]
         assert set(now["required"]) <= set(before["required"])
         assert set(before["properties"]) <= set(now["properties"])
-    for line in [*samples.lines(), *bench_lines.lines()]:
+    for line in [*record_samples.lines(), *bench_lines.lines()]:
         if line["type"] in kinds:
             assert violations(plain(line), older) == violations(plain(line), RECORD) == []
 
@@ -104,10 +102,10 @@ def test_an_implementation_that_was_not_started_has_nothing_but_its_trouble():
 @pytest.fixture(scope="module")
 def really_recorded():
     """A small run of the oracles, the formulas, the methods and the map, without the slow derivation and timing."""
-    plan = Plan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
+    plan = SelfCheckPlan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
     stream = io.StringIO()
-    recorder, outcome = Recorder(stream, run.options(plan)), RunOutcome()
-    for stage in run.stages(plan, recorder, outcome):
+    recorder, outcome = Recorder(stream, self_check.options(plan)), RunOutcome()
+    for stage in self_check.stages(plan, recorder, outcome):
         if stage.title not in ("derivation", "timing"):
             stage.run(lambda steps: None)
     recorder.close(outcome.exit_code)
@@ -134,7 +132,7 @@ def test_lines_of_the_derivation_have_the_fields_of_their_values(kind, type_):
 
 def test_a_timing_line_is_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
-    contender = Contender("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
+    contender = TimedMethod("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
     *_, (_, (timing,)) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
     line = json.loads(json.dumps(as_json(timing_line(contender, timing))))
     assert violations(line, RECORD, closed=True) == []
@@ -142,10 +140,10 @@ def test_a_timing_line_is_a_timing():
 
 def truncated_early():
     """What is left of a run that was interrupted at once."""
-    return replace(samples.record([], exit_code=None), lines=())
+    return replace(record_samples.record([], exit_code=None), lines=())
 
 
-@pytest.mark.parametrize("record", [samples.record(), samples.record(exit_code=None), truncated_early()])
+@pytest.mark.parametrize("record", [record_samples.record(), record_samples.record(exit_code=None), truncated_early()])
 def test_summaries_fit(record):
     assert violations(of_summary(record), SUMMARY, closed=True) == []
 
@@ -168,7 +166,7 @@ def test_summaries_fit(record):
     ],
 )
 def test_a_spoilt_summary_does_not_fit(spoil):
-    found = of_summary(samples.record())
+    found = of_summary(record_samples.record())
     spoil(found)
     assert violations(found, SUMMARY, closed=True)
 
@@ -190,5 +188,5 @@ def test_a_spoilt_summary_does_not_fit(spoil):
     ],
 )
 def test_a_spoilt_line_does_not_fit(kind, field, value):
-    line = next(line for line in samples.lines() if line["type"] == kind)
+    line = next(line for line in record_samples.lines() if line["type"] == kind)
     assert violations({**line, field: value}, RECORD)

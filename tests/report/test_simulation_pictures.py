@@ -12,9 +12,9 @@ import pytest
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
+from hypcheck.report.plots import forest_walk, tower
 from hypcheck.report.plots.style import colour, styled
 from hypcheck.report.plots.svg import standalone
-from hypcheck.report.simulation import forest, tower
 from hypcheck.scene.reading import read_scene
 
 TOWER = read_scene("tower")
@@ -35,8 +35,8 @@ RESULTS = {
     "tower": lambda: (tower, flown()),
     "tower without a table": lambda: (tower, flown(runs=0)),
     "simplest": lambda: (tower, flown(read_scene("tower-simplest"), runs=0)),
-    "forest": lambda: (forest, walked(1500)),
-    "forest without phantoms": lambda: (forest, walked(15)),
+    "forest": lambda: (forest_walk, walked(1500)),
+    "forest without phantoms": lambda: (forest_walk, walked(15)),
 }
 
 
@@ -105,7 +105,7 @@ def test_the_table_is_drawn_over_the_step():
 def test_every_stop_and_the_rings_of_guilty_trees_are_drawn():
     result = walked(1500)
     with styled():
-        plot, _ = forest.plots(result)
+        plot, _ = forest_walk.plots(result)
     above, wall = plot.figure.axes
     drawn = {each.get_label(): each.get_offsets() for each in above.collections}
     for kind, label in (("contact", "rightly refused"), ("phantom", "stopped by a phantom")):
@@ -127,14 +127,14 @@ def test_the_kinds_of_trees_differ_in_lightness():
     """Whoever sees no colours still tells them apart."""
     from matplotlib.colors import to_rgb
 
-    light = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour(paint))) for _, paint in forest.TRUNKS.values()]
+    light = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour(paint))) for _, paint in forest_walk.TRUNKS.values()]
     assert abs(light[0] - light[1]) > 0.25
 
 
 @pytest.mark.parametrize("name", ["tower-flights", "forest-walk", "forest-space"])
 def test_first_contacts_are_marked_where_they_are(name):
     contact = {"start": [0.0, 1.0, 2.0], "end": [1.0, 1.0, 0.0], "first_lower": 0.25, "first_upper": 0.25}
-    module, result = (tower, flown(runs=0)) if name.startswith("tower") else (forest, walked(15))
+    module, result = (tower, flown(runs=0)) if name.startswith("tower") else (forest_walk, walked(15))
     if name.startswith("tower"):
         result = {**result, "flights": {**result["flights"], "ways": {"contacts": [contact]}}}
     else:

@@ -7,7 +7,7 @@ import json
 from hypothesis import given
 
 from hypcheck.report.summary import render
-from tests import report_samples as samples
+from tests.report import record_samples
 
 
 def summary(record):
@@ -16,7 +16,7 @@ def summary(record):
 
 def test_the_contract():
     """The fields that other people's programs read."""
-    found = summary(samples.record())
+    found = summary(record_samples.record())
     assert (found["schema"], found["exit_code"], found["passed"], found["truncated"]) == ("1.2.0", 0, True, False)
     low = next(each for each in found["implementations"] if each["name"] == "table-2-float32")
     families = low.pop("families")
@@ -49,14 +49,14 @@ def test_the_contract():
 
 
 def test_an_implementation_is_the_sum_of_its_families():
-    for each in summary(samples.record())["implementations"]:
+    for each in summary(record_samples.record())["implementations"]:
         for field in ("asked", "right", "tolerated", "wrong", "excused"):
             assert each[field] == sum(family[field] for family in each["families"].values())
         assert each["asked"] == sum(number for status, number in each["statuses"].items() if status != "skipped")
 
 
 def test_oracles():
-    found = summary(samples.record())["oracles"]
+    found = summary(record_samples.record())["oracles"]
     assert list(found) == ["exact", "nearest", "roots", "mesh"]
     for each in found.values():
         assert each["asked"] == each["agreed"] + each["undecided"] + each["disagreements"]
@@ -67,7 +67,7 @@ def test_oracles():
 
 
 def test_what_was_found():
-    found = summary(samples.record())
+    found = summary(record_samples.record())
     assert found["equations"] == {"holds": ["1"], "misprint": ["12"], "false": []}
     assert found["proofs"] == {"asked": 2, "hold": 2, "fail": 0}
     assert found["findings"] == {
@@ -76,12 +76,12 @@ def test_what_was_found():
         "unlisted": 0,
         "drift": [],
     }
-    unknown = samples.finding("hessian", "ring", inside=True, reason=None)
-    assert summary(samples.record([*samples.lines(), unknown], 1))["findings"]["unlisted"] == 1
+    unknown = record_samples.finding("hessian", "ring", inside=True, reason=None)
+    assert summary(record_samples.record([*record_samples.lines(), unknown], 1))["findings"]["unlisted"] == 1
 
 
 def test_an_interrupted_run_has_no_exit_code_and_has_not_passed():
-    found = summary(samples.record(exit_code=None))
+    found = summary(record_samples.record(exit_code=None))
     assert (found["exit_code"], found["seconds"]) == (None, None)
     assert found["truncated"]
     assert not found["passed"]
@@ -91,14 +91,17 @@ def test_the_order_of_keys_does_not_depend_on_the_run():
     def keys(value):
         return [(name, keys(part)) for name, part in value.items()] if isinstance(value, dict) else None
 
-    one, other = summary(samples.record()), summary(samples.record([], 6))
+    one, other = summary(record_samples.record()), summary(record_samples.record([], 6))
     assert list(one) == list(other)
     assert keys(one["findings"]) == keys(other["findings"])
-    assert render(samples.record()).partition(b'"oracles"')[2] == render(samples.record()).partition(b'"oracles"')[2]
+    assert (
+        render(record_samples.record()).partition(b'"oracles"')[2]
+        == render(record_samples.record()).partition(b'"oracles"')[2]
+    )
 
 
-@given(samples.FOREIGN)
+@given(record_samples.FOREIGN)
 def test_any_name_makes_json_in_utf_8(name):
-    changed = samples.rewritten(samples.lines(), "table-2-float32", name)
-    found = json.loads(render(samples.record(changed)).decode("utf-8"))
+    changed = record_samples.rewritten(record_samples.lines(), "table-2-float32", name)
+    found = json.loads(render(record_samples.record(changed)).decode("utf-8"))
     assert name.encode("utf-8", "replace").decode("utf-8") in [each["name"] for each in found["implementations"]]

@@ -9,26 +9,25 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
-from hypcheck.report.write import Written
-from tests import report_samples as samples
-from tests.report import bench_lines
+from hypcheck.report.write import WrittenReport
+from tests.report import bench_lines, record_samples
 from tests.report.test_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
 
 WRITTEN = [
-    Written(Path("out/summary.json")),
-    Written(Path("out/map.svg"), "no matplotlib"),
-    Written(Path("out/report.md")),
+    WrittenReport(Path("out/summary.json")),
+    WrittenReport(Path("out/map.svg"), "no matplotlib"),
+    WrittenReport(Path("out/report.md")),
 ]
 
 
 def shown(*extra, exit_code=0, body=None, options=None, **how):
-    lines = [*(samples.lines() if body is None else body), *extra]
-    return summary_lines(samples.record(lines, exit_code, options), WRITTEN, **how)
+    lines = [*(record_samples.lines() if body is None else body), *extra]
+    return summary_lines(record_samples.record(lines, exit_code, options), WRITTEN, **how)
 
 
 def test_a_run_that_held():
     assert shown() == [
-        samples.HELD,
+        record_samples.HELD,
         "oracles in agreement: exact 40 of 40, nearest 40 of 40, roots 3 of 5",
         "oracles not available: mesh (python-fcl cannot be imported)",
         "equations of the paper: 1 of 2 hold; misprint: (12)",
@@ -70,7 +69,7 @@ def test_a_summary_in_a_pipe_or_a_file_is_cut_nowhere():
     assert not any("…" in line for line in lines)
 
 
-ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [samples.worst("ring/1/1/7", "tolerated", 9.0e15)]}
+ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [record_samples.worst("ring/1/1/7", "tolerated", 9.0e15)]}
 
 
 @pytest.mark.parametrize(
@@ -82,7 +81,7 @@ ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [samples.worst("ring/1/1
             "0 of 1 method beyond the tolerance of 1.0e18 u; farthest off: m, 9.0e15 u at ring/1/1/7 (tolerated)",
         ),
         (
-            {"counts": {"right": 9, "excused": 1}, "cases": [samples.worst("r/7", "excused", 9.0e15)]},
+            {"counts": {"right": 9, "excused": 1}, "cases": [record_samples.worst("r/7", "excused", 9.0e15)]},
             {"tolerance": 8.0},
             "0 of 1 method beyond the tolerance of 8 u; farthest off: m, 9.0e15 u at r/7 (excused as a known failure)",
         ),
@@ -99,7 +98,7 @@ ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [samples.worst("ring/1/1
     ],
 )
 def test_the_answer_farthest_off_says_why_it_is_not_beyond_the_tolerance(group, options, says):
-    lines = shown(body=[samples.group("m", "float64", "ring", **group)], options=options)
+    lines = shown(body=[record_samples.group("m", "float64", "ring", **group)], options=options)
     assert f"float64: {says}" in lines
 
 
@@ -113,8 +112,8 @@ def test_colour_only_where_it_is_asked_for(code):
 
 @pytest.mark.parametrize("old", ["table-2-float32", "ring/1/1/7", "python-fcl cannot be imported", "fast path", "ring"])
 @settings(max_examples=25)
-@given(foreign=samples.FOREIGN)
+@given(foreign=record_samples.FOREIGN)
 def test_foreign_text_does_nothing_to_the_terminal(old, foreign):
-    changed = samples.rewritten([*samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
-    for line in summary_lines(samples.record(changed, 6), WRITTEN):
+    changed = record_samples.rewritten([*record_samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
+    for line in summary_lines(record_samples.record(changed, 6), WRITTEN):
         assert line.isprintable()

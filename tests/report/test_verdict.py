@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import pytest
 
-from hypcheck.report.digest import implementations, oracle_totals, timing_totals
+from hypcheck.report.model import implementations, oracle_totals, timing_totals
 from hypcheck.report.verdict import failures, verdict
-from tests import report_samples as samples
+from tests.report import record_samples
 
 
 def of(*extra, exit_code=0, body=None):
-    return samples.record([*(samples.lines() if body is None else body), *extra], exit_code)
+    return record_samples.record([*(record_samples.lines() if body is None else body), *extra], exit_code)
 
 
-DISAGREEMENT = samples.oracle(
-    "nearest", "tangent", {"exact": 5}, cases=[samples.disagreement("nearest", "tangent/1/1/3")]
+DISAGREEMENT = record_samples.oracle(
+    "nearest", "tangent", {"exact": 5}, cases=[record_samples.disagreement("nearest", "tangent/1/1/3")]
 )
 UNPROVED = {"type": "proof", "formula": "hessian", "quantity": "delta_3", "holds": False, "statement": "it is 3Δ"}
-EXACT_WRONG = samples.group(
+EXACT_WRONG = record_samples.group(
     "fast",
     "float64",
     "tangent",
     {"right": 4, "wrong": 1},
-    [samples.worst("tangent/1/1/0", "wrong", 0.0, answer=1, truth=0, mistake="false-clear")],
+    [record_samples.worst("tangent/1/1/0", "wrong", 0.0, answer=1, truth=0, mistake="false-clear")],
     exact=True,
 )
-EXACT_ABSTAINS = samples.group("fast", "float64", "tangent", {"abstained": 2, "right": 3}, exact=True)
-CRASHED = samples.group("theirs", "float32", "tangent", {"crash": 2, "right": 3})
+EXACT_ABSTAINS = record_samples.group("fast", "float64", "tangent", {"abstained": 2, "right": 3}, exact=True)
+CRASHED = record_samples.group("theirs", "float32", "tangent", {"crash": 2, "right": 3})
 DRIFT = {"type": "drift", "sentence": "table-2 errs on uniform inside its stated regimes; see uniform/1/1/4"}
 TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no pass."
 
@@ -34,17 +34,21 @@ TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no
 def test_all_held():
     found = verdict(of())
     assert found.passed
-    assert found.sentence == samples.HELD
+    assert found.sentence == record_samples.HELD
     assert failures(of()) == []
 
 
 def test_one_oracle_alone_agrees_with_nobody():
-    body = [samples.oracle("exact", "ring", {"proved": 20})]
+    body = [record_samples.oracle("exact", "ring", {"proved": 20})]
     assert verdict(of(body=body)).sentence == "HELD: 20 cases asked of exact and of no other oracle."
 
 
 def test_what_the_papers_formulas_get_wrong_fails_nothing():
-    body = [line for line in samples.lines() if line["type"] in ("finding", "equation") or not line.get("exact", True)]
+    body = [
+        line
+        for line in record_samples.lines()
+        if line["type"] in ("finding", "equation") or not line.get("exact", True)
+    ]
     assert {line["type"] for line in body} == {"finding", "equation", "group"}
     assert any("wrong" in line.get("counts", {}) for line in body)
     assert verdict(of(body=body)).passed
@@ -85,8 +89,8 @@ def test_several_failures_are_counted_worst_first():
 
 
 def test_cases_that_the_record_did_not_keep_are_counted():
-    line = samples.oracle(
-        "roots", "tangent", {"signs suffice": 50}, cases=[samples.disagreement("roots")] * 20, disagreeing=33
+    line = record_samples.oracle(
+        "roots", "tangent", {"signs suffice": 50}, cases=[record_samples.disagreement("roots")] * 20, disagreeing=33
     )
     assert "33 disagreements of oracles" in verdict(of(line, exit_code=6)).sentence
     assert sum(failure.count for failure in failures(of(line))) == 33
@@ -116,27 +120,27 @@ def test_no_other_end_is_a_pass(extra, code, sentence):
 
 
 def test_nothing_asked_is_no_pass():
-    assert verdict(samples.record([])).sentence == "NOTHING was asked and nothing was judged: this is no pass."
-    assert not verdict(samples.record([])).passed
-    skipped = [samples.group("fast", "float64", "ring", {"skipped": 9}, exact=True)]
-    assert not verdict(samples.record(skipped)).passed
+    assert verdict(record_samples.record([])).sentence == "NOTHING was asked and nothing was judged: this is no pass."
+    assert not verdict(record_samples.record([])).passed
+    skipped = [record_samples.group("fast", "float64", "ring", {"skipped": 9}, exact=True)]
+    assert not verdict(record_samples.record(skipped)).passed
 
 
 def test_an_oracles_counts_add_up():
-    refused = samples.disagreement("exact", opinion="certificate refused")
+    refused = record_samples.disagreement("exact", opinion="certificate refused")
     body = [
-        samples.oracle("exact", "ring", {"proved": 7, "certificate refused": 1}, undecided=1, cases=[refused]),
-        samples.oracle("exact", "tangent", {"proved": 4}),
-        samples.oracle("mesh", "ring", {"clear": 3, "undecided": 2}, undecided=2),
+        record_samples.oracle("exact", "ring", {"proved": 7, "certificate refused": 1}, undecided=1, cases=[refused]),
+        record_samples.oracle("exact", "tangent", {"proved": 4}),
+        record_samples.oracle("mesh", "ring", {"clear": 3, "undecided": 2}, undecided=2),
     ]
-    exact, mesh = oracle_totals(samples.record(body))
+    exact, mesh = oracle_totals(record_samples.record(body))
     assert (exact.asked, exact.agreed, exact.undecided, exact.disagreements) == (12, 11, 0, 1)
     assert (mesh.asked, mesh.agreed, mesh.undecided, mesh.disagreements) == (5, 3, 2, 0)
     assert exact.stages == {"certificate refused": 1, "proved": 11}
 
 
 def test_an_implementations_totals():
-    fast, low, high = implementations(samples.record())
+    fast, low, high = implementations(record_samples.record())
     assert (fast.name, fast.exact, fast.asked, fast.worst) == ("fast", True, 40, None)
     assert (low.spec, low.asked) == ("builtin:table-2-float32", 39)
     assert list(low.statuses.items()) == [("right", 28), ("tolerated", 5), ("wrong", 6), ("skipped", 1)]
@@ -147,9 +151,9 @@ def test_an_implementations_totals():
 
 
 def test_a_ratio_is_taken_round_by_round():
-    fast, plain = timing_totals(samples.record())
+    fast, plain = timing_totals(record_samples.record())
     assert plain.ratio == 1
     assert fast.ratio == 0.5  # the median of 0.5, 0.9 and 0.4
     assert (fast.least_ns, fast.median_ns, fast.greatest_ns) == (50, 80, 90)
-    alone = [line for line in samples.lines() if line.get("name") != "plain numpy formula"]
-    assert timing_totals(samples.record(alone))[0].ratio is None
+    alone = [line for line in record_samples.lines() if line.get("name") != "plain numpy formula"]
+    assert timing_totals(record_samples.record(alone))[0].ratio is None

@@ -8,19 +8,18 @@ import pytest
 
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
-from hypcheck.record.lines import Map
-from hypcheck.report import junit, markdown, summary, table_csv
-from hypcheck.report.html import page
-from hypcheck.report.pictures import map as picture
-from hypcheck.report.write import REPORTS, Around, write_reports
-from tests import report_samples as samples
+from hypcheck.record.lines import MapLine
+from hypcheck.report import csv, html, junit, markdown, summary
+from hypcheck.report.plots import pictures
+from hypcheck.report.write import REPORTS, ReportContext, write_reports
+from tests.report import record_samples
 
 FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv"}
 TEXTS = ("json", "junit", "markdown", "csv")
 
 
 def test_all_of_them(tmp_path):
-    record = samples.record()
+    record = record_samples.record()
     written = write_reports(record, tmp_path / "a" / "b")
     assert {each.path.name for each in written} == FILES == set(os.listdir(tmp_path / "a" / "b"))
     assert {each.skipped for each in written} == {None}
@@ -28,16 +27,16 @@ def test_all_of_them(tmp_path):
     assert contents == {
         "summary.json": summary.render(record),
         "junit.xml": junit.render(record),
-        "map.svg": picture.render(record),
-        "report.md": markdown.render(record, Around(["map.svg"])),
-        "report.html": page.render(record),
-        "measurements.csv": table_csv.render(record),
+        "map.svg": pictures.render_map(record),
+        "report.md": markdown.render(record, ReportContext(["map.svg"])),
+        "report.html": html.render(record),
+        "measurements.csv": csv.render(record),
     }
     assert b"](map.svg)" in contents["report.md"]
 
 
 def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
-    text, record = samples.text_and_record()
+    text, record = record_samples.text_and_record()
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
     kinds = {line.type for line in record.lines}
@@ -48,7 +47,7 @@ def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
 
 
 def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
-    text, _ = samples.text_and_record(exit_code=None)
+    text, _ = record_samples.text_and_record(exit_code=None)
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
     for each in write_reports(read(path), tmp_path):
@@ -57,22 +56,22 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
             assert "TRUNCATED" in each.path.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("kept", range(len(samples.lines()) + 1))
+@pytest.mark.parametrize("kept", range(len(record_samples.lines()) + 1))
 def test_wherever_it_was_interrupted(kept, tmp_path):
-    record = samples.record(samples.lines()[:kept], exit_code=None)
+    record = record_samples.record(record_samples.lines()[:kept], exit_code=None)
     written = write_reports(record, tmp_path, [*TEXTS, *(["map", "html"] if kept % 6 == 0 else [])])
     assert not [each.path.name for each in written if each.skipped]
-    assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(Map)))
+    assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(MapLine)))
 
 
 def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
     def unavailable(record, around):
         raise UnavailableError("matplotlib is not here")
 
-    write_reports(samples.record(), tmp_path)
-    monkeypatch.setattr(picture, "render", unavailable)
-    monkeypatch.setattr(page, "render", unavailable)
-    written = {each.path.name: each.skipped for each in write_reports(samples.record(), tmp_path)}
+    write_reports(record_samples.record(), tmp_path)
+    monkeypatch.setattr(pictures, "render_map", unavailable)
+    monkeypatch.setattr(html, "render", unavailable)
+    written = {each.path.name: each.skipped for each in write_reports(record_samples.record(), tmp_path)}
     gone = {"map.svg", "report.html"}  # those of an earlier run would be of another record
     assert {name for name, reason in written.items() if reason == "matplotlib is not here"} == gone
     assert set(os.listdir(tmp_path)) == FILES - gone
@@ -82,14 +81,14 @@ def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
 def test_a_place_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "junit.xml").mkdir()
     with pytest.raises(InputError, match=r"cannot write .*junit\.xml"):
-        write_reports(samples.record(), tmp_path)
+        write_reports(record_samples.record(), tmp_path)
     assert not [name for name in os.listdir(tmp_path) if name.startswith(".")]
 
 
 def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(InputError, match=r"cannot make the folder .*file"):
-        write_reports(samples.record(), tmp_path / "file" / "reports")
+        write_reports(record_samples.record(), tmp_path / "file" / "reports")
 
 
 def test_a_report_that_breaks_leaves_the_old_one(tmp_path, monkeypatch):
@@ -100,6 +99,6 @@ def test_a_report_that_breaks_leaves_the_old_one(tmp_path, monkeypatch):
 
     monkeypatch.setattr(summary, "render", broken)
     with pytest.raises(RuntimeError):
-        write_reports(samples.record(), tmp_path)
+        write_reports(record_samples.record(), tmp_path)
     assert (tmp_path / "summary.json").read_text(encoding="utf-8") == "old"
     assert os.listdir(tmp_path) == ["summary.json"]

@@ -14,13 +14,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.methods.builtin import builtin
-from hypcheck.methods.limits import Limits
-from hypcheck.methods.opening import open_implementation
-from hypcheck.scaffold.languages import LANGUAGES, Language
-from hypcheck.scaffold.project import Project
-from tests.undrawn import COMMAND
+from hypcheck.implementations.builtin import builtin
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import Limits
+from hypcheck.scaffold.project import LANGUAGES, Language, Project
+from hypcheck.vectors.families import FAMILIES
+from tests.support.without_drawing import COMMAND
 
 TOOLS = {
     "c": ("cc",),

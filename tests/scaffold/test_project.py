@@ -13,11 +13,10 @@ from importlib.resources import files
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.methods.spec import parse_spec
-from hypcheck.scaffold import languages
-from hypcheck.scaffold.languages import LANGUAGES
-from hypcheck.scaffold.project import LONGEST_NAME, Project, safe_name
-from hypcheck.scaffold.shared import shared_files
+from hypcheck.implementations.spec import parse_spec
+from hypcheck.scaffold import project as languages
+from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, Project, safe_name
+from hypcheck.scaffold.repository import shared_files
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from hypcheck.cli.main import main
-from hypcheck.scaffold.languages import LANGUAGES
+from hypcheck.scaffold.project import LANGUAGES
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -12,7 +12,7 @@ from hypcheck.scene.model import Flight, Span, Start, Walk
 from hypcheck.scene.reading import parse_scene
 from tests.scene.test_reading import LEAST
 from tests.scene.test_schema import accepted, places, replaced, tomllib
-from tests.schemas import violations
+from tests.support.records import violations
 
 SCHEMA = json.loads(
     resources.files("hypcheck.scene").joinpath("schemas", "scene-1.0.0.json").read_text(encoding="utf-8")

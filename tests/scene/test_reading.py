@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.scene import reading
-from hypcheck.scene.model import Hyperboloid, Mover, Part, Region, Scene, Span
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import parse_scene, read_scene, shipped_scenes, shipped_text
 
 WHOLE = """\
@@ -56,21 +56,21 @@ def refusal(text, source="s.toml"):
 
 
 def test_everything_that_a_scene_can_have():
-    assert parse_scene(WHOLE) == Scene(
+    assert parse_scene(WHOLE) == SceneModel(
         name="yard",
         question="exterior",
         hyperboloids=(
             Hyperboloid("oak", 0.5, 4.0, (1.0, -2.5, 0.0), Span(-1.0, 6.25)),
             Hyperboloid("hyperboloid 2", 1e-3, 2.0),
         ),
-        mover=Mover(0.25, 0.15, (Part(0.1, 0.05, 0.135, -45.0),)),
+        mover=Mover(0.25, 0.15, (MoverPart(0.1, 0.05, 0.135, -45.0),)),
         region=Region(x=Span(-10.0, 10.0), z=Span(0.0, 0.0)),
     )
 
 
 def test_what_is_not_said_has_a_default():
     scene = parse_scene(LEAST)
-    assert scene == Scene("a", "position", (Hyperboloid("hyperboloid 1", 1.0, 2.0),), Mover(1.0, 1.0), Region())
+    assert scene == SceneModel("a", "position", (Hyperboloid("hyperboloid 1", 1.0, 2.0),), Mover(1.0, 1.0), Region())
 
 
 def test_a_span_is_fixed_where_it_is_one_number():
@@ -158,17 +158,17 @@ def test_a_part_may_touch_the_movers_surface_from_within():
 @pytest.mark.parametrize(
     ("part", "inside"),
     [
-        (Part(0.5, 0.5, 0.5), True),
-        (Part(0.5, 0.5, 0.5000000000000001), False),
-        (Part(0.25, 0.75, 0.25), True),
-        (Part(0.25, 0.75, 0.625), False),  # tall: it comes out beside its equator
-        (Part(0.25, 1.0, 0.0), True),
-        (Part(0.25, 1.0, 1e-12), False),
+        (MoverPart(0.5, 0.5, 0.5), True),
+        (MoverPart(0.5, 0.5, 0.5000000000000001), False),
+        (MoverPart(0.25, 0.75, 0.25), True),
+        (MoverPart(0.25, 0.75, 0.625), False),  # tall: it comes out beside its equator
+        (MoverPart(0.25, 1.0, 0.0), True),
+        (MoverPart(0.25, 1.0, 1e-12), False),
     ],
 )
 def test_whether_a_part_lies_within_the_mover_is_decided_exactly(part, inside):
     assert reading.within(part, 1.0, 1.0) is inside
-    assert reading.within(Part(part.b * 4, part.d * 8, part.arm * 4), 4.0, 8.0) is inside
+    assert reading.within(MoverPart(part.b * 4, part.d * 8, part.arm * 4), 4.0, 8.0) is inside
     worst = max((part.arm + part.b * c / 999) ** 2 + part.d**2 * (1 - (c / 999) ** 2) for c in range(1000))
     assert (worst <= 1 + 1e-12) or not inside
 

@@ -12,7 +12,7 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.scene.reading import parse_scene, shipped_scenes, shipped_text
 from tests.scene.test_reading import LEAST, WHOLE
-from tests.schemas import violations
+from tests.support.records import violations
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -17,7 +17,7 @@ import sys
 import time
 from collections import Counter
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedPair
 

@@ -8,24 +8,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Pair
-from hypcheck.truth import batch, exact
-from tests.strategies import pairs
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth import exact, float_filter
+from tests.support.pairs import pairs
 
 
 @given(st.lists(pairs, min_size=1, max_size=40))
 def test_batch_equals_one_by_one(some):
     rows = np.array([pair.row for pair in some])
     expected = [exact.position(pair.lengths) for pair in some]
-    assert batch.positions(rows).tolist() == expected
+    assert float_filter.positions(rows).tolist() == expected
 
 
 @pytest.mark.parametrize("spread", [1, 4, 9, 25])
 def test_the_filter_decides_most_rows_and_none_wrongly(spread):
     rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (3000, 7))
-    proved = batch.filtered(rows)
+    proved = float_filter.filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
-    decided = proved != batch.UNDECIDED
+    decided = proved != float_filter.UNDECIDED
     assert (proved[decided] == expected[decided]).all()
     assert decided.mean() > 0.9
 
@@ -40,12 +40,12 @@ def test_next_to_a_tangency_the_filter_is_silent_or_right(exponent, sign):
     rows = np.zeros((kept.sum(), 7))
     rows[:, 0], rows[:, 1], rows[:, 2:4], rows[:, 4] = a[kept], 1000.0, 1.0, x[kept]
     expected = 1 if sign > 0 else 0
-    assert set(batch.filtered(rows).tolist()) <= {expected, batch.UNDECIDED}
-    assert set(batch.positions(rows).tolist()) <= {expected}
+    assert set(float_filter.filtered(rows).tolist()) <= {expected, float_filter.UNDECIDED}
+    assert set(float_filter.positions(rows).tolist()) <= {expected}
 
 
 def test_an_invalid_row_is_named():
     rows = np.ones((5, 7))
     rows[3, 2] = -1
     with pytest.raises(InputError, match=r"row 3: b is -1\.0"):
-        batch.positions(rows)
+        float_filter.positions(rows)

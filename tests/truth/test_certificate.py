@@ -8,10 +8,10 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
-from tests.strategies import pairs
+from tests.support.pairs import pairs
 
 RING = Pair(1, 2, 1, 1, 2.5, 0, 0)
 TOUCHING = Pair(2, 5, 1, 1, 3, 0, 0)

@@ -8,13 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.exact import cubic
 from hypcheck.truth.prove import prove
-from tests.strategies import pairs
-from tests.witnesses import KINDS, WITNESSES
+from tests.support.pairs import KINDS, WITNESSES, pairs
 
 
 @pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)

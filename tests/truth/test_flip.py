@@ -9,10 +9,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
-from hypcheck.truth.flip import backward_error, corner, flip_exponent, makes_right
-from tests.strategies import grid_pairs, ordinary_pairs, pairs
+from hypcheck.truth.backward_error import backward_error, backward_error_exponent, corner, makes_right
+from tests.support.pairs import grid_pairs, ordinary_pairs, pairs
 
 POSITIONS = st.sampled_from(list(Position))
 
@@ -53,7 +53,7 @@ def test_an_answer_flips_at_its_backward_error(pair, answer):
 def test_the_octave_does_not_depend_on_the_guess(pair, answer, guess):
     lengths = pair.lengths
     truth = exact.decide(lengths)
-    octave = flip_exponent(lengths, truth, answer, guess)
+    octave = backward_error_exponent(lengths, truth, answer, guess)
     found = backward_error(lengths, truth, answer)
     if not math.isfinite(octave):
         assert found == (0 if octave < 0 else math.inf)

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from hypcheck import judge
-from hypcheck.casebook.families import FAMILIES
-from hypcheck.pairs import Pair
-from hypcheck.truth import batch, exact, flip, flip_batch
+from hypcheck.geometry.pair import Pair
+from hypcheck.runs import judge
+from hypcheck.truth import backward_error, exact, float_filter
+from hypcheck.vectors.families import FAMILIES
 
 
 def one_by_one(rows):
@@ -19,20 +19,20 @@ def one_by_one(rows):
         lengths = Pair.from_row(row).lengths
         truth = exact.decide(lengths)
         targets = judge.right_positions(truth.position, 0, truth.position.name.lower())
-        octaves.append(min(flip.flip_exponent(lengths, truth, target) for target in targets))
+        octaves.append(min(backward_error.backward_error_exponent(lengths, truth, target) for target in targets))
     return octaves
 
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_octaves_are_those_of_exact_changes(name):
     rows = FAMILIES[name].rows(11, 24)
-    assert judge.flip_octaves(rows).tolist() == one_by_one(rows)
+    assert judge.flip_exponents(rows).tolist() == one_by_one(rows)
 
 
 def test_most_rows_of_everyday_need_no_exact_change():
     for name in ("tower-body", "uniform", "forest-type-2"):
         rows = FAMILIES[name].rows(12, 1000)
-        assert np.isnan(flip_batch.octaves(rows, batch.positions(rows))).mean() < 0.05
+        assert np.isnan(backward_error.distance_exponents(rows, float_filter.positions(rows))).mean() < 0.05
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -43,7 +43,7 @@ def test_next_to_a_power_of_two_floats_are_silent_or_right(sign):
     for place, (exponent, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
         rows[place, :4] = 2.0, 1000.0, 1.0, 1.0
         rows[place, 4] = 3 + sign * 6 * 2.0**exponent * (1 + step)
-    found = flip_batch.octaves(rows, batch.positions(rows))
+    found = backward_error.distance_exponents(rows, float_filter.positions(rows))
     told = ~np.isnan(found)
     assert 0.3 < told.mean() < 1
     assert found[told].tolist() == np.array(one_by_one(rows))[told].tolist()
@@ -51,4 +51,4 @@ def test_next_to_a_power_of_two_floats_are_silent_or_right(sign):
 
 def test_a_tangency_is_at_no_distance():
     rows = np.array([[2.0, 1000.0, 1.0, 1.0, 3.0, 0.0, 0.0]])
-    assert judge.flip_octaves(rows).tolist() == [-math.inf]
+    assert judge.flip_exponents(rows).tolist() == [-math.inf]

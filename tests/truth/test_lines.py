@@ -9,9 +9,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.pairs import Pair
-from hypcheck.truth import batch, exact
-from hypcheck.truth.lines import lines
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth import exact, float_filter
+from hypcheck.truth.float_filter import lines_for_sizes
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
 ULPS = np.arange(-40, 41)
@@ -27,16 +27,16 @@ def rows_of(some, x, z):
 
 def beside_lines(some, height):
     """Centres within 40 ulps of where each line crosses a height; each is on the line at about the middle."""
-    found = lines(*some, math.frexp(height / some[1])[1])
+    found = lines_for_sizes(*some, math.frexp(height / some[1])[1])
     crossings = [constant + slope * height * height for constant, slope in (*found.exterior, *found.interior)]
     x = [math.sqrt(crossing) + ULPS * math.ulp(math.sqrt(crossing)) for crossing in crossings]
     return rows_of(some, np.concatenate([*x, [some[0]]]), height)
 
 
 def assert_right(rows):
-    proved = batch.filtered(rows)
+    proved = float_filter.filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
-    decided = proved != batch.UNDECIDED
+    decided = proved != float_filter.UNDECIDED
     assert (proved[decided] == expected[decided]).all()
     return decided
 
@@ -59,7 +59,7 @@ def test_the_numbers_of_a_line_are_on_its_safe_side(some, reach):
     """By more than the rounding of both sides of a comparison can come to, which is 12 of these units."""
     alpha, gamma, b, d = map(Fraction, some)
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
-    found = lines(*some, reach)
+    found = lines_for_sizes(*some, reach)
     for sign, kept in ((1, found.exterior), (-1, found.interior)):
         for constant, slope in kept:
             # M tells λ: (A ± λ)/(B ∓ λ) = M d²/b², and the exact line of that λ has the K that is compared.
@@ -81,13 +81,13 @@ def test_beside_the_rim_of_the_level_disc_nothing_wrong_is_proved(some, share, s
 def test_most_of_a_tower_is_decided_by_lines():
     rng = np.random.default_rng(3)
     rows = np.column_stack([np.tile(TOWER, (4000, 1)), rng.uniform(-4, 4, (4000, 2)), rng.uniform(-17.8, 17.8, 4000)])
-    proved = batch._by_lines(np.ascontiguousarray(rows.T))
-    truth = batch.positions(rows)
+    proved = float_filter._by_lines(np.ascontiguousarray(rows.T))
+    truth = float_filter.positions(rows)
     assert (proved == truth).mean() > 0.99
 
 
 @given(st.tuples(*[st.floats(2.0**-100, 2.0**100)] * 4), st.integers(-2, 20))
 def test_no_number_of_a_line_is_out_of_range(some, reach):
-    found = lines(*some, reach)
+    found = lines_for_sizes(*some, reach)
     numbers = [number for line in (*found.exterior, *found.interior) for number in line]
     assert all(2.0**-600 < number < 2.0**600 for number in numbers)

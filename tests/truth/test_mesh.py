@@ -11,11 +11,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
-from hypcheck.pairs import Pair, Position
-from hypcheck.truth import mesh, mesh_refine
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import mesh, mesh_meridian
 from hypcheck.truth.mesh import availability, verdict
-from hypcheck.truth.mesh_refine import Outcome
-from tests.fractions_truth import everyday, exact_position, grown, near_contact_rows, rows_of, steps_at, tangent_rows
+from hypcheck.truth.mesh_meridian import MeshOutcome
+from tests.support.fractions_truth import (
+    everyday,
+    exact_position,
+    grown,
+    near_contact_rows,
+    rows_of,
+    steps_at,
+    tangent_rows,
+)
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
 
@@ -68,7 +76,7 @@ def test_hand_checked_pairs(row, position):
 )
 def test_a_tangency_or_less_than_float64_from_one_is_undecided(row):
     found = verdict(Pair(*row))
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is MeshOutcome.UNDECIDED
     assert found.position is None
     assert "within 7.1e-15 radii" in found.reason
     assert found.lower <= 1 <= found.upper <= found.lower + 2**-46
@@ -85,7 +93,7 @@ def test_known_clearances_down_to_one_in_a_hundred_million_are_decided(known):
 @given(tangent_rows(st.sampled_from([Fraction(1), Fraction(-1)])))
 def test_no_tangency_is_called_clear(known):
     found = verdict(Pair(*known[0]))
-    assert found.outcome is not Outcome.CLEAR
+    assert found.outcome is not MeshOutcome.CLEAR
     assert found.lower <= 1
 
 
@@ -93,7 +101,7 @@ def check_against_exact(row):
     """The verdict is right or undecided, its bounds hold, and undecided means within 2⁻⁴⁶ of touching."""
     row = Pair(*row).row
     found = verdict(Pair(*row))
-    if found.outcome is Outcome.UNDECIDED:
+    if found.outcome is MeshOutcome.UNDECIDED:
         assert exact_position(grown(row, 1 + Fraction(1, 2**46))) == 0
         assert exact_position(grown(row, 1 - Fraction(1, 2**46))) != 0
     else:
@@ -144,18 +152,18 @@ def test_near_contact_is_decided_and_right():
     [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
 )
 def test_where_fcl_says_otherwise_the_verdict_is_undecided(monkeypatch, row, said):
-    assert verdict(Pair(*row)).outcome is not Outcome.UNDECIDED
+    assert verdict(Pair(*row)).outcome is not MeshOutcome.UNDECIDED
     monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: said)
     found = verdict(Pair(*row))
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is MeshOutcome.UNDECIDED
     assert "FCL" in found.reason
     assert found.triangles > 0
 
 
 def test_too_many_open_cells_are_a_reason_not_an_endless_search(monkeypatch):
-    monkeypatch.setattr(mesh_refine, "MOST_CELLS", 100)
+    monkeypatch.setattr(mesh_meridian, "MOST_CELLS", 100)
     found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is MeshOutcome.UNDECIDED
     assert "too many cells" in found.reason
 
 

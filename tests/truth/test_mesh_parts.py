@@ -10,11 +10,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from hypcheck.pairs import Pair
-from hypcheck.truth.mesh_cells import bounds_of, cell_of, halves
-from hypcheck.truth.mesh_fcl import distance_to_mesh, ribbon
-from hypcheck.truth.mesh_window import REACH, UNIT, meridian_of, window_of
-from tests.fractions_truth import everyday, rows_of
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth.mesh import distance_to_mesh, ribbon
+from hypcheck.truth.mesh_meridian import REACH, UNIT, bounds_of, cell_of, halves, meridian_of, window_of
+from tests.support.fractions_truth import everyday, rows_of
 
 
 @settings(max_examples=200)

@@ -13,9 +13,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Position
-from hypcheck.truth.motion import passage
-from tests.fractions_truth import TRIPLES, exact_position, sign
+from hypcheck.geometry.pair import Position
+from hypcheck.truth.swept import passage
+from tests.support.fractions_truth import TRIPLES, exact_position, sign
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 HALF = Fraction(1, 2)

@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Pair, Position
-from hypcheck.rows import invalid
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import invalid
 from hypcheck.truth.nearest import STAGES, clearances, nearest, positions
-from hypcheck.truth.nearest_dual import Squares, tangency
-from hypcheck.truth.nearest_precise import Stage
-from tests.nearest_reference import mismatches, mixed_rows, reference, ulps
+from hypcheck.truth.nearest_dual import SquaredLengths, tangency
+from hypcheck.truth.nearest_exact import NearestStage
+from tests.truth.nearest_reference import mismatches, mixed_rows, reference, ulps
 
 
 def side(row):
@@ -37,7 +37,7 @@ def check(row):
     assert (found.clearance > 0) == (truth > 0)
     assert found.position == (side(row) if truth > 0 else 0)
     assert found.tangent is (found.clearance == 0)
-    assert found.stage in STAGES[Stage.PRECISE :]
+    assert found.stage in STAGES[NearestStage.PRECISE :]
     with mp.workprec(20000):
         x, y, z = (mpf(value) for value in row[4:])
         r = mp.sqrt(x * x + y * y)
@@ -188,7 +188,7 @@ def test_two_points_of_tangency():
 def test_a_clearance_of_0_is_not_claimed_beside_the_maximum():
     """Here g has three roots, the middle one halfway, at λ = −1: D = 1 there, but it rises further towards −A."""
     pair = Pair(3, 1, 2, 2, 0, 0, 0)
-    assert tangency(Squares.of(pair)) is None
+    assert tangency(SquaredLengths.of(pair)) is None
     assert nearest(pair).clearance == 0.5
 
 
@@ -234,7 +234,7 @@ def test_rational_tangents_and_steps_off_them(triple, k, v, sign, step):
     found = nearest(Pair(*row))
     if not nearest_there:
         assert found.clearance < step
-        assert step != 0 or tangency(Squares.of(Pair(*row))) is None
+        assert step != 0 or tangency(SquaredLengths.of(Pair(*row))) is None
         return
     assert found.clearance == float(step)
     assert found.tangent is (step == 0)
@@ -248,7 +248,7 @@ def test_a_batch_answers_as_single_pairs_do():
     rows = mixed_rows(6000, seed=1)
     batch = clearances(rows)
     assert mismatches(batch, rows) == 0
-    counts = np.bincount(batch.stage, minlength=len(Stage))
+    counts = np.bincount(batch.stage, minlength=len(NearestStage))
     assert (counts > 0).all(), counts
     assert batch.clearance.dtype == np.float64
     assert batch.position.dtype == np.int8
@@ -261,7 +261,7 @@ def test_positions_alone_agree_and_need_fewer_precise_answers():
     assert (alone.position == batch.position).all()
     assert (alone.tangent == (batch.clearance == 0)).all()
     assert alone.tangent.any()
-    assert (alone.stage == Stage.PRECISE).sum() < (batch.stage == Stage.PRECISE).sum() / 4
+    assert (alone.stage == NearestStage.PRECISE).sum() < (batch.stage == NearestStage.PRECISE).sum() / 4
 
 
 @settings(max_examples=100)
@@ -300,7 +300,7 @@ def test_no_rows_and_invalid_rows():
 
 def test_one_pair_loads_no_numpy():
     script = (
-        "import sys; from hypcheck.pairs import Pair; from hypcheck.truth.nearest import nearest;"
+        "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest import nearest;"
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

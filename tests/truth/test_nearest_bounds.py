@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from hypcheck.pairs import Pair
-from hypcheck.truth import nearest_double as dd
-from hypcheck.truth import nearest_float, nearest_precise
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth import double_double, nearest_batch, nearest_exact
 from hypcheck.truth.nearest import clearances, nearest
-from hypcheck.truth.nearest_dual import Squares
-from hypcheck.truth.nearest_precise import Stage
-from tests.nearest_reference import mismatches, mixed_rows, reference
+from hypcheck.truth.nearest_dual import SquaredLengths
+from hypcheck.truth.nearest_exact import NearestStage
+from tests.truth.nearest_reference import mismatches, mixed_rows, reference
 
 
 def exactly(number):
@@ -28,46 +27,50 @@ def doubles(rng, count):
     """Double-doubles of many orders, with low parts from full to 0."""
     high = rng.choice((-1, 1), count) * 2.0 ** rng.uniform(-200, 200, count)
     low = np.abs(high) * 2.0**-53 * rng.uniform(-1, 1, count) * rng.choice((0.0, 2.0**-30, 1.0), count)
-    return dd.two_sum(high, low)
+    return double_double.two_sum(high, low)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_each_double_double_operation_keeps_its_bound(seed):
     rng = np.random.default_rng(seed)
     first, second = doubles(rng, 1000), doubles(rng, 1000)
-    cancelling = dd.two_sum(-first[0] * (1 + 2.0 ** -rng.integers(1, 52, 1000)), first[1] * rng.uniform(-1, 1, 1000))
+    cancelling = double_double.two_sum(
+        -first[0] * (1 + 2.0 ** -rng.integers(1, 52, 1000)), first[1] * rng.uniform(-1, 1, 1000)
+    )
     X, Y, N = exactly(first), exactly(second), exactly(cancelling)
     x, y, n = exactly(first[0]), exactly(second[0]), exactly(cancelling[0])
     for found, true, scale in (
-        (dd.add(first, second), X + Y, abs(X) + abs(Y)),
-        (dd.add(first, cancelling), X + N, abs(X) + abs(N)),
-        (dd.subtract(first, second), X - Y, abs(X) + abs(Y)),
-        (dd.add_float(first, second[0]), X + y, abs(X) + abs(y)),
-        (dd.add_float(first, cancelling[0]), X + n, abs(X) + abs(n)),
-        (dd.multiply(first, second), X * Y, abs(X * Y)),
-        (dd.square(first), X * X, X * X),
-        (dd.divide(first, second), X / Y, abs(X / Y)),
-        (dd.quotient_of_floats(first[0], second[0]), x / y, abs(x / y)),
+        (double_double.add(first, second), X + Y, abs(X) + abs(Y)),
+        (double_double.add(first, cancelling), X + N, abs(X) + abs(N)),
+        (double_double.subtract(first, second), X - Y, abs(X) + abs(Y)),
+        (double_double.add_float(first, second[0]), X + y, abs(X) + abs(y)),
+        (double_double.add_float(first, cancelling[0]), X + n, abs(X) + abs(n)),
+        (double_double.multiply(first, second), X * Y, abs(X * Y)),
+        (double_double.square(first), X * X, X * X),
+        (double_double.divide(first, second), X / Y, abs(X / Y)),
+        (double_double.quotient_of_floats(first[0], second[0]), x / y, abs(x / y)),
     ):
-        assert (abs(exactly(found) - true) <= Fraction(dd.ERROR) * scale).all()
-    root = exactly(dd.square_root(dd.where(first[0] > 0, first, (-first[0], -first[1]))))
-    assert (abs(root * root - abs(X)) <= 2 * Fraction(dd.ERROR) * abs(X)).all()  # a root's error counts twice
-    assert (exactly(dd.two_sum(first[0], second[0])) == x + y).all()
-    assert (exactly(dd.two_product(first[0], second[0])) == x * y).all()
-    assert (exactly(dd.two_square(first[0])) == x * x).all()
+        assert (abs(exactly(found) - true) <= Fraction(double_double.ERROR) * scale).all()
+    root = exactly(double_double.square_root(double_double.where(first[0] > 0, first, (-first[0], -first[1]))))
+    assert (
+        abs(root * root - abs(X)) <= 2 * Fraction(double_double.ERROR) * abs(X)
+    ).all()  # a root's error counts twice
+    assert (exactly(double_double.two_sum(first[0], second[0])) == x + y).all()
+    assert (exactly(double_double.two_product(first[0], second[0])) == x * y).all()
+    assert (exactly(double_double.two_square(first[0])) == x * x).all()
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 - 1e-6, 1 + 1e-3, 0.5, 2.0, 1e-3])
 def test_the_bound_of_the_float_stage_covers_its_error(factor):
     """At the λ that the solver finds, and at others, whose distance to the nearer pole is off by a factor."""
     rows = mixed_rows(800, seed=8, span=20)
-    scaled = nearest_float._scale(rows)
+    scaled = nearest_batch._scale(rows)
     with np.errstate(all="ignore"):
-        tau, sigma = nearest_float._solve(scaled)
+        tau, sigma = nearest_batch._solve(scaled)
         tau, sigma = np.where(tau < sigma, tau * factor, tau), np.where(tau < sigma, sigma, sigma * factor)
-        dual = nearest_float._evaluate(scaled, tau, sigma)
-        squared = dd.add_float(dual.value, dual.gap)
-        clearance, error = nearest_float._clearance(squared, dual.error + dual.gap_error)
+        dual = nearest_batch._evaluate(scaled, tau, sigma)
+        squared = double_double.add_float(dual.value, dual.gap)
+        clearance, error = nearest_batch._clearance(squared, dual.error + dual.gap_error)
     known = np.flatnonzero(scaled.inside & np.isfinite(error))
     assert len(known) > (30 if abs(factor - 1) > 0.1 else 500)
     truths = [reference(row)[0] for row in rows[known].tolist()]
@@ -80,11 +83,11 @@ def test_the_bound_of_the_float_stage_covers_its_error(factor):
 
 def test_nothing_is_claimed_from_beyond_the_poles():
     """The dual is no bound there; a solver that strays must not be believed."""
-    scaled = nearest_float._scale(mixed_rows(300, seed=13))
+    scaled = nearest_batch._scale(mixed_rows(300, seed=13))
     with np.errstate(all="ignore"):
-        tau, sigma = nearest_float._solve(scaled)
+        tau, sigma = nearest_batch._solve(scaled)
         for strayed in ((-tau, sigma), (tau, -sigma), (np.full_like(tau, np.nan), sigma)):
-            decided = nearest_float._judge(scaled.inside, nearest_float._evaluate(scaled, *strayed))
+            decided = nearest_batch._judge(scaled.inside, nearest_batch._evaluate(scaled, *strayed))
             assert not (decided.position_certain & (tau > 0) & (sigma > 0)).any()
 
 
@@ -96,10 +99,10 @@ def test_the_end_of_the_interval_is_taken_for_the_maximum_only_where_that_is_sur
     rows = np.stack((a, c, *np.ones((2, 500)), r, *np.zeros((2, 500))), axis=1)
     exact = [[Fraction(value) for value in row] for row in rows.tolist()]
     beyond = np.array([row[0] * row[4] >= row[0] ** 2 + row[1] ** 2 for row in exact])
-    scaled = nearest_float._scale(rows)
+    scaled = nearest_batch._scale(rows)
     with np.errstate(all="ignore"):
-        tau, sigma = nearest_float._solve(scaled)
-        sure = nearest_float._evaluate(scaled, tau, sigma).gap_error == 0
+        tau, sigma = nearest_batch._solve(scaled)
+        sure = nearest_batch._evaluate(scaled, tau, sigma).gap_error == 0
     ended = sigma == 0
     assert (ended & ~beyond).any()
     assert not (ended & ~beyond & sure).any()
@@ -111,16 +114,16 @@ def test_the_exact_enclosures_hold_the_clearance():
     rows = mixed_rows(150, seed=11)
     rows = rows[(rows[:, 6] != 0) & (rows[:, 4] != 0)]
     for row in rows.tolist():
-        squares = Squares.of(Pair.from_row(row))
-        at_A, mantissa, exponent = nearest_precise.start(squares)
+        squares = SquaredLengths.of(Pair.from_row(row))
+        at_A, mantissa, exponent = nearest_exact.start(squares)
         shift = 40 - exponent
         pole = mantissa << 40
         L = pole - (squares.alpha << shift) // squares.b if at_A else (squares.gamma << shift) // squares.d - pole
-        at, doubt = nearest_precise._newton(squares, L, 1 << shift, 96)
+        at, doubt = nearest_exact._newton(squares, L, 1 << shift, 96)
         truth = reference(row)[0]
         for width in (doubt, doubt << 20, doubt << 40):
             for bits in (10, 120):
-                found = nearest_precise._enclosure(*nearest_precise._bracket(squares, at, width), bits)
+                found = nearest_exact._enclosure(*nearest_exact._bracket(squares, at, width), bits)
                 with mp.workprec(400):
                     assert found.low <= truth * 2**bits <= found.high
 
@@ -128,25 +131,25 @@ def test_the_exact_enclosures_hold_the_clearance():
 def test_a_poor_solver_costs_time_and_no_answer(monkeypatch):
     rows = mixed_rows(1500, seed=5)
     full = clearances(rows)
-    monkeypatch.setattr(nearest_float, "_MOST_STEPS", 2)
+    monkeypatch.setattr(nearest_batch, "_MOST_STEPS", 2)
     poor = clearances(rows)
     assert (poor.clearance == full.clearance).all()
     assert (poor.position == full.position).all()
-    assert (poor.stage == Stage.PRECISE).sum() > 2 * (full.stage == Stage.PRECISE).sum()
+    assert (poor.stage == NearestStage.PRECISE).sum() > 2 * (full.stage == NearestStage.PRECISE).sum()
 
 
 def test_a_poor_start_and_poor_steps_cost_time_and_no_answer(monkeypatch):
     """Short steps leave an error far above what the last of them suggests: the signs of F have to notice."""
     rows = mixed_rows(30, seed=12)
     full = [nearest(Pair.from_row(row)) for row in rows.tolist()]
-    step, start = nearest_precise.newton_step, nearest_precise.start
+    step, start = nearest_exact.newton_step, nearest_exact.start
 
     def poor_start(squares):
         at_A, mantissa, exponent = start(squares)
         return at_A, mantissa * 7 // 8, exponent
 
-    monkeypatch.setattr(nearest_precise, "newton_step", lambda *at: step(*at) * 3 // 4)
-    monkeypatch.setattr(nearest_precise, "start", poor_start)
+    monkeypatch.setattr(nearest_exact, "newton_step", lambda *at: step(*at) * 3 // 4)
+    monkeypatch.setattr(nearest_exact, "start", poor_start)
     for row, expected in zip(rows.tolist(), full, strict=True):
         found = nearest(Pair.from_row(row))
         assert found.clearance == expected.clearance
@@ -161,7 +164,7 @@ def test_what_is_beyond_the_limits_of_the_bounds_is_left_to_exact_enclosures(col
     row[4 if column == 6 else column] = 1.0
     row[column] = 2.0**order
     found = clearances(np.array([row]))
-    assert found.stage[0] != Stage.DOUBLE_DOUBLE
+    assert found.stage[0] != NearestStage.DOUBLE_DOUBLE
     assert mismatches(found, np.array([row])) == 0
 
 
@@ -176,17 +179,17 @@ def _without_gap(slope, *_):
 @pytest.mark.parametrize(
     ("place", "name", "broken"),
     [
-        (dd, "two_product", _without_product_error),
-        (dd, "two_square", lambda value: _without_product_error(value, value)),
-        (nearest_float, "_BOUND", 0.0),
-        (nearest_float, "_gap", _without_gap),
+        (double_double, "two_product", _without_product_error),
+        (double_double, "two_square", lambda value: _without_product_error(value, value)),
+        (nearest_batch, "_BOUND", 0.0),
+        (nearest_batch, "_gap", _without_gap),
     ],
 )
 def test_a_broken_float_stage_is_caught_by_these_tests(monkeypatch, place, name, broken):
     """The comparison of batch and single answers can fail: without a part of the arithmetic or of its bound it does."""
     rows = mixed_rows(3000, seed=7, span=20)
     if name == "_gap":
-        monkeypatch.setattr(nearest_float, "_MOST_STEPS", 2)
+        monkeypatch.setattr(nearest_batch, "_MOST_STEPS", 2)
     monkeypatch.setattr(place, name, broken)
     assert mismatches(clearances(rows), rows) > 0
 

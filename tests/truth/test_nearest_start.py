@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import mpmath
 
-from hypcheck.pairs import Pair
-from hypcheck.truth import nearest_start
-from hypcheck.truth.nearest_dual import Squares, dual
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth import nearest_dual
+from hypcheck.truth.nearest_dual import SquaredLengths, dual
 
 APART = (4.0, 4.0, 1e-310, 1.0, 4.0, 0.1, 1e10)
 """The spheroid is a needle: A is 1e621, B is 16, and the centre is a little outside the evolute."""
@@ -23,30 +23,30 @@ def rows(count, decades, dice):
 def steps(squares, monkeypatch):
     """How many steps the iteration takes: each takes one square root, and two are taken before."""
     taken = []
-    iterate = nearest_start._iterate
+    iterate = nearest_dual._iterate
 
     def counting(squares, ratio, sqrt):
         return iterate(squares, ratio, lambda value: (taken.append(value), sqrt(value))[1])
 
     with monkeypatch.context() as patch:
-        patch.setattr(nearest_start, "_iterate", counting)
-        nearest_start.start(squares)
+        patch.setattr(nearest_dual, "_iterate", counting)
+        nearest_dual.start(squares)
     return len(taken) - 2
 
 
 def test_a_few_steps_lead_to_the_root_however_far_the_lengths_are_apart(monkeypatch):
     dice = random.Random(5)  # noqa: S311 - dice, not secrets
     asked = [APART, *rows(200, 1, dice), *rows(100, 6, dice), *rows(100, 100, dice), *rows(60, 300, dice)]
-    assert steps(Squares.of(Pair.from_row(APART)), monkeypatch) <= 2
-    assert max(steps(Squares.of(Pair.from_row(row)), monkeypatch) for row in asked) <= 8
+    assert steps(SquaredLengths.of(Pair.from_row(APART)), monkeypatch) <= 2
+    assert max(steps(SquaredLengths.of(Pair.from_row(row)), monkeypatch) for row in asked) <= 8
 
 
 def test_the_start_is_exactly_evaluated_near_the_maximum():
     """Where the slope of the dual changes its sign, within a relative 2⁻⁴⁸ of the pole's distance on both sides."""
     dice = random.Random(6)  # noqa: S311
     for row in (APART, *rows(60, 1, dice), *rows(30, 100, dice)):
-        squares = Squares.of(Pair.from_row(row))
-        at_A, mantissa, exponent = nearest_start.start(squares)
+        squares = SquaredLengths.of(Pair.from_row(row))
+        at_A, mantissa, exponent = nearest_dual.start(squares)
         pole = Fraction(mantissa) * Fraction(2) ** exponent
         slopes = []
         for factor in (1 - Fraction(1, 2**48), 1 + Fraction(1, 2**48)):
@@ -65,7 +65,7 @@ def test_the_first_tau_is_never_below_the_root():
             p = 1 + dice.choice([-1, 1]) * 10 ** mpmath.mpf(dice.uniform(-spread, 0)) * dice.choice([0, 1, 1])
             p = p if p > 0 and dice.random() < 0.6 else 10 ** mpmath.mpf(dice.uniform(-spread, spread))
             q = 10 ** mpmath.mpf(dice.uniform(-2 * spread, spread))
-            tau, sigma = nearest_start._above(p, q, W, p - W)
+            tau, sigma = nearest_dual._above(p, q, W, p - W)
             assert 0 < tau <= W * (1 + mpmath.mpf(2) ** -60)
             assert sigma > 0
             assert tau * mpmath.sqrt(1 + (q / sigma) ** 2) >= p * (1 - mpmath.mpf(2) ** -100), (p, q)

@@ -10,12 +10,11 @@ import sympy
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import polynomial_roots
 from hypcheck.truth import roots as oracle
-from hypcheck.truth import roots_isolation as isolation
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients
-from hypcheck.truth.roots_patterns import Place
+from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
 # (λ + A)(λ² − (B + Q − 1) λ − B): roots, places and kinds below follow by hand.
@@ -120,7 +119,7 @@ def test_prescribed_roots_are_found(case):
         assert found.lower < root < found.upper or found.lower == root == found.upper
         assert found.multiplicity == roots.count(root)
         marks = [root < -pair.A, root == -pair.A, -pair.A < root < 0, 0 < root < pair.B, root == pair.B, root > pair.B]
-        assert list(Place).index(found.place) == marks.index(True)
+        assert list(RootPlace).index(found.place) == marks.index(True)
     for left, right in pairwise(report.roots):
         assert left.upper <= right.lower
     for found in report.roots:
@@ -135,10 +134,10 @@ nonzero = integers.filter(bool)
 def test_isolation_of_any_polynomial(f):
     """Also of those that are no g: the enclosures are proved, and as many as another algebra counts roots."""
     polynomial = sympy.Poly(f, sympy.Symbol("x"))
-    assert isolation.discriminant(f) == polynomial.discriminant()
+    assert polynomial_roots.discriminant(f) == polynomial.discriminant()
     assume(polynomial.discriminant() != 0)
-    found = isolation.isolate(f, ())
-    isolation.prove(f, found)
+    found = polynomial_roots.isolate(f, ())
+    polynomial_roots.prove(f, found)
     assert len(found) == polynomial.count_roots()
 
 
@@ -159,7 +158,7 @@ def test_isolation_of_any_polynomial(f):
 )
 def test_what_is_not_proved_is_refused(f, intervals):
     with pytest.raises(AssertionError, match="enclosure"):
-        isolation.prove(f, [(Fraction(lower), Fraction(upper)) for lower, upper in intervals])
+        polynomial_roots.prove(f, [(Fraction(lower), Fraction(upper)) for lower, upper in intervals])
 
 
 def test_a_triple_root_is_exact():
@@ -204,26 +203,26 @@ EXTREME = (1e-300, 1e-300, 5e-324, 3e299, 1e300, 7e-310, 1e200)  # three roots, 
 
 
 def _shifted(f, cuts):
-    return [(upper, 2 * upper - lower) for lower, upper in isolation.isolate(f, cuts)]
+    return [(upper, 2 * upper - lower) for lower, upper in polynomial_roots.isolate(f, cuts)]
 
 
 def _one_missing(f, cuts):
-    return isolation.isolate(f, cuts)[1:]
+    return polynomial_roots.isolate(f, cuts)[1:]
 
 
 def _merged(f, cuts):
-    found = isolation.isolate(f, cuts)
+    found = polynomial_roots.isolate(f, cuts)
     return [(found[0][0], found[-1][1])]
 
 
 def _one_twice(f, cuts):
-    found = isolation.isolate(f, cuts)
+    found = polynomial_roots.isolate(f, cuts)
     return [found[0], *found[:-1]]
 
 
 def _beyond_its_place(f, cuts):
     """Enclosures that are right but reach over 0, where the sign of f at −1 and 0 is the same."""
-    return [(Fraction(-1), isolation.isolate(f, cuts)[0][1]), *isolation.isolate(f, cuts)[1:]]
+    return [(Fraction(-1), polynomial_roots.isolate(f, cuts)[0][1]), *polynomial_roots.isolate(f, cuts)[1:]]
 
 
 @pytest.mark.parametrize("row", [ROW, EXTREME])

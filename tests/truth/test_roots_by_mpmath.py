@@ -7,9 +7,9 @@ from fractions import Fraction
 import mpmath
 from hypothesis import given
 
-from hypcheck.pairs import Pair
+from hypcheck.geometry.pair import Pair
 from hypcheck.truth.roots import classify_by_roots
-from tests.strategies import ordinary_pairs
+from tests.support.pairs import ordinary_pairs
 
 DIGITS = 40
 

@@ -18,10 +18,17 @@ from fractions import Fraction
 import sympy
 from sympy.abc import w
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants
-from hypcheck.truth.roots_patterns import COMPLEX, KIND_OF, PATTERNS, admissible
+from hypcheck.truth.roots import (
+    COMPLEX,
+    KIND_OF,
+    PATTERNS,
+    Invariants,
+    admissible,
+    classify_by_roots,
+    classify_invariants,
+)
 
 # Multiplicities of the real roots of W in ascending order, for each contact set off the axis …
 CONTACT_SETS = {

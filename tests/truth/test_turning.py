@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.turning import squared_distances, turning
-from tests.fractions_truth import exact_position
+from tests.support.fractions_truth import exact_position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 SIZES = (2, 3, 0.5, 0.5)

@@ -14,13 +14,12 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.core import tilted
-from hypcheck.kernel.printing.c import c_statements
-from hypcheck.kernel.printing.spelling import INFIX, Spelling, statements
-from hypcheck.kernel.programs import certified, lines, single
+from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, statements
+from hypcheck.kernel.programs import certified, lines
 from hypcheck.kernel.programs import tilted as tilted_program
 from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
-from hypcheck.pairs import COLUMNS
 
 HERE = Path(__file__).parent
 TARGET = HERE / "hypcheck.h"
@@ -29,7 +28,7 @@ COMMAND = "python -m hypcheck.kernel.core.generate"
 CONSTANTS = {
     **certified.CONSTANTS,
     **tilted_program.CONSTANTS,
-    "u_1536": single.CONSTANTS["u_1536"],
+    "u_1536": certified.SINGLE_CONSTANTS["u_1536"],
     "more": lines.MORE,
     "less": lines.LESS,
     "cap": lines.CAP,
@@ -173,7 +172,7 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),
     "INTEGERS_AT_A": lambda: _integers(("offset_at_A", "slope_at_A"), _DELTA),
     "INTEGERS_OF_RING": lambda: _integers(("slope_at_B", "ring_excess"), _DELTA),
-    "SINGLE": lambda: c_statements(single.SINGLE, single.RESULTS, number="double"),
+    "SINGLE": lambda: c_statements(certified.SINGLE, certified.SINGLE_RESULTS, number="double"),
     "TANGENT_BEYOND": lambda: c_statements(lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
     "TANGENT_WITHIN": lambda: c_statements(lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
     "CHORD": lambda: c_statements(lines.CHORD, ("below", "above")),

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.programs.integers import bits_counted
 from hypcheck.kernel.programs.tilted_integers import AXIS, COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
-from hypcheck.pairs import COLUMNS
 
 KEPT = ("p", "q", "s", "t", "k0", "k1", "k2", *COEFFICIENTS)
 """What hc_quartic_of keeps, in the order of the program."""

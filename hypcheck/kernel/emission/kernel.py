@@ -1,24 +1,100 @@
-"""A kernel from a plan, in one of the languages: a template, its constants, and statements printed from programs."""
+"""A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
+
+Filling a template: ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was.
+
+What a kernel says of itself, as its language holds it: a text of JSON, or an object; a line for each setting.
+
+A kernel from a plan, in one of the languages: a template, its constants, and statements printed from programs.
+"""
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import resources
 from typing import Any
 
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.batch import OPEN, many
-from hypcheck.kernel.emission.body import function
-from hypcheck.kernel.emission.describing import described
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
-from hypcheck.kernel.emission.filling import filled, template
-from hypcheck.kernel.emission.header import header, safe
-from hypcheck.kernel.specialise import search as searching
-from hypcheck.kernel.specialise.plan import Plan
-from hypcheck.kernel.specialise.search import GEOMETRIC_STEPS
+from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
+from hypcheck.kernel.emission.plan_text import comment_text, header
+from hypcheck.kernel.specialise import last_stages
+from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS
+from hypcheck.kernel.specialise.plan import ScenePlan
+from hypcheck.messages import escaped
 from hypcheck.version import VERSION
-from hypcheck.visible import visible
+
+_ALONE = re.compile(r"^( *)\$\{(\w+)\}$", re.MULTILINE)
+_WITHIN = re.compile(r"\$\{(\w+)\}")
+
+
+def template(name: str) -> str:
+    """The text of a template of this package."""
+    return resources.files("hypcheck.kernel.emission").joinpath("templates", name).read_text(encoding="utf-8")
+
+
+def filled(text: str, parts: Mapping[str, str]) -> str:
+    """The text with its marks filled in, once: what a part says is never taken for a mark.
+
+    Raises KeyError for a mark that has no part.
+    """
+
+    def block(match: re.Match[str]) -> str:
+        indent, lines = match.group(1), parts[match.group(2)].splitlines()
+        return "\n".join(f"{indent}{line}" if line else "" for line in lines)
+
+    pieces = []
+    end = 0
+    for match in _ALONE.finditer(text):
+        pieces += [_inline(text[end : match.start()], parts), block(match)]
+        end = match.end()
+    return "".join([*pieces, _inline(text[end:], parts)])
+
+
+def _inline(text: str, parts: Mapping[str, str]) -> str:
+    return _WITHIN.sub(lambda match: parts[match.group(1)], text)
+
+
+LONGEST = 4095
+"""Characters in a string that every compiler of ISO C takes."""
+
+_BY_PARTS = """static const char *const parts[] = {{
+    {parts},
+}};
+static char text[{size}];  /* ISO C has no strings of more than {longest} characters */
+size_t end = 0;
+for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
+    for (const char *from = parts[part]; *from; from++) text[end++] = *from;
+return text;"""
+
+
+def description_in_language(value: dict[str, Any], language: str) -> str:
+    """The description in a language. In C it is what the function does that returns it."""
+    if language == "python":
+        return "\n    ".join(line.rstrip() for line in _lines(value, repr))
+    lines = list(_lines(value, json.dumps))
+    if language == "javascript":
+        return "\n    ".join(line.rstrip() for line in lines)
+    quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
+    if language == "rust":
+        return ",\n        ".join(quoted)
+    if language == "c" and sum(map(len, lines)) > LONGEST:
+        size = sum(map(len, lines)) + 1
+        return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
+    return "return " + "\n    ".join(quoted) + ";"
+
+
+def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
+    """The value in pieces that make it when put together: what comes before the settings, each of them, the end."""
+    settings = value["domain"]["settings"]
+    text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
+    yield text[:-3]
+    for place, each in enumerate(settings, start=1):
+        yield written(each) + (", " if place < len(settings) else "")
+    yield text[-3:]
+
 
 COMMENTS = {"c": " * ", "cpp": "// ", "rust": "//! ", "javascript": "// ", "python": ""}
 EXTENSIONS = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}
@@ -45,12 +121,12 @@ def require_prefix(prefix: str, language: str) -> None:
         )
     if not _PREFIX.fullmatch(prefix) or len(prefix) > _LONGEST_PREFIX:
         raise InputError(
-            f"the prefix is {visible(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
+            f"the prefix is {escaped(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
             f"underscores between them, {_LONGEST_PREFIX} characters at most"
         )
 
 
-def emitted(plan: Plan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
+def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
     """The text of the kernel; `command` is what its header says made it. Raises InputError.
 
     Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
@@ -61,7 +137,7 @@ def emitted(plan: Plan, language: str, command: Sequence[str], prefix: str = PRE
     dialect = DIALECTS[language]
     number = dialect.number_of(plan.format.name)
     extension = EXTENSIONS[language]
-    functions = [function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
+    functions = [setting_function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
     parts = {
         "header": header(plan, command, COMMENTS[language]),
         "prefix": prefix,
@@ -69,22 +145,22 @@ def emitted(plan: Plan, language: str, command: Sequence[str], prefix: str = PRE
         "search": _search(plan, dialect, extension) if _searches(plan) else "",
         "imports": "\n".join(["import math"] * _searches(plan) + ["from collections.abc import Iterable"]),
         "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
-        "many": "\n\n".join(many(plan, stages, place, dialect) for place, stages in _numbered(plan))
+        "many": "\n\n".join(batch_function(plan, stages, place, dialect) for place, stages in _numbered(plan))
         if language in BY_BLOCK
         else "",
         "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
-        "description": described(description(plan, language), language),
+        "description": description_in_language(description(plan, language), language),
     }
     return filled(template(f"kernel.{extension}.tmpl"), parts).strip("\n") + "\n"
 
 
-def description(plan: Plan, language: str) -> dict[str, Any]:
+def description(plan: ScenePlan, language: str) -> dict[str, Any]:
     """What the kernel says of itself, as docs/protocol.md has it."""
     return {
         "protocol": 1,
-        "name": f"{safe(plan.scene.name)} ({language}, {plan.format.name})",
+        "name": f"{comment_text(plan.scene.name)} ({language}, {plan.format.name})",
         "version": VERSION,
         "language": language,
         "precision": plan.format.name,
@@ -98,15 +174,15 @@ def _domain(setting: Any) -> dict[str, Any]:  # noqa: ANN401
     return {"sizes": list(setting.sizes), **spans}
 
 
-def _numbered(plan: Plan) -> list[tuple[int, Any]]:
+def _numbered(plan: ScenePlan) -> list[tuple[int, Any]]:
     return list(enumerate(plan.settings, start=1))
 
 
-def _searches(plan: Plan) -> bool:
+def _searches(plan: ScenePlan) -> bool:
     return any(stages.search is not None for stages in plan.settings)
 
 
-def _settings(plan: Plan, dialect: Dialect) -> list[str]:
+def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
     """The tables of constants that searches take."""
     found = []
     for place, stages in _numbered(plan):
@@ -117,14 +193,14 @@ def _settings(plan: Plan, dialect: Dialect) -> list[str]:
     return found
 
 
-def _choices(plan: Plan, dialect: Dialect) -> list[str]:
+def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
     return [
         dialect.say("choose", place=place, sizes=", ".join(map(repr, stages.setting.sizes)), of=stages.setting.sizes)
         for place, stages in _numbered(plan)
     ]
 
 
-def _search(plan: Plan, dialect: Dialect, extension: str) -> str:
+def _search(plan: ScenePlan, dialect: Dialect, extension: str) -> str:
     """The search that all settings share."""
 
     def printed(program: Program, *wanted: str) -> str:
@@ -132,15 +208,15 @@ def _search(plan: Plan, dialect: Dialect, extension: str) -> str:
 
     parts = {
         "number": dialect.number_of(plan.format.name),
-        "place": printed(searching.PLACE, "to_a", "to_b"),
-        "place_all": printed(searching.PLACE, "to_a", "to_b", "lambda_"),
-        "falls": printed(searching.falls(), "past"),
-        "falls_at_zero": printed(searching.falls("_zero"), "past_zero"),
-        "geometric": printed(searching.GEOMETRIC, "middle"),
-        "arithmetic": printed(searching.ARITHMETIC, "middle"),
-        "start": printed(searching.START, "P", "Q", "ar", "cz"),
-        "half": printed(searching.HALF, "half"),
-        "phi": printed(searching.PHI, "above_zero"),
+        "place": printed(last_stages.PLACE, "to_a", "to_b"),
+        "place_all": printed(last_stages.PLACE, "to_a", "to_b", "lambda_"),
+        "falls": printed(last_stages.falls(), "past"),
+        "falls_at_zero": printed(last_stages.falls("_zero"), "past_zero"),
+        "geometric": printed(last_stages.GEOMETRIC, "middle"),
+        "arithmetic": printed(last_stages.ARITHMETIC, "middle"),
+        "start": printed(last_stages.START, "P", "Q", "ar", "cz"),
+        "half": printed(last_stages.HALF, "half"),
+        "phi": printed(last_stages.PHI, "above_zero"),
         "one": dialect.literal(1.0, plan.format.name),
         "zero": dialect.literal(0.0, plan.format.name),
         "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),

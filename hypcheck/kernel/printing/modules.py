@@ -1,4 +1,11 @@
-"""Writes the Python modules of kernel/printed, as core/generate.py writes hypcheck.h.
+"""Printer of the modules in kernel/printed: numpy statements over reused buffers, and scalar Python.
+
+numpy over chunks: a ufunc call a step, into buffers that are used again as soon as their value has been read.
+
+Temporaries are what makes a numpy expression slow: each is memory to find, to fill and to read back. A chunk's buffers
+stay in the cache. Each call is one IEEE operation, so this is the program's arithmetic to the bit.
+
+Writes the Python modules of kernel/printed, as core/generate.py writes hypcheck.h.
 
 python -m hypcheck.kernel.printing.modules
 """
@@ -6,13 +13,91 @@ python -m hypcheck.kernel.printing.modules
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
-from hypcheck.derivation.program import Program, needed
-from hypcheck.kernel.printing.in_place import in_place_statements
-from hypcheck.kernel.printing.python import python_statements
-from hypcheck.kernel.programs import certified, lines, parallel_lines, single
-from hypcheck.pairs import CENTER, COLUMNS
+from hypcheck.derivation.program import NUMBER, Program, Step, kind_of, line_of, needed
+from hypcheck.geometry.pair import CENTER, COLUMNS
+from hypcheck.kernel.printing.languages import python_statements
+from hypcheck.kernel.programs import certified, lines
+
+_UFUNCS = {
+    "add": "np.add",
+    "sub": "np.subtract",
+    "mul": "np.multiply",
+    "div": "np.divide",
+    "neg": "np.negative",
+    "abs": "np.absolute",
+    "sqrt": "np.sqrt",
+    "gt": "np.greater",
+    "lt": "np.less",
+    "ge": "np.greater_equal",
+    "le": "np.less_equal",
+    "eq": "np.equal",
+    "ne": "np.not_equal",
+    "and": "np.logical_and",
+    "or": "np.logical_or",
+    "not": "np.logical_not",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class InPlace:
+    """Statements over buffers n0, n1, … of numbers and t0, t1, … of truth values.
+
+    `place` says in which buffer each wanted name is found.
+    """
+
+    statements: tuple[str, ...]
+    numbers: int
+    truths: int
+    place: dict[str, str]
+
+
+def in_place_statements(program: Program, wanted: tuple[str, ...], copied: tuple[str, ...] = ()) -> InPlace:
+    """The needed part of the program as calls of ufuncs on arrays of one shape.
+
+    The inputs are in scope under their own names, as arrays or floats, and are left as they are; a step that depends
+    on floats alone would still fill a buffer. The inputs in `copied` are first put into a buffer, rounded to its type.
+    Raises ValueError for a selection, and KeyError for a name that is not there.
+    """
+    steps = needed(program, wanted)
+    last_read = {name: index for index, step in enumerate(steps) for name in step.reads}
+    kinds = dict.fromkeys(program.inputs, NUMBER)
+    place: dict[str, str] = {}
+    free: dict[str, list[str]] = {"n": [], "t": []}
+    made = {"n": 0, "t": 0}
+    lines = []
+
+    def buffer(name: str, letter: str) -> str:
+        if not free[letter]:
+            free[letter].append(f"{letter}{made[letter]}")
+            made[letter] += 1
+        place[name] = free[letter].pop()
+        return place[name]
+
+    for index, step in enumerate(steps):
+        kinds[step.name] = kind_of(step, kinds)
+        new = [name for name in dict.fromkeys(step.reads) if name in copied and name not in place]
+        lines += [f'np.copyto({buffer(name, "n")}, {name}, casting="same_kind")' for name in new]
+        arguments = _arguments(step, place)
+        for name in dict.fromkeys(step.reads):
+            if last_read[name] == index and name not in wanted and name in place:
+                free[place[name][0]].append(place[name])
+        target = buffer(step.name, "n" if kinds[step.name] == NUMBER else "t")
+        lines.append(f"{_ufunc(program, step)}({arguments}, {target})  # {line_of(step)}")
+    return InPlace(tuple(lines), made["n"], made["t"], {name: place[name] for name in wanted})
+
+
+def _ufunc(program: Program, step: Step) -> str:
+    if step.operation not in _UFUNCS:
+        raise ValueError(f"program {program.name}: step {step.name}: there is no ufunc in place for {step.operation}")
+    return _UFUNCS[step.operation]
+
+
+def _arguments(step: Step, place: dict[str, str]) -> str:
+    return ", ".join(place.get(a, a) if isinstance(a, str) else f"{a}.0" for a in step.arguments)
+
 
 FOLDER = Path(__file__).parents[1] / "printed"
 COMMAND = "python -m hypcheck.kernel.printing.modules"
@@ -39,10 +124,10 @@ def _chunks() -> str:
             "Mask = NDArray[np.bool_]",
         ],
         [
-            _in_place("plane", parallel_lines.PLANE, ("R", "T"), dict.fromkeys(CENTER, "Floats"), single=True),
+            _in_place("plane", lines.PLANE, ("R", "T"), dict.fromkeys(CENTER, "Floats"), single=True),
             _in_place(
                 "parallel_lines",
-                parallel_lines.PARALLEL_LINES,
+                lines.PARALLEL_LINES,
                 wanted[1:],
                 {"R": "Singles", "T": "Singles"},
                 single=True,
@@ -103,7 +188,7 @@ def _scalars() -> str:
             f"SLACK = {certified.SLACK!r}  # 1 + 2**-20",
         ],
         [
-            _function("single", single.SINGLE, single.RESULTS),
+            _function("single", certified.SINGLE, certified.SINGLE_RESULTS),
             _function("tangent_beyond", lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
             _function("tangent_within", lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
             _function("chord", lines.CHORD, ("below", "above")),
@@ -114,7 +199,7 @@ def _scalars() -> str:
 def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]:
     kind = "bool" if name == "chord" else "float"
     of_lines = {"u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
-    constants = single.CONSTANTS if program is single.SINGLE else of_lines
+    constants = certified.SINGLE_CONSTANTS if program is certified.SINGLE else of_lines
     given = [each for each in program.inputs if each not in constants]
     read = {each for step in needed(program, wanted) for each in step.reads}
     return [

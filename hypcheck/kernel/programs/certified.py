@@ -1,4 +1,6 @@
-"""The program of the second stage: a position where a running error bound proves it, for any sizes.
+"""The programs of the second stage: a position where an error bound proves it, for rows of any sizes and for one pair.
+
+The program of the second stage: a position where a running error bound proves it, for any sizes.
 
 u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding mode and not in "to nearest" alone.
 
@@ -36,13 +38,25 @@ Underflow. A centre coordinate whose square underflows (or is flushed to zero) c
 and c1, c2 by less than 2⁻⁷⁰⁰. e1 ≥ 12u AB > 2⁻²⁴⁹ and e2 ≥ 8u contain that many times over in the unit that they have
 to spare. E1 ≥ 3 e1, E2 ≥ 9 e0 > 2⁻²⁴⁹ and E3 ≥ 3 m0 e2 > 2⁻²⁴⁹ exceed every underflow in h1, h2, h3 (2⁻¹⁰²¹ times a
 small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to Δ.
+
+The program for one pair in plain Python, where each operation costs as much as a comparison or a call.
+
+It is `certified` with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed
+value is off by at most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2,
+11 for c1 and 42 for 3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second
+order, for the rounding of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1,
+H2 = M2 M1 + 9 AB and H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term.
+What it leaves open, or what lies outside c² > a > 1, goes to the integers.
+
+Range. b, d, A and B in 2^±100 and P + Q < FARTHEST = 2²⁰⁰ are asked for, as in `certified` and for its reason:
+M2 < 2²⁰¹ and M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
 """
 
 from __future__ import annotations
 
-from hypcheck.derivation.coefficient_listings import HESSIAN_DISCRIMINANT, TABLE_2
-from hypcheck.derivation.listing import program_of
-from hypcheck.pairs import COLUMNS
+from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT, TABLE_2
+from hypcheck.derivation.program import program_of
+from hypcheck.geometry.pair import COLUMNS
 
 U = 2.0**-52
 SLACK = 1 + 2.0**-20
@@ -224,3 +238,31 @@ CERTIFIED = program_of(
     _DECISION,
 )
 """From a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
+
+
+SINGLE_CONSTANTS = {"u_8": 8 * U * SLACK, "u_12": 12 * U * SLACK, "u_1536": 48 * 32 * U * SLACK}
+
+SINGLE = program_of(
+    "single",
+    (*COLUMNS, *SINGLE_CONSTANTS),
+    TABLE_2,
+    HESSIAN_DISCRIMINANT,
+    """
+    P_plus_Q = P + Q
+    A_plus_B = A + B
+    sizes_2 = A_plus_B + 1
+    M2 = sizes_2 + P_plus_Q
+    BP_plus_AQ = BP + AQ
+    sizes_1 = A_plus_B + AB
+    M1 = sizes_1 + BP_plus_AQ
+    product = M2 * M1
+    product_squared = product * product
+    E = u_1536 * product_squared
+    e1 = u_12 * M1
+    e2 = u_8 * M2
+    BB = B * B
+""",
+)
+
+SINGLE_RESULTS = ("A", "B", "BB", "P_plus_Q", "c1", "e1", "c2", "e2", "delta_3", "E")
+"""What a kernel takes from it: delta_3, c1 and c2 with their error bounds E, e1 and e2, and what the range asks of."""

@@ -6,9 +6,8 @@ n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is 3 N⁴ Δ, slope
 
 from __future__ import annotations
 
-from hypcheck.derivation.listing import program_of
-from hypcheck.derivation.program import Argument, Program
-from hypcheck.pairs import COLUMNS
+from hypcheck.derivation.program import Argument, Program, program_of
+from hypcheck.geometry.pair import COLUMNS
 
 INTEGERS = program_of(
     "integers",

@@ -26,12 +26,11 @@ What overflows before, x/b or |v|², is seen: it is not below its limit in any r
 
 from __future__ import annotations
 
-from hypcheck.derivation.listing import program_of, steps_of
-from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.derivation.program import Program, Step, needed, program_of, steps_of
 from hypcheck.derivation.rounding import ErrorCounts, relative_error_counts
+from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.kernel.programs.certified import SLACK, U
 from hypcheck.kernel.programs.tilted_integers import AXIS
-from hypcheck.pairs import COLUMNS, SIZES
 
 ROW = (*COLUMNS, *AXIS)
 

@@ -10,8 +10,8 @@ is p² q² s t w det(S + λH), as tests/kernel/test_tilted_integers.py checks. L
 
 from __future__ import annotations
 
-from hypcheck.derivation.listing import program_of
-from hypcheck.pairs import COLUMNS
+from hypcheck.derivation.program import program_of
+from hypcheck.geometry.pair import COLUMNS
 
 AXIS = ("axis_x", "axis_y", "axis_z")
 

@@ -12,21 +12,29 @@ from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
-from hypcheck.kernel.specialise import search as searching
-from hypcheck.kernel.specialise import thresholds as two_thresholds
-from hypcheck.kernel.specialise.centre import CENTRE, centre_constants
-from hypcheck.kernel.specialise.choosing import lines_for
-from hypcheck.kernel.specialise.discriminant import Discriminant, discriminant
-from hypcheck.kernel.specialise.entry import entry
-from hypcheck.kernel.specialise.formats import Format, format_of
-from hypcheck.kernel.specialise.lines import Line
-from hypcheck.kernel.specialise.sampling import REACH, centres
-from hypcheck.kernel.specialise.scale import scaled
-from hypcheck.kernel.specialise.search import Search, search
-from hypcheck.kernel.specialise.settings import Setting, always, settings_of
-from hypcheck.kernel.specialise.thresholds import Thresholds, thresholds
-from hypcheck.pairs import SIZES, Position
-from hypcheck.scene.model import Scene, Span
+from hypcheck.geometry.pair import SIZES, Position
+from hypcheck.kernel.specialise import first_stages, last_stages
+from hypcheck.kernel.specialise.first_stages import (
+    CENTRE,
+    ProvedLine,
+    Thresholds,
+    centre_constants,
+    entry,
+    lines_for,
+    thresholds,
+)
+from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, discriminant, search
+from hypcheck.kernel.specialise.settings import (
+    REACH,
+    FloatFormat,
+    Setting,
+    centres,
+    format_of,
+    position_of_box,
+    scaled,
+    settings_of,
+)
+from hypcheck.scene.model import SceneModel, Span
 
 MOST_SETTINGS = 64
 """Different pairs of sizes in a plan: a kernel must stay readable."""
@@ -70,22 +78,22 @@ class Stages:
     entry_constants: dict[str, float]
     always: Position | None
     thresholds: Thresholds | None
-    lines: tuple[Line, ...]
+    lines: tuple[ProvedLine, ...]
     centre: dict[str, float]
     discriminant: Discriminant | None
-    search: Search | None
+    search: DualSearch | None
     shares: dict[str, float]
     omitted: tuple[Omission, ...]
     bound_u: Fraction
 
 
 @dataclass(frozen=True)
-class Plan:
+class ScenePlan:
     """The stages of every setting of a scene, for one question in one format."""
 
-    scene: Scene
+    scene: SceneModel
     question: str
-    format: Format
+    format: FloatFormat
     settings: tuple[Stages, ...]
 
     @property
@@ -94,7 +102,7 @@ class Plan:
         return max(stages.bound_u for stages in self.settings)
 
 
-def plan_of(scene: Scene, precision: str = "float64") -> Plan:
+def plan_of(scene: SceneModel, precision: str = "float64") -> ScenePlan:
     """The plan for a scene's own question.
 
     Raises InputError for another format, too many or too extreme sizes, and where nothing is ever asked.
@@ -108,10 +116,10 @@ def plan_of(scene: Scene, precision: str = "float64") -> Plan:
         )
     if not settings:
         raise InputError("no kernel is made: no hyperboloid's height meets the region, so nothing is ever asked there")
-    return Plan(scene, scene.question, form, tuple(_within(setting, scene.question, form) for setting in settings))
+    return ScenePlan(scene, scene.question, form, tuple(_within(setting, scene.question, form) for setting in settings))
 
 
-def _within(setting: Setting, question: str, form: Format) -> Stages:
+def _within(setting: Setting, question: str, form: FloatFormat) -> Stages:
     """The stages of a setting; raises InputError where a number leaves the format."""
     try:
         return _stages(setting, question, form)
@@ -120,10 +128,10 @@ def _within(setting: Setting, question: str, form: Format) -> Stages:
         raise InputError(f"no kernel is made for {sizes}: {error} (hypcheck.Scene asks any)") from None
 
 
-def _stages(setting: Setting, question: str, form: Format) -> Stages:
+def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
     scale = scaled(setting.sizes, form)
     first, constants = entry(scale)
-    position = always(setting)
+    position = position_of_box(setting)
     if position is not None:
         return _without_tests(setting, first, constants, position)
     height = setting.box.z
@@ -131,7 +139,7 @@ def _stages(setting: Setting, question: str, form: Format) -> Stages:
         found = thresholds(setting.sizes, height.low, scale, form)
         return _at_one_height(setting, first, constants, found, question)
     R, zz = _sample(setting, first, constants, form)
-    lines: list[Line] = []
+    lines: list[ProvedLine] = []
     by_lines = np.zeros(len(R), dtype=bool)
     for side in SIDES[question]:
         own, decided = lines_for(side, scale, form, R, zz, len(lines) + 1)
@@ -152,14 +160,14 @@ def _stages(setting: Setting, question: str, form: Format) -> Stages:
         "discriminant": float(by_delta.sum() / len(R)),
         "search": float((~by_delta).sum() / len(R)),
     }
-    bound = searching.backward_bound()
+    bound = last_stages.backward_bound()
     omitted = _omissions(setting, question, delta, constants)
     last = search(scale, form, _corner(setting, AFAR))
     return Stages(setting, first, constants, None, None, tuple(lines), sides, delta, last, shares, omitted, bound)
 
 
 def _sample(
-    setting: Setting, first: Program, constants: dict[str, float], form: Format
+    setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """R and zz of the sample's centres, as the kernel computes them."""
     x, y, z = centres(setting)
@@ -167,7 +175,9 @@ def _sample(
     return values["R"], values["zz"]
 
 
-def _decided(delta: Discriminant, form: Format, R: NDArray[np.float64], zz: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _decided(
+    delta: Discriminant, form: FloatFormat, R: NDArray[np.float64], zz: NDArray[np.float64]
+) -> NDArray[np.bool_]:
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound
@@ -212,7 +222,7 @@ def _at_one_height(
     omitted += _one_sided(question)
     return Stages(
         setting, first, constants, None, found, (), {}, None, None, {"thresholds": 1.0}, tuple(omitted),
-        two_thresholds.BACKWARD_BOUND,
+        first_stages.BACKWARD_BOUND,
     )  # fmt: skip
 
 

@@ -1,14 +1,29 @@
-"""The settings of a scene: one spheroid beside one hyperboloid, and where its centre can be, seen from the latter's."""
+"""The settings of a scene: one spheroid beside one hyperboloid, its region, sample centres, float format and scale.
+
+The settings of a scene: one spheroid beside one hyperboloid, and where its centre can be, seen from the latter's.
+
+Centres to try a plan on: the same ones every time, spread over the region of a setting or around its surface.
+
+The float formats that a specialised kernel computes in, and exact numbers rounded to them in a given direction.
+
+Lengths scaled by powers of two where their squares could leave the format, and the exact constants of a setting.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.kernel import integers
-from hypcheck.pairs import Pair, Position
-from hypcheck.scene.model import Hyperboloid, Part, Scene, Span
+from hypcheck.scene.model import Hyperboloid, MoverPart, SceneModel, Span
 
 Sizes = tuple[float, float, float, float]
 
@@ -44,7 +59,7 @@ class Setting:
     uses: tuple[str, ...]
 
 
-def settings_of(scene: Scene) -> tuple[Setting, ...]:
+def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
     A pair whose heights never meet the region is left out: nothing there is ever asked of it.
@@ -56,7 +71,7 @@ def settings_of(scene: Scene) -> tuple[Setting, ...]:
     return tuple(found.values())
 
 
-def always(setting: Setting) -> Position | None:
+def position_of_box(setting: Setting) -> Position | None:
     """The one position that the whole box has, if it has one.
 
     The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall
@@ -83,9 +98,9 @@ def _most(span: Span) -> float:
     return max(abs(span.low), abs(span.high))
 
 
-def _pairs(scene: Scene) -> Iterator[Setting]:
+def _pairs(scene: SceneModel) -> Iterator[Setting]:
     mover = scene.mover
-    bodies = {"the mover": Part(mover.b, mover.d, 0.0)}
+    bodies = {"the mover": MoverPart(mover.b, mover.d, 0.0)}
     bodies.update((f"part {number}", part) for number, part in enumerate(mover.parts, start=1))
     for hyperboloid in scene.hyperboloids:
         for name, body in bodies.items():
@@ -95,7 +110,7 @@ def _pairs(scene: Scene) -> Iterator[Setting]:
                 yield Setting(sizes, box, cut, (f"{name} and {hyperboloid.name}",))
 
 
-def _box(scene: Scene, hyperboloid: Hyperboloid, arm: float) -> tuple[Box | None, Span | None]:
+def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box | None, Span | None]:
     """The region seen from the hyperboloid, `arm` wider, and the height that has still to be asked for."""
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
@@ -136,3 +151,122 @@ def _hull(one: Span | None, other: Span | None) -> Span | None:
     if one is None or other is None:
         return None
     return Span(min(one.low, other.low), max(one.high, other.high))
+
+
+COUNT = 4096
+LARGEST = 2.0**1021
+"""Beyond it no centre lies, whatever the sizes: a span's width is then a number of float64."""
+
+REACH = 2.0
+"""How far around the surface centres lie where the region leaves an axis open: in waist radii and heights γ."""
+
+Floats = NDArray[np.float64]
+
+
+def centres(setting: Setting) -> tuple[Floats, Floats, Floats]:
+    """x, y, z, (COUNT,) each: a rank-one lattice, which fills the box evenly and needs no random numbers."""
+    alpha, gamma, b, d = setting.sizes
+    across = Span(-REACH * (alpha + b), REACH * (alpha + b))
+    up = Span(-REACH * (gamma + d), REACH * (gamma + d))
+    index = np.arange(COUNT)
+    spans = [_held(own or default) for own, default in zip(setting.box.spans, (across, across, up), strict=True)]
+    # Powers of the root of x⁴ = x + 1 give the evenest lattice in three dimensions.
+    shares = [((0.5 + index * step) % 1.0) for step in (0.8191725133961645, 0.6710436067037893, 0.5497004779019703)]
+    x, y, z = (span.low + (span.high - span.low) * share for span, share in zip(spans, shares, strict=True))
+    return np.asarray(x), np.asarray(y), np.asarray(z)
+
+
+def _held(span: Span) -> Span:
+    return Span(*(max(-LARGEST, min(end, LARGEST)) for end in (span.low, span.high)))
+
+
+Direction = Literal["nearest", "up", "down"]
+
+
+@dataclass(frozen=True, slots=True)
+class FloatFormat:
+    """A binary format: significant bits, and the exponents of its normal numbers, 2^least ≤ |v| < 2^(greatest + 1)."""
+
+    name: str
+    bits: int
+    least: int
+    greatest: int
+
+    @property
+    def unit(self) -> Fraction:
+        """u, the largest relative error of one rounding to nearest."""
+        return Fraction(1, 2**self.bits)
+
+    def rounded(self, value: Fraction, direction: Direction = "nearest") -> float:
+        """The number of the format next to `value`; raises OverflowError beyond its normal range, 0 aside."""
+        if value == 0:
+            return 0.0
+        exponent = _floor_log2(abs(value))
+        if not self.least <= exponent <= self.greatest:
+            raise OverflowError(f"a number near 2^{exponent} is no normal number of {self.name}")
+        step = Fraction(2) ** (exponent - self.bits + 1)
+        units = value / step
+        return float(_whole(units, direction) * step)
+
+
+FORMATS = {
+    "float32": FloatFormat("float32", 24, -126, 127),
+    "float64": FloatFormat("float64", 53, -1022, 1023),
+}
+
+
+def format_of(precision: str) -> FloatFormat:
+    """The format by its name; raises InputError."""
+    if precision not in FORMATS:
+        raise InputError(f"the precision is {precision!r}; a kernel computes in {' or '.join(FORMATS)}")
+    return FORMATS[precision]
+
+
+def power_of_two_near(value: Fraction) -> Fraction:
+    """The largest power of two that is not above `value` > 0."""
+    return Fraction(2) ** _floor_log2(value)
+
+
+def _whole(value: Fraction, direction: Direction) -> int:
+    if direction == "nearest":
+        return round(value)
+    return math.ceil(value) if direction == "up" else math.floor(value)
+
+
+def _floor_log2(value: Fraction) -> int:
+    exponent = value.numerator.bit_length() - value.denominator.bit_length()
+    return exponent if Fraction(2) ** exponent <= value else exponent - 1
+
+
+ORDINARY = {"float32": Fraction(2) ** 16, "float64": Fraction(2) ** 100}
+"""Semi-axes between this and its reciprocal have squares, and products of squares, well inside the format."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScaledSetting:
+    """A setting's squares, exactly, in the units of the kernel: radial lengths times `radial`, axial times `axial`.
+
+    A = (α/b)² and B = (γ/d)² have no unit. `bb` and `dd` are b² and d². The factors are powers of two, so that a
+    kernel's products by them round nothing; they are 1 where nothing has to be scaled.
+    """
+
+    A: Fraction
+    B: Fraction
+    bb: Fraction
+    dd: Fraction
+    radial: Fraction
+    axial: Fraction
+
+
+def scaled(sizes: Sizes, form: FloatFormat) -> ScaledSetting:
+    """The squares of the sizes, scaled where the format asks for it (Theorem 1 allows any two factors).
+
+    Raises OverflowError where a factor is no number of the format.
+    """
+    alpha, gamma, b, d = map(Fraction, sizes)
+    limit = ORDINARY[form.name]
+    radial = Fraction(1) if all(1 / limit < each < limit for each in (alpha, b)) else 1 / power_of_two_near(b)
+    axial = Fraction(1) if all(1 / limit < each < limit for each in (gamma, d)) else 1 / power_of_two_near(d)
+    for unit in (radial, axial):
+        form.rounded(unit)
+    return ScaledSetting((alpha / b) ** 2, (gamma / d) ** 2, (b * radial) ** 2, (d * axial) ** 2, radial, axial)

@@ -9,25 +9,25 @@ from typing import Any
 
 import sympy
 
-from hypcheck.classification.as_json import proof_as_json
+from hypcheck.answer import proof_as_json
 from hypcheck.derivation.costs import Cost
-from hypcheck.derivation.counting import Operations
-from hypcheck.derivation.links import Cases, Chain, Identity, Link, Part, Sign
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.tex import formula
-from hypcheck.paper.ledger.entry import Entry, Evidence
-from hypcheck.paper.ledger.search import Witness
+from hypcheck.derivation.links import Chain, FiniteCases, Identity, Link, Part, Sign
+from hypcheck.derivation.program import Operations
+from hypcheck.paper.derive.latex import formula
+from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
+from hypcheck.paper.ledger.points import PointWitness
 from hypcheck.version import VERSION
 
 SCHEMA = "1.2.0"
 
 
-def lines(chosen: Chosen) -> Iterator[str]:
+def lines(chosen: Selection) -> Iterator[str]:
     """The object, indented."""
     yield json.dumps(document(chosen), ensure_ascii=False, indent=1)
 
 
-def document(chosen: Chosen) -> dict[str, Any]:
+def document(chosen: Selection) -> dict[str, Any]:
     """The object; a part that was not asked for is missing."""
     parts: dict[str, Any] = {}
     if "derivation" in chosen.parts:
@@ -75,11 +75,11 @@ def _part(part: Part) -> dict[str, Any]:
         return {"kind": "identity", **shown}
     if isinstance(part, Sign):
         return {"kind": "sign", **shown, "positive": list(part.positive), "nonnegative": list(part.nonnegative)}
-    assert isinstance(part, Cases)  # noqa: S101 - tells the type checker what is left
+    assert isinstance(part, FiniteCases)  # noqa: S101 - tells the type checker what is left
     return {"kind": "cases", **shown, "cases": len(part.cases)}
 
 
-def _entry(entry: Entry) -> dict[str, Any]:
+def _entry(entry: LedgerEntry) -> dict[str, Any]:
     return {
         "number": entry.number,
         "section": entry.section,
@@ -106,7 +106,7 @@ def _evidence(evidence: Evidence) -> dict[str, Any]:
     }
 
 
-def _witness(witness: Witness) -> dict[str, Any]:
+def _witness(witness: PointWitness) -> dict[str, Any]:
     facts, pair = witness.facts, witness.facts.point.pair
     point = {name: str(getattr(facts.point, name)) for name in ("a", "c", "r", "z")}
     numbers = {name: str(getattr(facts, name)) for name in ("delta", "c2", "c1", "c0")}

@@ -12,19 +12,19 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.tex import formula, sentence
+from hypcheck.paper.derive.latex import formula, sentence
+from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger import entries
-from hypcheck.paper.ledger.entry import Entry
-from hypcheck.paper.ledger.facts import Facts
-from hypcheck.paper.tower_table import PRINTED
+from hypcheck.paper.ledger.entry import LedgerEntry
+from hypcheck.paper.ledger.points import PointFacts
+from hypcheck.paper.tower_flights import PRINTED
 from hypcheck.tables.streams import writing
 from hypcheck.version import VERSION
 
 COMPILER = "pdflatex"
 
 
-def lines(_: Chosen) -> Iterator[str]:
+def lines(_: Selection) -> Iterator[str]:
     """The whole note, whatever was chosen: an erratum is one."""
     ledger = {entry.number: entry for entry in entries()}
     text = _NOTE
@@ -33,7 +33,7 @@ def lines(_: Chosen) -> Iterator[str]:
     yield from text.splitlines()
 
 
-def _values(ledger: dict[str, Entry]) -> dict[str, str]:
+def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
     """What the note leaves to the ledger, by the names in it."""
     ring, beyond = _witnesses(ledger["Proposition 3.1"])[0], _witnesses(ledger["Proposition 5.2"])[0]
     without_c2, without_c1 = _witnesses(ledger["Proposition 5.1"])
@@ -58,7 +58,7 @@ def _values(ledger: dict[str, Entry]) -> dict[str, str]:
     }
 
 
-def _witnesses(entry: Entry) -> list[Facts]:
+def _witnesses(entry: LedgerEntry) -> list[PointFacts]:
     return [witness.facts for evidence in entry.evidence for witness in evidence.witnesses]
 
 
@@ -69,7 +69,7 @@ def _lambda_cubic(text: str) -> str:
     return f"{name} = {others} {constant.replace('−', '− ', 1)}"
 
 
-def _pair(facts: Facts) -> str:
+def _pair(facts: PointFacts) -> str:
     """A pair and its numbers, "a = 1, c = 2, centre (5/2, 0, 0): exterior, Δ = 0, …", as LaTeX."""
     point = facts.point
     numbers = rf"\Delta={facts.delta},\ c_2={facts.c2},\ c_1={facts.c1}"

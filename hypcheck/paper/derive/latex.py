@@ -1,17 +1,177 @@
-r"""The same in LaTeX: a document that any engine compiles, with packages that every distribution has."""
+"""The derivation, the ledger and the costs in LaTeX, with packages that every distribution has; plain text as LaTeX.
+
+Plain text with formulas, as the derivation and the ledger write it, in LaTeX: x_c² + y_c² as x_{c}^{2} + y_{c}^{2}.
+
+Everything comes out in ASCII, so that any engine and any encoding will do.
+
+The same in LaTeX: a document that any engine compiles, with packages that every distribution has.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
-from hypcheck.paper.derive.asking import PARTS
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.layout import broken
-from hypcheck.paper.derive.tex import formula, plain, sentence
-from hypcheck.paper.derive.words import CHECKED, COST_COLUMNS, COSTS_EXPLAINED, FAILS, cost_cells, details, verdict
-from hypcheck.paper.ledger.entry import Entry
+from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive.selection import (
+    CHECKED,
+    COST_COLUMNS,
+    COSTS_EXPLAINED,
+    FAILS,
+    Selection,
+    broken,
+    cost_cells,
+    details,
+    verdict,
+)
+from hypcheck.paper.ledger.entry import LedgerEntry
+
+_LETTERS = {"α": r"\alpha", "γ": r"\gamma", "λ": r"\lambda", "μ": r"\mu", "φ": r"\varphi", "ρ": r"\rho", "θ": r"\theta"}
+_LETTERS |= {"π": r"\pi", "Δ": r"\Delta"}
+_SIGNS = {
+    "−": "-",
+    "·": r"\,",
+    "×": r"\times ",
+    "÷": r"\div ",
+    "≤": r"\leq ",
+    "≥": r"\geq ",
+    "≠": r"\neq ",
+    "±": r"\pm ",
+    "⟺": r"\Longleftrightarrow ",
+    "⟹": r"\Longrightarrow ",
+    "⟸": r"\Longleftarrow ",
+    "←": r"\leftarrow ",
+    "∞": r"\infty ",
+    "√": r"\surd ",
+    "ᵀ": r"^{\mathrm{T}}",
+    **{sign: sign for sign in "+=<>|/"},
+}
+_FUNCTIONS = {"cos": r"\cos", "det": r"\det", "diag": r"\mathrm{diag}"}
+_OF_ROTORS = {"cosine": r"\cos g_{i}", "sine": r"\sin g_{i}"}
+_PUNCTUATION = {
+    "ó": r"\'o",
+    "“": "``",
+    "”": "''",
+    "–": "--",
+    "…": r"\ldots{}",
+    "’": "'",
+    "%": r"\%",
+    "&": r"\&",
+    "#": r"\#",
+    "_": r"\_",
+}
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
+_TOKEN = re.compile(
+    r"(?P<code>`[^`]*`)"
+    r"|(?P<plain>\d+\.[ab\d]\b|i\.e\.)"
+    r"|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)"
+    r"|(?P<root>√[A-Za-z\d]+)"
+    r"|(?P<possessive>'s\b)"
+    r"|(?P<word>[A-Za-zα-ωΑ-Ω]\u0304?[A-Za-zα-ωΑ-Ω\d_]*(?:'+(?![a-z]))?)"
+    r"|(?P<number>\d+)"
+    r"|(?P<other>.)",
+    re.DOTALL,
+)
+_LETTER = re.compile(r"(?P<base>[A-Za-zαγλμφρθπΔ])(?P<bar>\u0304?)(?P<index>m|\d_?[a-z]?|_[a-z\d])?(?P<primes>'*)")
+_PRODUCT = re.compile(r"[ABPQ]{2}|[αγ]t|λH")
+_ARTICLE = re.compile(r"(?<![\d=<>≤≥+−/·])(?:(?<![=<>≤≥+−/·] )a|(?:^|(?<=\. ))A) [A-Za-z]{2}")
+
+
+class UnknownCharacterError(ValueError):
+    """A character for which there is no LaTeX here."""
+
+
+def formula(text: str) -> str:
+    """A formula for math mode; words in it are set as text. Raises UnknownCharacterError."""
+    runs = _runs(_tokens(text), edge="math")
+    return "".join(tex if kind == "math" else rf"\text{{{tex}}}" for tex, kind in runs)
+
+
+def sentence(text: str) -> str:
+    """A sentence with formulas in it, for text mode. Raises UnknownCharacterError."""
+    runs = _runs(_tokens(text, articles=True), edge="text")
+    return "".join(f"${tex}$" if kind == "math" else tex for tex, kind in runs)
+
+
+Run = tuple[str, str]
+
+
+def _runs(tokens: list[Run], edge: str) -> list[Run]:
+    """The tokens joined to runs of one mode; spaces are of the mode that both sides have, or else text."""
+    kinds = ["text" if kind == "space" else kind for _, kind in tokens]
+    for place, (_, kind) in enumerate(tokens):
+        if kind == "mark":  # brackets and commas go with a formula that they touch
+            touched = {tokens[beside][1] for beside in (place - 1, place + 1) if 0 <= beside < len(tokens)}
+            kinds[place] = "math" if "math" in touched or edge == "math" else "text"
+    for place, (_, kind) in enumerate(tokens):
+        if kind == "space" and 0 < place < len(tokens) - 1 and kinds[place - 1] == kinds[place + 1] == "math":
+            kinds[place] = "math"
+    joined: list[Run] = []
+    for (tex, _), kind in zip(tokens, kinds, strict=True):
+        if joined and joined[-1][1] == kind:
+            before = joined[-1][0]
+            joined[-1] = (before + (tex.lstrip() if before.endswith(" ") else tex), kind)
+        else:
+            joined.append((tex, kind))
+    return joined
+
+
+def _tokens(text: str, *, articles: bool = False) -> list[Run]:
+    """The tokens; in sentences, where there are `articles`, "a" before a word is one, and a cosine is a word."""
+    return [
+        (found[0], "text")
+        if articles and (found[0] in _OF_ROTORS or _ARTICLE.match(text, found.start()))
+        else _token(found)
+        for found in _TOKEN.finditer(text)
+    ]
+
+
+def _token(found: re.Match[str]) -> Run:
+    """One token in LaTeX, and whether it is "math", "text", a "space" or a "mark" that can be either."""
+    text = found[0]
+    if found["code"]:
+        return rf"\texttt{{{plain(text.strip('`'))}}}", "text"
+    if found["plain"]:
+        return text, "text"
+    if found["raised"]:
+        return f"^{{{text.translate(_RAISED)}}}", "math"
+    if found["root"]:
+        return rf"\sqrt{{{formula(text[1:])}}}", "math"
+    if found["number"]:
+        return text, "math"
+    if found["word"]:
+        return _word(text)
+    if text.isspace():
+        return " ", "space"
+    if text in _SIGNS:
+        return _SIGNS[text], "math"
+    return plain(text), "mark" if text in "()[],.;:'!" else "text"
+
+
+def _word(text: str) -> Run:
+    if text in _FUNCTIONS or text in _OF_ROTORS:
+        return {**_FUNCTIONS, **_OF_ROTORS}[text], "math"
+    if _PRODUCT.fullmatch(text):
+        return " ".join(_LETTERS.get(letter, letter) for letter in text), "math"
+    letter = _LETTER.fullmatch(text)
+    if letter is None:
+        return plain(text), "text"
+    base = _LETTERS.get(letter["base"], letter["base"])
+    index = (letter["index"] or "").replace("_", "")
+    named = (rf"\bar{{{base}}}" if letter["bar"] else base) + (f"_{{{','.join(index)}}}" if index else "")
+    return named + letter["primes"], "math"
+
+
+def plain(text: str) -> str:
+    """Words without formulas. Raises UnknownCharacterError."""
+    escaped = "".join(_PUNCTUATION.get(character, character) for character in text)
+    if not escaped.isascii():
+        raise UnknownCharacterError(f"there is no LaTeX here for a character of {text!r}")
+    return escaped
+
 
 _BEGIN = r"""\documentclass{article}
 \usepackage{amsmath,amssymb}
@@ -23,7 +183,7 @@ _ROOM = 88
 """Columns of plain text that fit on a line as a display."""
 
 
-def lines(chosen: Chosen) -> Iterator[str]:
+def lines(chosen: Selection) -> Iterator[str]:
     """The whole document."""
     yield _BEGIN
     if "derivation" in chosen.parts:
@@ -79,7 +239,7 @@ def _continued(pieces: Iterable[str]) -> str:
     return "".join(rf" \\ & \quad {piece}" for piece in pieces)
 
 
-def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
+def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     yield _heading("ledger")
     yield r"\begin{description}"
     for entry in entries:

@@ -7,21 +7,21 @@ from collections.abc import Iterator
 
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain
-from hypcheck.paper.derive.asking import PARTS
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.words import (
+from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive.selection import (
     CHECKED,
     COSTS_EXPLAINED,
     FAILS,
     QUERY_COLUMNS,
     SCENE_COLUMNS,
+    Selection,
     cost_cells,
     details,
     verdict,
 )
 from hypcheck.paper.ledger import entries as whole_ledger
-from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry
-from hypcheck.paper.ledger.sentences import coverage, sentences
+from hypcheck.paper.ledger.book import coverage, sentences
+from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, LedgerEntry
 
 _INTRODUCTION = """# The paper, claim by claim
 
@@ -43,7 +43,7 @@ figures nor the list of references; the works [1] to [16] were not read. So ever
 the wording or the figures of Table 5, must be looked up on the printed page before it is held against the authors."""
 
 
-def lines(chosen: Chosen) -> Iterator[str]:
+def lines(chosen: Selection) -> Iterator[str]:
     """The page."""
     yield _INTRODUCTION
     if "derivation" in chosen.parts:
@@ -74,7 +74,7 @@ def _chain(chain: Chain) -> Iterator[str]:
             yield f"   - `{part.text}` {CHECKED if part.holds else FAILS}"
 
 
-def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
+def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     counts = Counter(entry.verdict for entry in entries)
     yield from ("", f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}.")
     if entries == whole_ledger():

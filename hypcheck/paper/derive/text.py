@@ -7,32 +7,36 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 
-from hypcheck.classification.text import proof_lines
+from hypcheck.answer import proof_lines
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
-from hypcheck.pairs import CENTER, SIZES, Pair
-from hypcheck.paper.derive.asking import PARTS
-from hypcheck.paper.derive.choosing import Chosen
-from hypcheck.paper.derive.layout import WIDTH, formula, matrix, padded, paragraph
-from hypcheck.paper.derive.words import (
+from hypcheck.geometry.pair import CENTER, SIZES, Pair
+from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive.selection import (
     CHECKED,
     COST_COLUMNS,
     COSTS_EXPLAINED,
     FAILS,
     QUERY_COLUMNS,
     SCENE_COLUMNS,
+    WIDTH,
+    Selection,
     cost_cells,
     details,
+    formula,
+    matrix,
+    padded,
+    paragraph,
     verdict,
 )
-from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Entry, Evidence, described
-from hypcheck.paper.ledger.sentences import coverage
+from hypcheck.paper.ledger.book import coverage
+from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Evidence, LedgerEntry, described
 
 _NUMBER, _VERDICT, _TITLE = 34, 49, 10
 """Columns of the ledger: where the number and the verdict end, and how wide the titles of further lines are."""
 
 
-def lines(chosen: Chosen) -> Iterator[str]:
+def lines(chosen: Selection) -> Iterator[str]:
     """All that was chosen; each part says at its head what it is."""
     if "derivation" in chosen.parts:
         yield from _heading("derivation")
@@ -94,7 +98,7 @@ def _parts(parts: Iterable[Part], indent: int) -> Iterator[str]:
             yield from formula(part.text, indent, remark)
 
 
-def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
+def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     yield from _heading("ledger")
     counts = Counter(entry.verdict for entry in entries)
     yield from paragraph(
@@ -112,7 +116,7 @@ def _ledger(entries: tuple[Entry, ...]) -> Iterator[str]:
         before = brief
 
 
-def _entry(entry: Entry, *, brief: bool) -> Iterator[str]:
+def _entry(entry: LedgerEntry, *, brief: bool) -> Iterator[str]:
     """One line for a formula that holds as printed, a few for all else."""
     head = padded(entry.number, _NUMBER) + padded(verdict(entry), _VERDICT - _NUMBER)
     if brief:
@@ -127,7 +131,7 @@ def _details(said: Iterable[tuple[str, str]], start: int) -> Iterator[str]:
         yield from paragraph(text, start + _TITLE, " " * start + title)
 
 
-def _in_full(chosen: Chosen) -> Iterator[str]:
+def _in_full(chosen: Selection) -> Iterator[str]:
     """Claims one by one, with their evidence; then the chains, each once."""
     for entry in chosen.entries:
         yield ""

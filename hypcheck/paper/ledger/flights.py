@@ -6,36 +6,35 @@ from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise
 
-from hypcheck.paper.ledger import statements as say
+from hypcheck.paper.ledger import entry
 from hypcheck.paper.ledger.entry import (
     FALSE,
     NOT_CHECKABLE,
     PROVED,
-    Entry,
     Evidence,
+    LedgerEntry,
     harmless_where,
     with_counterexample,
 )
-from hypcheck.paper.ledger.facts import Squares, discriminant
-from hypcheck.paper.ledger.search import Statement
-from hypcheck.paper.tower_table import PRINTED, SPEEDS, TIMES
+from hypcheck.paper.ledger.points import SquaredRatios, Statement, discriminant
+from hypcheck.paper.tower_flights import PRINTED, SPEEDS, TIMES
 
 TOWER = ("64", "126736/9")
 """A = (2/0.25)² and B = (17.8/0.15)² of the paper's body in its tower."""
 
-ON_THE_AXIS = Squares(*TOWER, "0", "0")
-NEAR_THE_WALL = Squares(*TOWER, "33884041/390625", "126736/9")
+ON_THE_AXIS = SquaredRatios(*TOWER, "0", "0")
+NEAR_THE_WALL = SquaredRatios(*TOWER, "33884041/390625", "126736/9")
 """z = 17.8 m, where the wall is 2.8284 m from the axis, and 2.3284 m from it: P = (2.3284/0.25)²."""
 
 
-def flights() -> tuple[Entry, ...]:
+def flights() -> tuple[LedgerEntry, ...]:
     """In the order of the text."""
     return (_near_the_wall(), _clear_by_discriminant(), _look_ahead(), *_shares(), *_order(), _equal_steps())
 
 
-def _near_the_wall() -> Entry:
+def _near_the_wall() -> LedgerEntry:
     axis, near = discriminant(ON_THE_AXIS), discriminant(NEAR_THE_WALL)
-    return Entry(
+    return LedgerEntry(
         "Section 4, near the wall",
         "4",
         "the values of Δ closest to zero are those where the UAV is near the wall",
@@ -59,7 +58,7 @@ def _near_the_wall() -> Entry:
 def _falls(height: int) -> bool:
     """Whether Δ falls along a radius at height/6 of γ until it is not above 0, in steps of b/4."""
     Q = str(Fraction(126736 * height**2, 9 * 36))
-    values = [discriminant(Squares(*TOWER, str(Fraction(step**2, 16)), Q)) for step in range(48)]
+    values = [discriminant(SquaredRatios(*TOWER, str(Fraction(step**2, 16)), Q)) for step in range(48)]
     end = next(place for place, value in enumerate(values) if value <= 0)
     return end > 20 and _falling(values[: end + 1])
 
@@ -69,12 +68,12 @@ def _falling(values: Iterable[Fraction | float]) -> bool:
 
 
 CLEAR_IS_POSITIVE = Statement(
-    "interior or exterior ⟺ Δ > 0", say.wide, lambda facts: say.contact(facts) == (facts.delta <= 0)
+    "interior or exterior ⟺ Δ > 0", entry.wide, lambda facts: entry.contact(facts) == (facts.delta <= 0)
 )
 
 
-def _clear_by_discriminant() -> Entry:
-    return Entry(
+def _clear_by_discriminant() -> LedgerEntry:
+    return LedgerEntry(
         "Section 4, discriminant",
         "4",
         "interior or exterior positions correspond to Δ > 0",
@@ -83,15 +82,15 @@ def _clear_by_discriminant() -> Entry:
         "inside the paper's tower the sentence holds, so the share of Δ ≤ 0 is the share of contact there",
         lambda: (
             with_counterexample(CLEAR_IS_POSITIVE),
-            harmless_where(CLEAR_IS_POSITIVE, lambda facts: say.tall(facts) and not say.exterior(facts)),
+            harmless_where(CLEAR_IS_POSITIVE, lambda facts: entry.tall(facts) and not entry.exterior(facts)),
         ),
         "for α/b ≥ 1 and (γ/d)² ≥ α/b: interior, or exterior off the ring ⟺ Δ > 0",
         harmless="inside a hyperboloid with (γ/d)² ≥ α/b, as in the paper's tower",
     )
 
 
-def _look_ahead() -> Entry:
-    return Entry(
+def _look_ahead() -> LedgerEntry:
+    return LedgerEntry(
         "Section 4, look-ahead",
         "4",
         "the prediction is made for the position in t seconds",
@@ -101,12 +100,12 @@ def _look_ahead() -> Entry:
     )
 
 
-def _shares() -> tuple[Entry, ...]:
+def _shares() -> tuple[LedgerEntry, ...]:
     most = max(max(row) for row in PRINTED)
     first = PRINTED[0]
     fall = 100 * (1 - first[-1] / first[0])
     return (
-        Entry(
+        LedgerEntry(
             "Table 5",
             "4",
             "the percentages of executions with Δ ≤ 0",
@@ -116,7 +115,7 @@ def _shares() -> tuple[Entry, ...]:
             "tried, and many fit about as well",
             "`hypcheck simulate tower --table 5` sets its own figures beside the printed ones, every assumption named",
         ),
-        Entry(
+        LedgerEntry(
             "Table 5, below 14 %",
             "4",
             "less than 14 % of executions in all cases",
@@ -127,7 +126,7 @@ def _shares() -> tuple[Entry, ...]:
             "asks the rotors",
             lambda: (Evidence("count", f"{most} < 14", most < 14),),
         ),
-        Entry(
+        LedgerEntry(
             "Table 5, t = 0.1",
             "4",
             "for t = 0.1 the values are similar, independently of the speed",
@@ -145,10 +144,10 @@ def _shares() -> tuple[Entry, ...]:
     )
 
 
-def _order() -> tuple[Entry, ...]:
+def _order() -> tuple[LedgerEntry, ...]:
     columns = list(zip(*PRINTED, strict=True))
     return (
-        Entry(
+        LedgerEntry(
             "Table 5, speed",
             "4",
             "the percentage falls as the speed rises",
@@ -157,7 +156,7 @@ def _order() -> tuple[Entry, ...]:
             "longer steps leave the wall's neighbourhood faster",
             lambda: (Evidence("count", "15 falls of 15", all(map(_falling, PRINTED))),),
         ),
-        Entry(
+        LedgerEntry(
             "Table 5, response time",
             "4",
             "the percentage falls as t rises",
@@ -166,7 +165,7 @@ def _order() -> tuple[Entry, ...]:
             "as for the speed",
             lambda: (Evidence("count", "12 falls of 12", all(map(_falling, columns))),),
         ),
-        Entry(
+        LedgerEntry(
             "Table 5, reason",
             "4",
             "higher speeds and times lead to higher probabilities of interior or exterior positions",
@@ -177,7 +176,7 @@ def _order() -> tuple[Entry, ...]:
     )
 
 
-def _equal_steps() -> Entry:
+def _equal_steps() -> LedgerEntry:
     (first, second, third), speeds = PRINTED, list(SPEEDS)
     pairs = (
         (first[speeds.index(10)], second[speeds.index(5)], 10 * TIMES[0], 5 * TIMES[1]),
@@ -185,7 +184,7 @@ def _equal_steps() -> Entry:
     )
     read_anew = third[speeds.index(5)], second[speeds.index(6)]
     text = ", ".join(f"{one:.2f} against {other:.2f} at v·t = {step:g}" for one, other, step, _ in pairs)
-    return Entry(
+    return LedgerEntry(
         "Table 5, equal steps",
         "4",
         "the rows are of t = 0.1, 0.2 and 0.3, and a flight depends on v and t by the way v·t alone",

@@ -7,26 +7,26 @@ from fractions import Fraction
 from itertools import chain
 
 from hypcheck.derivation.links import known, printed
-from hypcheck.pairs import Position
-from hypcheck.paper.ledger import statements as say
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger import entry
 from hypcheck.paper.ledger.entry import (
     FALSE,
     NOT_CHECKABLE,
     PROVED,
-    Entry,
     Evidence,
+    LedgerEntry,
     by_chain,
     harmless_where,
     with_counterexample,
     without_counterexample,
 )
-from hypcheck.paper.ledger.facts import Squares, coefficients
+from hypcheck.paper.ledger.points import SquaredRatios, coefficients
 from hypcheck.proofs.build import pattern_table
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots_patterns import PATTERNS, Place, admissible, pattern_of
+from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
 
 
-def propositions() -> tuple[Entry, ...]:
+def propositions() -> tuple[LedgerEntry, ...]:
     """Section 2's statements, in its order."""
     return (
         _theorem_1(),
@@ -43,8 +43,8 @@ def propositions() -> tuple[Entry, ...]:
     )
 
 
-def _theorem_1() -> Entry:
-    return Entry(
+def _theorem_1() -> LedgerEntry:
+    return LedgerEntry(
         "Theorem 1",
         "2",
         "spheroid and hyperboloid touch as sphere and scaled hyperboloid do",
@@ -59,9 +59,9 @@ def _holds(*numbers: str) -> bool:
     return all(part.holds for number in numbers for part in printed(number))
 
 
-def _known_root() -> Entry:
+def _known_root() -> LedgerEntry:
     factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
-    return Entry(
+    return LedgerEntry(
         "after (12)",
         "2",
         "−a² is a root of f, and the other roots are those of g",
@@ -72,9 +72,9 @@ def _known_root() -> Entry:
     )
 
 
-def _remark_2() -> Entry:
+def _remark_2() -> LedgerEntry:
     product = known("Δ is the product of the squared differences of the roots")
-    return Entry(
+    return LedgerEntry(
         "Remark 2",
         "2",
         "(13) is the discriminant and (14) the coefficients",
@@ -85,9 +85,9 @@ def _remark_2() -> Entry:
     )
 
 
-def _of_reference_10() -> tuple[Entry, ...]:
+def _of_reference_10() -> tuple[LedgerEntry, ...]:
     return (
-        Entry(
+        LedgerEntry(
             "Tables 1–3 of [10]",
             "2",
             "the positions by patterns of roots",
@@ -95,7 +95,7 @@ def _of_reference_10() -> tuple[Entry, ...]:
             "the text of [10] was not consulted",
             "the patterns are re-derived instead (docs/mathematics.md) and serve as an oracle of `hypcheck verify`",
         ),
-        Entry(
+        LedgerEntry(
             "Tables 1–3 of [10], re-derived",
             "2",
             "the table of root patterns has every pattern that can occur, and no other",
@@ -125,12 +125,12 @@ def _table_of_patterns() -> tuple[Evidence, Evidence]:
 
 
 _PLACES = {
-    "Below": Place.BELOW,
-    "AtMinusA": Place.AT_MINUS_A,
-    "Inner": Place.INNER,
-    "Outer": Place.OUTER,
-    "AtB": Place.AT_B,
-    "Above": Place.ABOVE,
+    "Below": RootPlace.BELOW,
+    "AtMinusA": RootPlace.AT_MINUS_A,
+    "Inner": RootPlace.INNER,
+    "Outer": RootPlace.OUTER,
+    "AtB": RootPlace.AT_B,
+    "Above": RootPlace.ABOVE,
 }
 
 
@@ -151,8 +151,8 @@ VERY_TALL = (
 _RING_FOLLOWS = "the ring: clear positions in the plane of the waist are refused; a phantom contact in floats around it"
 
 
-def _proposition_3_1() -> Entry:
-    return Entry(
+def _proposition_3_1() -> LedgerEntry:
+    return LedgerEntry(
         "Proposition 3.1",
         "2",
         "(γ/d)² ≥ α/b: exterior ⟺ Δ > 0, c2 < 0, c1 > 0",
@@ -160,18 +160,18 @@ def _proposition_3_1() -> Entry:
         "“⟸” is proved; “⟹” fails on the ring z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a, and nowhere else",
         _RING_FOLLOWS,
         lambda: (
-            with_counterexample(say.PROPOSITION_3_1),
+            with_counterexample(entry.PROPOSITION_3_1),
             by_chain("Proposition 3, repaired"),
-            without_counterexample(say.REPAIRED_3),
-            harmless_where(say.PROPOSITION_3_1, say.off_the_waist),
+            without_counterexample(entry.REPAIRED_3),
+            harmless_where(entry.PROPOSITION_3_1, entry.off_the_waist),
         ),
         "exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring: z0 = 0, g'(B) = 0 and A < B²",
         harmless=OFF_THE_WAIST,
     )
 
 
-def _proposition_3_2() -> Entry:
-    return Entry(
+def _proposition_3_2() -> LedgerEntry:
+    return LedgerEntry(
         "Proposition 3.2",
         "2",
         "(γ/d)² ≥ α/b: Δ ≤ 0 ⟹ contact",
@@ -179,19 +179,19 @@ def _proposition_3_2() -> Entry:
         "on the ring g has the double root B below which it is positive: Δ = 0, and no contact",
         "Δ ≤ 0 is no proof of contact; ask for the ring as well",
         lambda: (
-            with_counterexample(say.PROPOSITION_3_2),
+            with_counterexample(entry.PROPOSITION_3_2),
             by_chain("Proposition 3, repaired"),
-            without_counterexample(say.REPAIRED_3),
-            harmless_where(say.PROPOSITION_3_2, say.off_the_waist),
+            without_counterexample(entry.REPAIRED_3),
+            harmless_where(entry.PROPOSITION_3_2, entry.off_the_waist),
         ),
         "Δ ≤ 0 ⟹ contact or the ring",
         harmless=OFF_THE_WAIST,
     )
 
 
-def _proof_of_3() -> tuple[Entry, ...]:
+def _proof_of_3() -> tuple[LedgerEntry, ...]:
     return (
-        Entry(
+        LedgerEntry(
             "Proposition 3, proof: roots",
             "2",
             "exterior ⟺ g has three different positive roots",
@@ -199,14 +199,14 @@ def _proof_of_3() -> tuple[Entry, ...]:
             "on the ring two of the three positive roots are one",
             _RING_FOLLOWS,
             lambda: (
-                with_counterexample(say.THREE_POSITIVE_ROOTS),
+                with_counterexample(entry.THREE_POSITIVE_ROOTS),
                 by_chain("Proposition 3, repaired"),
-                harmless_where(say.THREE_POSITIVE_ROOTS, say.off_the_waist),
+                harmless_where(entry.THREE_POSITIVE_ROOTS, entry.off_the_waist),
             ),
             "exterior ⟺ g has three different positive roots, or the double root B above a simple one",
             harmless=OFF_THE_WAIST,
         ),
-        Entry(
+        LedgerEntry(
             "Proposition 3, proof: signs",
             "2",
             "c2 < 0 and c1 > 0 ⟺ all real roots of g are positive",
@@ -214,9 +214,9 @@ def _proof_of_3() -> tuple[Entry, ...]:
             "“⟸” fails where two roots are complex",
             "ask for Δ > 0 first",
             lambda: (
-                with_counterexample(say.ALL_POSITIVE),
+                with_counterexample(entry.ALL_POSITIVE),
                 by_chain("Proposition 3, repaired"),
-                harmless_where(say.ALL_POSITIVE, lambda facts: facts.delta > 0),
+                harmless_where(entry.ALL_POSITIVE, lambda facts: facts.delta > 0),
             ),
             "if Δ > 0: c2 < 0 and c1 > 0 ⟺ all roots of g are positive",
             harmless="where Δ > 0, and the proof uses it nowhere else",
@@ -224,8 +224,8 @@ def _proof_of_3() -> tuple[Entry, ...]:
     )
 
 
-def _remark_4() -> Entry:
-    return Entry(
+def _remark_4() -> LedgerEntry:
+    return LedgerEntry(
         "Remark 4",
         "2",
         "(γ/d)² ≥ α/b: two negative roots mean contact or interior, and no function of g alone tells which",
@@ -234,20 +234,28 @@ def _remark_4() -> Entry:
         "for α/b < 1 compare with A as well: interior ⟺ also c2 < 3A and g'(−A) > 0",
         lambda: (
             by_chain("Proposition 3, repaired"),
-            without_counterexample(say.REMARK_4),
+            without_counterexample(entry.REMARK_4),
             _same_cubic(REMARK_4, Position.INTERIOR, lambda pair: pair.B**2 >= pair.A),
             by_chain("all sizes"),
         ),
     )
 
 
-REMARK_4 = (Squares("1", "3", "9/32", "175/32"), Squares("2/5", "15/2", "147/1580", "44/79")), ("-3/4", "-1/2", "8")
-REMARK_6 = (Squares("12/5", "5/2", "1683/245", "3/98"), Squares("12", "1/2", "91/5", "3/10")), ("1", "2", "3")
+REMARK_4 = (
+    (SquaredRatios("1", "3", "9/32", "175/32"), SquaredRatios("2/5", "15/2", "147/1580", "44/79")),
+    ("-3/4", "-1/2", "8"),
+)
+REMARK_6 = (
+    (SquaredRatios("12/5", "5/2", "1683/245", "3/98"), SquaredRatios("12", "1/2", "91/5", "3/10")),
+    ("1", "2", "3"),
+)
 """Two pairs each, the first in the clear and the second in contact, and the roots of the g that both have."""
 
 
 def _same_cubic(
-    case: tuple[tuple[Squares, Squares], tuple[str, str, str]], clear: Position, regime: Callable[[Squares], bool]
+    case: tuple[tuple[SquaredRatios, SquaredRatios], tuple[str, str, str]],
+    clear: Position,
+    regime: Callable[[SquaredRatios], bool],
 ) -> Evidence:
     """Two pairs of a regime with the same g, one in the clear and one in contact: no function of g tells which."""
     pairs, roots = case
@@ -260,7 +268,7 @@ def _same_cubic(
     return Evidence("identity", text, holds and positions == (clear, Position.CONTACT))
 
 
-def _position_by_roots(low: Fraction, high: Fraction, pair: Squares) -> Position:
+def _position_by_roots(low: Fraction, high: Fraction, pair: SquaredRatios) -> Position:
     """The position of a pair whose g has these two least roots: g > 0 between them, and above the third.
 
     The third is at least B, so only these matter (docs/mathematics.md, "The rule that needs no hypothesis").
@@ -270,8 +278,8 @@ def _position_by_roots(low: Fraction, high: Fraction, pair: Squares) -> Position
     return Position.INTERIOR if max(low, -pair.A) < min(high, Fraction(0)) else Position.CONTACT
 
 
-def _proposition_5_1() -> Entry:
-    return Entry(
+def _proposition_5_1() -> LedgerEntry:
+    return LedgerEntry(
         "Proposition 5.1",
         "2",
         "α/b > 1: interior ⟺ Δ > 0 and [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0]",
@@ -279,18 +287,18 @@ def _proposition_5_1() -> Entry:
         "“⟸” is proved; “⟹” drops the interior positions with c2 = 0 > c1 and with c1 = 0 < c2, and no others",
         "valid movements are refused where a coefficient vanishes; ask for not (c2 < 0 and c1 > 0) instead",
         lambda: (
-            with_counterexample(say.PROPOSITION_5_1_WITH_C2, say.PROPOSITION_5_1_WITH_C1),
+            with_counterexample(entry.PROPOSITION_5_1_WITH_C2, entry.PROPOSITION_5_1_WITH_C1),
             by_chain("Proposition 5, repaired"),
-            without_counterexample(say.REPAIRED_5),
-            harmless_where(say.PROPOSITION_5_1, say.very_tall),
+            without_counterexample(entry.REPAIRED_5),
+            harmless_where(entry.PROPOSITION_5_1, entry.very_tall),
         ),
         "for α/b ≥ 1: interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0)",
         harmless=VERY_TALL,
     )
 
 
-def _proposition_5_2() -> Entry:
-    return Entry(
+def _proposition_5_2() -> LedgerEntry:
+    return LedgerEntry(
         "Proposition 5.2",
         "2",
         "α/b > 1: Δ ≤ 0 ⟹ contact",
@@ -298,18 +306,18 @@ def _proposition_5_2() -> Entry:
         "the ring again, which is exterior with Δ = 0 for every α/b; interior positions all have Δ > 0",
         "for a flight inside the hyperboloid Δ ≤ 0 does mean “not interior”, at α/b = 1 too",
         lambda: (
-            with_counterexample(say.PROPOSITION_5_2),
+            with_counterexample(entry.PROPOSITION_5_2),
             by_chain("Proposition 5, repaired"),
-            without_counterexample(say.REPAIRED_5),
-            harmless_where(say.PROPOSITION_5_2, lambda facts: not say.exterior(facts)),
+            without_counterexample(entry.REPAIRED_5),
+            harmless_where(entry.PROPOSITION_5_2, lambda facts: not entry.exterior(facts)),
         ),
         "for α/b ≥ 1: Δ ≤ 0 ⟹ contact or the ring",
         harmless="inside the hyperboloid: the ring is outside, and no procedure of section 3.2 or 4 flies there",
     )
 
 
-def _remark_6() -> Entry:
-    return Entry(
+def _remark_6() -> LedgerEntry:
+    return LedgerEntry(
         "Remark 6",
         "2",
         "α/b ≥ 1: three positive roots mean contact or exterior, and no function of g alone tells which",
@@ -318,7 +326,7 @@ def _remark_6() -> Entry:
         "for (γ/d)² < α/b Procedure 1 calls such contact valid; compare with B as well: not (c2 < −3B and g'(B) > 0)",
         lambda: (
             by_chain("Proposition 5, repaired"),
-            without_counterexample(say.REMARK_6),
+            without_counterexample(entry.REMARK_6),
             _same_cubic(REMARK_6, Position.EXTERIOR, lambda pair: pair.A >= 1),
             by_chain("all sizes"),
         ),

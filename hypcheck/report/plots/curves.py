@@ -1,7 +1,13 @@
-"""Shares of wrong answers against flip distance: one curve a method.
+"""Share of wrong answers against flip distance: one curve a method, for a verification and for a benchmark.
+
+Shares of wrong answers against flip distance: one curve a method.
 
 Where none of n answers was wrong the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
 three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn, as a hollow triangle that points down.
+
+How wrong answers depend on the distance to the nearest other position, for each judged method of a verification.
+
+The principal figure of a benchmark: the share of wrong answers against flip distance, one curve a method.
 """
 
 from __future__ import annotations
@@ -13,14 +19,36 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from hypcheck.report.plots.style import LIMIT, NONE_WRONG, WIDTH, Look, colour, log_axis, look, new_figure, power_of_ten
+from hypcheck.messages import escaped
+from hypcheck.record import Record
+from hypcheck.record.measurements import AccuracyLine
+from hypcheck.report.messages import counted, figure
+from hypcheck.report.model import (
+    TIERS,
+    ImplementationTotal,
+    MeasuredMethod,
+    implementations,
+    measured_methods,
+    principal,
+    workloads,
+)
+from hypcheck.report.plots.style import (
+    LIMIT,
+    NONE_WRONG,
+    WIDTH,
+    CurveStyle,
+    colour,
+    curve_style,
+    log_axis,
+    new_figure,
+    power_of_ten,
+)
 from hypcheck.report.plots.svg import Plot
-from hypcheck.report.text import counted, figure
-from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 TANGENT = -math.inf
 AT_MOST = 8
@@ -105,16 +133,16 @@ def in_parts(curves: Sequence[Curve]) -> Iterator[Sequence[Curve]]:
         yield curves[part * len(curves) // parts : (part + 1) * len(curves) // parts]
 
 
-def plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
+def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
     """At most AT_MOST curves with their legend below them."""
-    columns = 2 if all(len(visible(curve.name)) <= _LABEL for curve in curves) else 1
+    columns = 2 if all(len(escaped(curve.name)) <= _LABEL for curve in curves) else 1
     rows = -(-len(curves) // columns) + 1
     drawn = new_figure(WIDTH, 250 + 15.5 * rows)
     axes = drawn.subplots()
     left = _axes(axes, curves)
     tips: dict[str, list[str]] = {}
     for place, curve in enumerate(curves):
-        tips |= _curve(axes, curve, f"{name}-{place}", look(place), (place, len(curves)), left)
+        tips |= _draw_curve(axes, curve, f"{name}-{place}", curve_style(place), (place, len(curves)), left)
     _legend(drawn, curves, columns)
     return Plot(name, title, _description(curves), drawn, tips)
 
@@ -144,7 +172,9 @@ def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
     return left
 
 
-def _curve(axes: Axes, curve: Curve, gid: str, how: Look, turn: tuple[int, int], left: float) -> dict[str, list[str]]:
+def _draw_curve(
+    axes: Axes, curve: Curve, gid: str, how: CurveStyle, turn: tuple[int, int], left: float
+) -> dict[str, list[str]]:
     """Draw one; the marks of its wrong octaves, and of those of the others that are its turn, have tooltips."""
     at = [(left if octave.exponent == TANGENT else octave.middle, octave) for octave in curve.octaves]
     finite = [pair for pair in at if pair[1].exponent != TANGENT]
@@ -190,6 +220,78 @@ def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
     drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)
     handles = []
     for place, curve in enumerate(curves):
-        how, label = look(place), visible(curve.name, _LONGEST)
+        how, label = curve_style(place), escaped(curve.name, _LONGEST)
         handles.append(Line2D([], [], color=how.colour, linestyle=how.dashes, marker=how.marker, label=label))
     drawn.legend(handles=handles, loc="outside lower left", ncols=columns)
+
+
+NOT_WRONG = ("right", "skipped", "abstained", "refused")
+"""Statuses of cases that were answered rightly, or not answered."""
+
+
+def octave_plots(record: Record) -> Iterator[Plot]:
+    """A plot for each precision, more of them where the methods are many."""
+    found = implementations(record)
+    for precision in dict.fromkeys(each.precision for each in found):
+        curves = [one for each in found if each.precision == precision and (one := _octave_curve(each)).octaves]
+        for number, part in enumerate(in_parts(curves)):
+            more = f", part {number + 1}" if len(curves) > len(part) else ""
+            yield curve_plot(f"octaves-{precision}-{number}", f"Wrong answers by distance, {precision}{more}", part)
+
+
+def _octave_curve(each: ImplementationTotal) -> Curve:
+    """The octaves of all families together; exact ones promise nothing less, and are shown alike."""
+    asked: Counter[float] = Counter()
+    wrong: Counter[float] = Counter()
+    for group in each.groups:
+        for exponent, counts in group.octaves.items():
+            asked[float(exponent)] += sum(number for status, number in counts.items() if status != "skipped")
+            wrong[float(exponent)] += sum(number for status, number in counts.items() if status not in NOT_WRONG)
+    return curve(each.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})
+
+
+FORMULAS = ("paper", "algebraic", "certified")
+"""Kinds that are compared within a tier and a length of float; other kinds are each a group."""
+
+SHORT = ("float16", "bfloat16", "float32")
+_SHORT, _LONG = "float32 and shorter", "float64 and longer"
+
+
+def error_plots(record: Record) -> Iterator[Plot]:
+    """For the workload near contact, or the first, a plot for each group of methods."""
+    for number, (group, curves) in enumerate(_groups(measured_methods(record), principal(record))):
+        yield curve_plot(f"errors-{number}", group, curves)
+
+
+def other_error_plots(record: Record) -> Iterator[Plot]:
+    """The same for every other workload, of the methods that are wrong there."""
+    found, known = measured_methods(record), workloads(record)
+    for place, workload in enumerate(name for name in known if name != principal(record)):
+        wrong = [each for each in found if workload in each.accuracy and each.accuracy[workload].wrong]
+        for number, (group, curves) in enumerate(_groups(wrong, workload)):
+            yield curve_plot(f"errors-{place}-{number}", f"{known[workload].title}: {group}", curves)
+
+
+def _groups(found: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, list[Curve]]]:
+    groups: dict[str, list[Curve]] = {}
+    for each in sorted(found, key=lambda each: TIERS.index(each.tier)):
+        line = each.accuracy.get(workload)
+        if line is not None and line.asked:
+            groups.setdefault(_group(each), []).append(_workload_curve(each.name, line))
+    for name, curves in groups.items():
+        parts = list(in_parts(curves))
+        for number, part in enumerate(parts, start=1):
+            yield (f"{name}, part {number}" if len(parts) > 1 else name), list(part)
+
+
+def _group(each: MeasuredMethod) -> str:
+    kind, line = each.line.kind, each.line
+    if each.exact:
+        return "Exact methods"
+    if kind in FORMULAS:
+        return f"Formulas in {line.tier}, {_SHORT if line.precision in SHORT else _LONG}"
+    return {"mesh": "Meshes", "bounding": "Bounding volumes"}.get(kind, str(kind).capitalize())
+
+
+def _workload_curve(name: str, line: AccuracyLine) -> Curve:
+    return curve(name, {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves})

@@ -1,19 +1,31 @@
-"""Shares of wrong answers over a plane of two quantities, in five steps of colour; empty where nothing was asked."""
+"""Shares of wrong answers over a plane of two quantities; the sizes at which methods are wrong.
+
+Shares of wrong answers over a plane of two quantities, in five steps of colour; empty where nothing was asked.
+
+At which sizes each judged method of a verification errs: α/b across, γ/d up.
+
+At which sizes each method of a benchmark errs, for each precision: α/b across, γ/d up, in half decades.
+"""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from hypcheck.record import Record
+from hypcheck.record.measurements import StabilityLine
+from hypcheck.report.messages import figure
+from hypcheck.report.model import implementations
 from hypcheck.report.plots.style import SMALL, colour, decades, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
-from hypcheck.report.text import figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.patches import Rectangle
+
 
 STEPS = ((0.0, "none wrong"), (0.01, "up to 1 %"), (0.1, "up to 10 %"), (0.5, "up to 50 %"), (1.0, "more"))
 """The shares at which the steps of colour end, and what a legend says of them."""
@@ -50,23 +62,23 @@ def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
     return {place: (asked[place], wrong[place]) for place in sorted(asked) if asked[place]}
 
 
-def plots(prefix: str, plane: Plane, maps: Mapping[str, Cells]) -> Iterator[Plot]:
+def heat_plots(prefix: str, plane: Plane, maps: Mapping[str, Cells]) -> Iterator[Plot]:
     """A small plot for each map, by its title; all over the same part of the plane."""
     places = [place for found in maps.values() for place in found]
     if not places:
         return
     limits = [(min(place[k] for place in places), max(place[k] for place in places) + 1) for k in (0, 1)]
     for number, (title, found) in enumerate(maps.items()):
-        yield _plot(f"{prefix}-{number}", title, plane, found, limits)
+        yield _heat_plot(f"{prefix}-{number}", title, plane, found, limits)
 
 
-def _plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
+def _heat_plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     axes.grid(visible=False)
     wrong = {place: counts for place, counts in found.items() if counts[1]}
-    _right(axes, [place for place in found if place not in wrong])
-    _wrong(axes, wrong, name)
+    _draw_right(axes, [place for place in found if place not in wrong])
+    _draw_wrong(axes, wrong, name)
     _axis(axes, "x", plane.across, plane.width, limits[0])
     _axis(axes, "y", plane.up, plane.width, limits[1])
     asked, errors = (sum(counts[k] for counts in found.values()) for k in (0, 1))
@@ -75,7 +87,7 @@ def _plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequence[tu
     return Plot(name, title, said, drawn, tips)
 
 
-def _right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
+def _draw_right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
     """The cells without a wrong answer as one shape: there are many, and nothing else to say of each."""
     from matplotlib.patches import PathPatch  # noqa: PLC0415
     from matplotlib.path import Path  # noqa: PLC0415
@@ -88,7 +100,7 @@ def _right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
         axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
 
 
-def _wrong(axes: Axes, found: Cells, gid: str) -> None:
+def _draw_wrong(axes: Axes, found: Cells, gid: str) -> None:
     from matplotlib.collections import PatchCollection  # noqa: PLC0415
 
     if found:
@@ -118,3 +130,42 @@ def _tip(plane: Plane, place: tuple[int, int], counts: tuple[int, int]) -> str:
         for name, k in zip((plane.across, plane.up), place, strict=True)
     )
     return f"{', '.join(middles)}: {counts[1]:,} of {counts[0]:,} wrong"
+
+
+OCTAVES = 3
+"""Octaves of the record that make one cell."""
+
+SIZE_PLANE = Plane("α/b", "γ/d", OCTAVES * math.log10(2))
+
+
+def size_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method that erred."""
+    maps = {
+        each.name: cells((row for group in each.groups for row in group.size_bins), OCTAVES)
+        for each in implementations(record)
+        if any(row[3] for group in each.groups for row in group.size_bins)
+    }
+    yield from heat_plots("sizes", SIZE_PLANE, maps)
+
+
+STABILITY_PLANE = Plane("α/b", "γ/d", 0.5)
+
+
+def stability_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method and precision that is wrong somewhere."""
+    wrong = [line for line in record.of(StabilityLine) if _wrong_somewhere(line)]
+    yield from heat_plots("stability", STABILITY_PLANE, {_title(line): cells(line.bins) for line in wrong})
+
+
+def never_wrong_at_sizes(record: Record) -> list[str]:
+    """The methods, with their precisions, that are wrong nowhere."""
+    return [_title(line) for line in record.of(StabilityLine) if not _wrong_somewhere(line)]
+
+
+def _wrong_somewhere(line: StabilityLine) -> bool:
+    return any(errors for *_, errors in line.bins)
+
+
+def _title(line: StabilityLine) -> str:
+    method, precision = str(line.method), str(line.precision)
+    return method if method.endswith(precision) else f"{method}, {precision}"

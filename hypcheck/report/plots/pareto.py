@@ -1,4 +1,9 @@
-"""Error against run time: how near to contact a method can be trusted, and what it costs; the front is drawn."""
+"""Error against run time: points, their labels, and the front that no method beats.
+
+Names beside points, where they cover neither each other nor a point; the others have their tooltips alone.
+
+Error against run time: how near to contact a method can be trusted, and what it costs; the front is drawn.
+"""
 
 from __future__ import annotations
 
@@ -8,19 +13,109 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.measured import BATCH, TIERS, Measured, lost, measured, principal, workloads
-from hypcheck.report.plots import labels
+from hypcheck.report.messages import figure
+from hypcheck.report.model import BATCH, TIERS, MeasuredMethod, lost, measured_methods, principal, workloads
 from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, log_axis, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
-from hypcheck.report.text import figure
-from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Place = tuple[float, float]
+
+_PLACES = (
+    (7, 0, "left", "center"),
+    (-7, 0, "right", "center"),
+    (0, 7, "center", "bottom"),
+    (0, -7, "center", "top"),
+    (6, 6, "left", "bottom"),
+    (-6, 6, "right", "bottom"),
+    (6, -6, "left", "top"),
+    (-6, -6, "right", "top"),
+    (14, 14, "left", "bottom"),
+    (-14, 14, "right", "bottom"),
+    (14, -14, "left", "top"),
+    (-14, -14, "right", "top"),
+    (22, 22, "left", "bottom"),
+    (22, -22, "left", "top"),
+    (8, 30, "left", "bottom"),
+    (8, -30, "left", "top"),
+)
+"""Where a name may stand: points to the right and up, and which part of it stands there. The first that is free."""
+
+_NEAR = 8
+"""The first so many of them, of which nobody doubts whose name it is."""
+
+_MARK = 4.0
+"""Half the size of a point's mark, in points."""
+
+_BETWEEN = 1.5
+"""Points kept free on each side of a name."""
+
+
+def place_labels(
+    axes: Axes,
+    points: Sequence[tuple[float, float]],
+    names: Sequence[str | None],
+    lines: Sequence[tuple[tuple[float, float], tuple[float, float]]] = (),
+    important: int | None = None,
+) -> None:
+    """Write each point's name, those of None left out, in that order of importance. The limits must be set before.
+
+    `lines` are level or upright and are kept free too. Behind the `important` first a name stands next to its point or
+    nowhere.
+    """
+    from matplotlib.text import Text  # noqa: PLC0415
+    from matplotlib.transforms import Bbox  # noqa: PLC0415
+
+    figure: Any = axes.figure
+    figure.canvas.draw()  # the layout decides where things are, and stays as it is from here on
+    figure.set_layout_engine("none")
+    renderer = figure.canvas.get_renderer()
+    scale = figure.dpi / 72
+    inside = axes.get_window_extent(renderer)
+    centres = [axes.transData.transform(point) for point in points]
+    half = _MARK * scale
+    taken = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in centres]
+    for start, end in lines:
+        (x0, y0), (x1, y1) = (axes.transData.transform(point) for point in (start, end))
+        taken.append(Bbox.from_extents(min(x0, x1) - 1, min(y0, y1) - 1, max(x0, x1) + 1, max(y0, y1) + 1))
+    for rank, (point, name) in enumerate(zip(points, names, strict=True)):
+        if name is None:
+            continue
+        near = important is not None and rank >= important
+        for number, (right, up, across, upward) in enumerate(_PLACES[: _NEAR if near else None]):
+            text = axes.annotate(
+                name,
+                point,
+                xytext=(right, up),
+                textcoords="offset points",
+                horizontalalignment=across,
+                verticalalignment=upward,
+                fontsize=9,
+                arrowprops=None if number < _NEAR else _leader(across, upward),
+            )
+            text.update_positions(renderer)
+            box = Text.get_window_extent(text, renderer).padded(_BETWEEN * scale, 0)  # without the line to the point
+            if _within(box, inside) and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            text.remove()
+
+
+def _leader(across: str, upward: str) -> dict[str, Any]:
+    """The line from the corner of a name that stands farther away to its point."""
+    corner = (0.0 if across == "left" else 1.0, 0.0 if upward == "bottom" else 1.0)
+    return {"arrowstyle": "-", "relpos": corner, "linewidth": 0.7, "color": colour("soft"), "shrinkA": 0, "shrinkB": 3}
+
+
+def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
+    return bool(box.x0 >= outer.x0 and box.x1 <= outer.x1 and box.y0 >= outer.y0 and box.y1 <= outer.y1)
+
+
+Coordinates = tuple[float, float]
 
 
 ENOUGH = 3000
@@ -28,7 +123,7 @@ ENOUGH = 3000
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
+class ParetoPoint:
     """A method: nanoseconds a row, and the flip distance above which at most 1 answer in 1000 is wrong (0: none)."""
 
     name: str
@@ -44,32 +139,32 @@ class Point:
         return self.asked >= ENOUGH
 
 
-def points(record: Record, workload: str) -> list[Point]:
+def points(record: Record, workload: str) -> list[ParetoPoint]:
     """The methods that were judged and timed on the workload."""
     return [
-        Point(each.name, each.tier, time, float(accuracy.reliable_above), accuracy.asked, each.exact)
+        ParetoPoint(each.name, each.tier, time, float(accuracy.reliable_above), accuracy.asked, each.exact)
         for each, time in _timed(record, workload)
         if (accuracy := each.accuracy.get(workload))
     ]
 
 
-def worst_points(record: Record, workload: str) -> list[Point]:
+def worst_points(record: Record, workload: str) -> list[ParetoPoint]:
     """The same with the errors of all workloads; the times are of the one."""
     return [
-        Point(each.name, each.tier, time, each.reliable_above, each.asked, each.exact)
+        ParetoPoint(each.name, each.tier, time, each.reliable_above, each.asked, each.exact)
         for each, time in _timed(record, workload)
         if workload in each.accuracy
     ]
 
 
-def _timed(record: Record, workload: str) -> Iterator[tuple[Measured, float]]:
-    for each in measured(record):
+def _timed(record: Record, workload: str) -> Iterator[tuple[MeasuredMethod, float]]:
+    for each in measured_methods(record):
         speed = each.speed.get((workload, BATCH))
         if speed is not None and not lost(speed):
             yield each, float(speed.median_ns)
 
 
-def front(found: Sequence[Point]) -> list[Point]:
+def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
     """Those that no other beats: from the fastest on, each more reliable than all that are faster."""
     best, kept = math.inf, []
     for point in sorted(found, key=lambda point: (point.time_ns, point.reliable_above)):
@@ -79,7 +174,7 @@ def front(found: Sequence[Point]) -> list[Point]:
     return kept
 
 
-def plots(record: Record) -> Iterator[Plot]:
+def pareto_plots(record: Record) -> Iterator[Plot]:
     """A plot for each workload on which methods were timed, but the one that stands in `pair` if there are others."""
     found_on = {name: found for name in workloads(record) if (found := points(record, name))}
     for place, (name, line) in enumerate(workloads(record).items()):
@@ -88,7 +183,7 @@ def plots(record: Record) -> Iterator[Plot]:
             yield _plot(f"pareto-{place}", f"Error against run time, {line.title}", found)
 
 
-def pair(record: Record) -> Iterator[Plot]:
+def front_plots(record: Record) -> Iterator[Plot]:
     """Two plots with names wherever there is room: of the workload near contact, and of the worst of all workloads."""
     known, name = workloads(record), principal(record)
     near, everywhere = points(record, name), worst_points(record, name)
@@ -98,7 +193,7 @@ def pair(record: Record) -> Iterator[Plot]:
         yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 
 
-def _plot(name: str, title: str, found: Sequence[Point], height: float = 375, timed: str = "") -> Plot:
+def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
     """What was found, with names along the front; where the title may not say on which workload it was `timed`, all."""
     drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
@@ -110,14 +205,14 @@ def _plot(name: str, title: str, found: Sequence[Point], height: float = 375, ti
     tips = _marks(axes, found, heights, name)
     _legend(drawn, found)
     important = sorted(found, key=lambda point: (point not in best, point.time_ns))
-    names = [visible(point.name, 28) if timed or point in best else None for point in important]
+    names = [escaped(point.name, 28) if timed or point in best else None for point in important]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
-    labels.place(axes, places, names, steps, len(best))
+    place_labels(axes, places, names, steps, len(best))
     said = f"The front, from the fastest: {'; '.join(_tip(point) for point in best)}."
     return Plot(name, title, said, drawn, tips)
 
 
-def _marks(axes: Axes, found: Sequence[Point], heights: dict[float, float], name: str) -> dict[str, list[str]]:
+def _marks(axes: Axes, found: Sequence[ParetoPoint], heights: dict[float, float], name: str) -> dict[str, list[str]]:
     tips: dict[str, list[str]] = {}
     exact = [point for point in found if point.exact]
     axes.plot([point.time_ns for point in exact], [heights[point.reliable_above] for point in exact], **_RING)
@@ -127,12 +222,12 @@ def _marks(axes: Axes, found: Sequence[Point], heights: dict[float, float], name
             if mine:
                 gid = f"{name}-{number}-{shown}"
                 xs, ys = [point.time_ns for point in mine], [heights[point.reliable_above] for point in mine]
-                axes.plot(xs, ys, gid=gid, linestyle="none", **_look(number, shown=shown))
+                axes.plot(xs, ys, gid=gid, linestyle="none", **_mark_style(number, shown=shown))
                 tips[gid] = [_tip(point) for point in mine]
     return tips
 
 
-def _look(number: int, *, shown: bool) -> dict[str, Any]:
+def _mark_style(number: int, *, shown: bool) -> dict[str, Any]:
     own = colour(f"series-{number + 1}")
     face = own if shown else colour("surface")
     return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
@@ -149,12 +244,12 @@ _RING: dict[str, Any] = {
 """Around the mark of a method that promises never to be wrong."""
 
 
-def _legend(drawn: Figure, found: Sequence[Point]) -> None:
+def _legend(drawn: Figure, found: Sequence[ParetoPoint]) -> None:
     from matplotlib.lines import Line2D  # noqa: PLC0415
 
     tiers = {point.tier for point in found}
     handles = [
-        Line2D([], [], linestyle="none", label=tier, **_look(number, shown=True))
+        Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
         for number, tier in enumerate(TIERS)
         if tier in tiers
     ]
@@ -170,7 +265,7 @@ def _legend(drawn: Figure, found: Sequence[Point]) -> None:
     drawn.legend(handles=below, loc="outside lower left")
 
 
-def _axes(axes: Axes, found: Sequence[Point], timed: str) -> dict[float, float]:
+def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, float]:
     """Name the axes; the height of each reliability: its log10, and heights of their own for 0 and infinity."""
     finite = [math.log10(point.reliable_above) for point in found if 0 < point.reliable_above < math.inf] or [-1.0]
     low, high = math.floor(min(finite)), math.ceil(max(finite))
@@ -191,13 +286,15 @@ def _axes(axes: Axes, found: Sequence[Point], timed: str) -> dict[float, float]:
     times = [point.time_ns for point in found]
     least, most = min(times) / 2, max(times) * 3
     log_axis(axes, "x", least, most)
-    axes.set_xlabel(f"time of a query in a batch{', ' if timed else ''}{visible(timed, 18)} (ns)")
+    axes.set_xlabel(f"time of a query in a batch{', ' if timed else ''}{escaped(timed, 18)} (ns)")
     return heights
 
 
-def _steps(best: Sequence[Point], heights: dict[float, float], end: float) -> list[tuple[Place, Place]]:
+def _steps(
+    best: Sequence[ParetoPoint], heights: dict[float, float], end: float
+) -> list[tuple[Coordinates, Coordinates]]:
     """The front's line, level from each point to the next one's time and then down to it."""
-    steps: list[tuple[Place, Place]] = []
+    steps: list[tuple[Coordinates, Coordinates]] = []
     for before, after in pairwise(best):
         corner = (after.time_ns, heights[before.reliable_above])
         steps.append(((before.time_ns, corner[1]), corner))
@@ -206,7 +303,7 @@ def _steps(best: Sequence[Point], heights: dict[float, float], end: float) -> li
     return [*steps, (last, (end, last[1]))]
 
 
-def _tip(point: Point) -> str:
+def _tip(point: ParetoPoint) -> str:
     reliable = {0.0: "none wrong", math.inf: "reliable at no distance"}.get(
         point.reliable_above, f"at most 1 in 1000 wrong above {figure(point.reliable_above)}"
     )

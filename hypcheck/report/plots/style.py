@@ -1,23 +1,28 @@
-"""What all plots have in common: colours by role, lines that differ without colour, sizes for a telephone, axes.
+"""What all plots share: colours by role, lines that differ without colour, sizes for a telephone, axes.
+
+What all plots have in common: colours by role, lines that differ without colour, sizes for a telephone, axes.
 
 Widths are in points of the picture, which a page scales: 380 of them are legible across a telephone and across half a
 screen. Colours are after Okabe and Ito (https://jfly.uni-koeln.de/color/), darkened on light ground where they would
 have less than 3:1 against it; each curve has a marker and dashes of its own besides.
+
+What pictures of simulations have in common.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from hypcheck.errors import UnavailableError
-from hypcheck.visible import visible
+from hypcheck.messages import escaped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 WIDTH = 380.0
 SMALL = 178.0
@@ -100,7 +105,7 @@ SETTINGS = {
 """What differs from matplotlib's defaults; nobody's own settings are used."""
 
 
-class Look(NamedTuple):
+class CurveStyle(NamedTuple):
     """How one curve of several is told from the others."""
 
     colour: str
@@ -113,11 +118,11 @@ def colour(role: str) -> str:
     return ROLES[role][0]
 
 
-def look(place: int) -> Look:
+def curve_style(place: int) -> CurveStyle:
     """The look of the curve at a place; after eight, markers and dashes are combined anew."""
     number = len(MARKERS)
     turn = place // number
-    return Look(
+    return CurveStyle(
         colour(f"series-{place % number + 1}"), MARKERS[(place + turn) % number], DASHES[(place + turn) % number]
     )
 
@@ -128,7 +133,7 @@ def styled() -> Iterator[None]:
     try:
         from matplotlib import style  # noqa: PLC0415
     except ImportError as error:
-        reason = f"matplotlib cannot be imported ({visible(error)}); pip install 'hypcheck[report]' brings it"
+        reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
         raise UnavailableError(reason) from None
     with style.context(["default", SETTINGS]):
         yield
@@ -154,7 +159,7 @@ def power_of_ten(exponent: int) -> str:
     return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
-def _named(value: float) -> str:
+def _axis_number(value: float) -> str:
     """A number as an axis shows it, of one digit: 0.02, 5, 2·10⁻⁴."""
     exponent = math.floor(math.log10(value) + 1e-9)
     digit = round(value / 10.0**exponent)
@@ -173,7 +178,7 @@ def ticks(low: float, high: float, most: int = 7) -> list[tuple[float, str]]:
             powers = [value for value in finer if low <= value <= high]
             if len(powers) > 1:
                 break
-    return [(value, _named(value)) for value in powers]
+    return [(value, _axis_number(value)) for value in powers]
 
 
 def decades(low: float, high: float, most: int = 7) -> list[int]:
@@ -191,3 +196,37 @@ def log_axis(axes: Axes, name: str, low: float, high: float, most: int = 7) -> N
     axis = getattr(axes, f"{name}axis")
     axis.set_ticks([value for value, _ in marks], [label for _, label in marks])
     axis.set_ticks([], minor=True)
+
+
+def in_space(axes: Any) -> None:  # noqa: ANN401 - axes in space, of a class that matplotlib does not type
+    """Walls that are not painted, for light and dark ground alike, and numbers that keep off the axes."""
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
+    axes.tick_params(labelsize=9, pad=1)
+    axes.tick_params(axis="z", pad=7)
+    axes.zaxis.labelpad = 9
+
+
+def mark_contacts(axes: Iterable[Any], ways: dict[str, Any] | None) -> None:
+    """Where the mover's centre is at first contacts on the way, in axes of the plane or in space; none if not asked."""
+    points = [
+        [here + contact["first_upper"] * (there - here) for here, there in zip(*_ends(contact), strict=True)]
+        for contact in (ways["contacts"] if ways else [])
+    ]
+    if not points:
+        return
+    columns = list(zip(*points, strict=True))
+    for each in axes:
+        each.plot(
+            *columns[: 3 if each.name == "3d" else 2],
+            linestyle="none",
+            marker="P",
+            markersize=7,
+            color=colour("series-4"),
+            label="first contact on the way",
+            zorder=5,
+        )
+
+
+def _ends(contact: dict[str, Any]) -> tuple[list[float], list[float]]:
+    return contact["start"], contact["end"]

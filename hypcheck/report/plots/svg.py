@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
+from hypcheck.messages import escaped
 from hypcheck.report.plots.style import ROLES, styled
-from hypcheck.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -167,7 +167,7 @@ def _give_tips(root: Xml.Element, plot: Plot) -> None:
 
 
 def _shown(words: str) -> str:
-    return visible(words[:_LONGEST], _LONGEST)
+    return escaped(words[:_LONGEST], _LONGEST)
 
 
 def _rename(root: Xml.Element, name: str) -> None:

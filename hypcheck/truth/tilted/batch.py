@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import REFUSED, trouble_with
-from hypcheck.rows import Positions, Rows, as_numbers
+from hypcheck.geometry.pair import REFUSED, trouble_with
+from hypcheck.geometry.rows import Positions, Rows, as_numbers
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import NO_DIRECTION, TILTED_COLUMNS, TiltedLengths
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted.pair import TiltedPair
 
 Point = tuple[Fraction, Fraction, Fraction]

@@ -29,7 +29,7 @@ from typing import TypeAlias
 from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted.pair import TiltedPair
 
 STAGES = (100, 300, 1000, 4000, 16000)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import COLUMNS, Lengths, Pair, trouble_with
+from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, trouble_with
 
 AXIS = ("axis_x", "axis_y", "axis_z")
 TILTED_COLUMNS = COLUMNS + AXIS

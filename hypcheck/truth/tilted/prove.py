@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import count
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth import prove as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import Point, TiltedCertificate

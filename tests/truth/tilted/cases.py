@@ -7,7 +7,7 @@ import math
 import random
 from fractions import Fraction
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 

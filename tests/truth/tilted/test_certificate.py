@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate, pivots
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair

@@ -10,7 +10,7 @@ from sympy import ZZ
 from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.batch import positions

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import nearest as upright
 from hypcheck.truth.tilted import exact, nearest
 from hypcheck.truth.tilted.pair import TiltedPair

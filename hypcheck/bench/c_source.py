@@ -1,0 +1,366 @@
+"""The methods in C: one source file, printed from the programs that numpy runs, and the quadcopter's procedures.
+
+The quadcopter's procedures in C, one position a call: so a craft asks before it moves.
+
+The methods in C, printed from the same programs that numpy runs, in one file that is compiled when bench begins.
+
+Each method is two functions, of rows and of one scene's centres, in a table; a driver calls through it as often as
+asked, so that neither Python nor an optimiser has a part in what is timed. The roots and the dual form's search are
+written here, since no straight-line program says them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.program import Program, cut
+from hypcheck.geometry.pair import COLUMNS, SIZES
+from hypcheck.implementations.alternatives import DISTANCES
+from hypcheck.implementations.method import parts
+from hypcheck.implementations.procedures import (
+    CRAFT,
+    MOVING,
+    PRINTED,
+    PUT_RIGHT,
+    hull_programs,
+    hull_steps,
+    rotor_programs,
+)
+from hypcheck.kernel.printing.languages import C_SUFFIXES, c_statements
+
+NAMES = ("nothing", "procedure-2a", "procedure-2b", "certified", "procedure-2a-repaired", "procedure-2b-repaired")
+"""By their places in the driver's table; the first does nothing."""
+
+
+def procedures_source() -> str:
+    """The functions and their driver; hypcheck.h and math.h are included before."""
+    return _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0]) + "".join(_both()) + _REST
+
+
+def _both() -> Iterator[str]:
+    """The procedures as printed and put right, which keep the same numbers of a craft."""
+    for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
+        asked, inside = hull_steps(repaired)
+        (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
+        yield _asked(f"{prefix}rotors", rotor_before, rotors, ("valid",), "return valid;")
+        yield _asked(f"{prefix}hull", hull_before, hull, (asked, inside), f"return {asked} ? 2 : {inside};")
+        yield _PROCEDURES.replace("{prefix}", prefix)
+
+
+def _before(name: str, program: Program) -> str:
+    """What the craft alone decides, kept in an array: a program would hold it in a structure."""
+    kept = [step.name for step in program.steps]
+    stored = "\n".join(f"    k[{place}] = {each};" for place, each in enumerate(kept))
+    statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(kept)))
+    return f"\nstatic void {name}_before(const double *craft, double *k)\n{{\n{_craft()}\n{statements}\n{stored}\n}}\n"
+
+
+def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...], end: str) -> str:
+    read = {each for step in program.steps for each in step.reads}
+    kept = "\n".join(
+        f"    const double {step.name} = k[{place}];" for place, step in enumerate(before.steps) if step.name in read
+    )
+    inputs = _craft(read)
+    statements = "\n".join(f"    {line}" for line in c_statements(program, wanted))
+    moving = ", ".join(f"double {each}" for each in MOVING)
+    unused = "".join(f"    (void){each};\n" for each in MOVING if each not in read)
+    return (
+        f"\nstatic int {name}_asked(const double *craft, const double *k, {moving})\n"
+        f"{{\n    (void)craft;\n{unused}{inputs}\n{kept}\n{statements}\n    {end}\n}}\n"
+    )
+
+
+def _craft(read: set[str] | None = None) -> str:
+    named = [(place, each) for place, each in enumerate(CRAFT) if read is None or each in read]
+    taken = "\n".join(f"    const double {each} = craft[{place}];" for place, each in named)
+    return taken + "".join(f"\n    (void){each};" for _, each in named)
+
+
+_PROCEDURES = """
+static int {prefix}procedure_2a(const double *craft, const double *hull, const double *rotors, double x, double y,
+                                double z, double cosine, double sine)
+{
+    (void)hull;
+    return {prefix}rotors_asked(craft, rotors, x, y, z, cosine, sine);
+}
+
+static int {prefix}procedure_2b(const double *craft, const double *hull, const double *rotors, double x, double y,
+                                double z, double cosine, double sine)
+{
+    const int answer = {prefix}hull_asked(craft, hull, x, y, z, cosine, sine);
+    return answer == 2 ? {prefix}rotors_asked(craft, rotors, x, y, z, cosine, sine) : answer;
+}
+"""
+
+_REST = """
+typedef int body_function(const double *, const double *, const double *, double, double, double, double, double);
+
+static int no_body(const double *craft, const double *hull, const double *rotors, double x, double y, double z,
+                   double cosine, double sine)
+{
+    (void)craft, (void)hull, (void)rotors, (void)x, (void)y, (void)z, (void)cosine, (void)sine;
+    return 0;
+}
+
+static int certified_body(const double *craft, const double *hull, const double *rotors, double x, double y, double z,
+                          double cosine, double sine)
+{
+    const int body = hypcheck_position(craft[0], craft[1], craft[2], craft[3], x, y, z);
+    const double half = craft[6] * sqrt(2.0) / 2.0, along = half * (cosine - sine), across = half * (cosine + sine);
+    const double xs[4] = {along, -across, -along, across}, ys[4] = {across, along, -across, -along};
+    (void)hull, (void)rotors;
+    if (body != 0)
+        return body < 0;
+    for (int i = 0; i < 4; i++)
+        if (hypcheck_position(craft[0], craft[1], craft[4], craft[5], x + xs[i], y + ys[i], z) >= 0)
+            return 0;
+    return 1;
+}
+
+static body_function *volatile of_bodies[] = {no_body, procedure_2a, procedure_2b, certified_body,
+                                            repaired_procedure_2a, repaired_procedure_2b};
+
+void bench_bodies(size_t which, size_t repeat, const double *craft, size_t n, const double *x, const double *y,
+                  const double *z, const double *cosine, const double *sine, int8_t *out)
+{
+    double hull[64], rotors[64];
+    hull_before(craft, hull);
+    rotors_before(craft, rotors);
+    for (size_t k = 0; k < repeat; k++)
+        for (size_t i = 0; i < n; i++)
+            out[i] = (int8_t)of_bodies[which](craft, hull, rotors, x[i], y[i], z[i], cosine[i], sine[i]);
+}
+"""
+
+
+NUMBERS = {"float32": "float", "float64": "double", "longdouble": "long double"}
+"""C's type of numbers for each format."""
+
+DIGITS = {"float": "FLT_MANT_DIG", "double": "DBL_MANT_DIG", "long double": "LDBL_MANT_DIG"}
+LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
+
+
+@dataclass(frozen=True)
+class CBody:
+    """What stands before the loop over centres and in it, in C, and the expression of the answer."""
+
+    name: str
+    number: str
+    before: tuple[str, ...]
+    inside: tuple[str, ...]
+    answer: str
+
+
+def source(bodies: Iterable[CBody | Ready]) -> str:
+    """The whole file; the table begins with a method that does nothing."""
+    listed = list(bodies)
+    rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
+    scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
+    functions = "\n".join(each.code if isinstance(each, Ready) else _functions(each) for each in listed)
+    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A method whose two functions, NAME_rows and NAME_scene, are there already."""
+
+    name: str
+    code: str
+
+
+def identifier(name: str) -> str:
+    """A method's name as C can have it."""
+    return name.replace("-", "_").replace(".", "_")
+
+
+def of_formula(formula: Formula, format_name: str) -> CBody:
+    """A formula as it is listed; what sizes alone decide stands before the loop."""
+    number = NUMBERS[format_name]
+    outside, inside = parts(formula)
+    known = tuple(step.name for step in outside.steps)
+    return CBody(
+        f"{formula.name}-{format_name}",
+        number,
+        c_statements(outside, known, number=number),
+        c_statements(inside, (formula.answer,), number=number),
+        formula.answer,
+    )
+
+
+def trigonometric(format_name: str) -> CBody:
+    """The roots of g by the trigonometric form, taken where Δ > 0 alone; the rule is that of methods/roots.py."""
+    number = NUMBERS[format_name]
+    outside, inside = parts(_CUBIC)
+    known = tuple(step.name for step in outside.steps)
+    wanted = tuple(name for name in ("c0", "c1", "c2", "delta") if name not in known)
+    end = C_SUFFIXES[number]
+    return CBody(
+        f"trigonometric-{format_name}",
+        number,
+        c_statements(outside, known, number=number),
+        (*c_statements(inside, wanted, number=number), *_TRIGONOMETRIC.format(N=number, f=end).strip().splitlines()),
+        "side",
+    )
+
+
+def dual(format_name: str) -> CBody:
+    """The dual form: the search of methods/dual.py, step by step, and the program from there on."""
+    number = NUMBERS[format_name]
+    program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
+    search = _SEARCH.format(N=number, f=C_SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
+    return CBody(
+        f"dual-{format_name}",
+        number,
+        (),
+        (*search.strip().splitlines(), *c_statements(program, ("phi",), number=number)),
+        "phi > 0 ? (lambda_ > 0) - (lambda_ < 0) : 0",
+    )
+
+
+FAST = Ready(
+    "fast",
+    """
+static void fast_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{
+    if (n == 1)
+        *out = (int8_t)hypcheck_position(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]);
+    else
+        hypcheck_classify(n, rows, out);
+}
+
+static void fast_scene(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
+                       const double *restrict zs, int8_t *restrict out)
+{
+    hypcheck_classify_scene(sizes, n, xs, ys, zs, out);
+}
+""",
+)
+"""The fast path as hypcheck.classify runs it where it was compiled."""
+
+_TABLE_2 = FORMULAS["table-2"]
+_CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
+
+
+def _functions(body: CBody) -> str:
+    name, number = identifier(body.name), body.number
+    taken = "\n".join(f"        const {number} {each} = ({number})row[{place}];" for place, each in enumerate(COLUMNS))
+    sizes = "\n".join(f"    const {number} {each} = ({number})sizes[{place}];" for place, each in enumerate(SIZES))
+    centre = "\n".join(f"        const {number} {each} = ({number}){each}s[i];" for each in ("x", "y", "z"))
+    before, inside = _indented(body.before, 4), _indented(body.inside, 8)
+    return f"""
+static void {name}_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{{
+    for (size_t i = 0; i < n; i++) {{
+        const double *const row = rows + 7 * i;
+{taken}
+{_indented(body.before, 8)}
+{inside}
+        out[i] = (int8_t)({body.answer});
+    }}
+}}
+
+static void {name}_scene(const double *restrict sizes, size_t n, const double *restrict xs,
+                         const double *restrict ys, const double *restrict zs, int8_t *restrict out)
+{{
+{sizes}
+{before}
+    for (size_t i = 0; i < n; i++) {{
+{centre}
+{inside}
+        out[i] = (int8_t)({body.answer});
+    }}
+}}
+"""
+
+
+def _indented(lines: Iterable[str], depth: int) -> str:
+    return "\n".join(" " * depth + line for line in lines)
+
+
+_HEAD = """\
+/* Printed by hypcheck bench from derivation/formulas.py: what is compared is what was proved. */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hypcheck.h"
+
+static void nothing_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+{
+    (void)n, (void)rows, (void)out;
+}
+"""
+
+_DRIVER = """
+typedef void rows_function(size_t, const double *restrict, int8_t *restrict);
+typedef void scene_function(const double *restrict, size_t, const double *restrict, const double *restrict,
+                            const double *restrict, int8_t *restrict);
+
+static rows_function *volatile of_rows[] = {{nothing_rows, {rows}}};
+static scene_function *volatile of_scene[] = {{NULL, {scenes}}};
+
+void bench_rows(size_t which, size_t repeat, size_t n, const double *rows, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        of_rows[which](n, rows, out);
+}}
+
+void bench_scene(size_t which, size_t repeat, const double *sizes, size_t n, const double *x, const double *y,
+                 const double *z, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        of_scene[which](sizes, n, x, y, z, out);
+}}
+
+void bench_single(size_t which, size_t repeat, size_t n, const double *rows, int8_t *out)
+{{
+    for (size_t k = 0; k < repeat; k++)
+        for (size_t i = 0; i < n; i++)
+            of_rows[which](1, rows + 7 * i, out + i);
+}}
+"""
+
+_TRIGONOMETRIC = """
+int side = 0;
+if (delta > 0) {{
+    const {N} third = c2 / 3;
+    const {N} square = third * third - c1 / 3;
+    const {N} size = sqrt{f}(square);
+    const {N} cosine = (third * (third * third - c1 / 2) + c0 / 2) / (square * size);
+    const {N} angle = acos{f}(cosine < -1 ? -1 : cosine > 1 ? 1 : cosine);
+    const {N} lowest = -2 * size * cos{f}(angle / 3) - third;
+    const {N} middle = -2 * size * cos{f}((angle - ({N})6.283185307179586476925286766559L) / 3) - third;
+    const {N} mean = (lowest + middle) / 2;
+    side = (lowest > 0 && mean < B) - (middle < 0 && mean > -A);
+}}
+"""
+
+_SEARCH = """
+const {N} a = alpha / b, c = gamma / d, A = a * a, B = c * c;
+const {N} ar = a * hypot{f}(x / b, y / b), cz = c * fabs{f}(z / d);
+const {N} to_a_0 = ar / A, to_b_0 = cz / B;
+const int within = to_a_0 * to_a_0 <= to_b_0 * to_b_0 + 1;
+const {N} pole = within ? A : B, other = within ? B : A, half = pole / 2;
+int near_zero = 1;
+{N} low = half * {least}, high = half, mid = half;
+for (int step = -1; step < {digits} + 13; step++) {{
+    if (step >= 0)
+        mid = step < 10 ? sqrt{f}(low) * sqrt{f}(high) : (low + high) / 2;
+    const {N} to_pole = near_zero ? pole - mid : mid, to_other = other + (near_zero ? mid : pole - mid);
+    const {N} left = ar / (within ? to_pole : to_other), right = cz / (within ? to_other : to_pole);
+    const int past = (left * left <= right * right + 1) ^ within;
+    if (step < 0) {{
+        near_zero = past;
+    }} else {{
+        const int move_low = past ^ near_zero;
+        low = move_low ? mid : low;
+        high = move_low ? high : mid;
+    }}
+}}
+const {N} size = near_zero ? high : pole - high, lambda_ = within ? -size : size;
+const {N} to_pole = near_zero ? pole - high : high, to_other = other + (near_zero ? high : pole - high);
+const {N} A_plus_lambda = within ? to_pole : to_other, B_minus_lambda = within ? to_other : to_pole;
+"""

@@ -1,0 +1,337 @@
+"""Targets of the compiled kernel: against memory bandwidth, the plain formula in C, two threads, and the worst rows.
+
+The rows on which the kernels are measured: columns of one scene, the paper's cooling tower.
+
+What the compiled kernel is measured against in C: the plain formula, and reading the rows and nothing else.
+
+Both are compiled when they are needed, for the instruction set that the kernel runs on. The plain formula is Table 2 as
+the programs print it, what sizes alone decide before the loop, contraction allowed; it answers whether the pair is
+exterior, no more, and certifies nothing. It is compiled for each width of vectors, and the fastest is taken.
+
+The compiled kernel: against reading memory, the plain formula in C, itself on two threads, and the worst rows.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from statistics import median
+from time import thread_time_ns
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.bench.accuracy import forget_peak, peak
+from hypcheck.bench.c_library import compiler_here, run_compiler
+from hypcheck.bench.c_source import of_formula
+from hypcheck.bench.timing import (
+    Clocked,
+    KernelTarget,
+    Samples,
+    TimingEntry,
+    clocked,
+    measured_samples,
+    rate_text,
+    thread_clocked,
+    times_as_fast,
+)
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.errors import UnavailableError
+from hypcheck.geometry.pair import SIZES, Sizes
+from hypcheck.geometry.rows import Columns, Positions
+from hypcheck.kernel.choice import choice, compiled
+from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
+from hypcheck.record.measurements import KernelLine
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.random_pairs import beside_surface
+from hypcheck.vectors.scenes import BODY, TOWER
+
+TOWER_SIZES: Sizes = (*TOWER, *BODY)
+SEED = 1
+DISTINCT = 1_000_000
+"""So many rows differ; a longer array repeats them, since to draw ten million takes longer than to measure them."""
+
+
+def uniform_columns(count: int) -> Columns:
+    """Centres uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the tower (the workload "uniform")."""
+    rows = FAMILIES["tower-body"].rows(SEED, min(count, DISTINCT))
+    x, y, z = (np.resize(column, count) for column in rows[:, 4:].T)
+    return x, y, z
+
+
+def touching_columns(count: int) -> Columns:
+    """Centres within about 1e-15 radii of contact, on both sides of the wall and all over it."""
+    random = np.random.Generator(np.random.PCG64(SEED))
+    alpha, gamma, b, d = TOWER_SIZES
+    ratios = np.full(count, alpha / b), np.full(count, gamma / d)
+    height = random.random(count) * gamma / d
+    side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
+    radius, level = beside_surface(*ratios, height, side)
+    turn = 2 * np.pi * random.random(count)
+    return radius * b * np.cos(turn), radius * b * np.sin(turn), level * d
+
+
+FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
+
+LEVEL_FLAGS = {
+    "avx512": (("-march=native", "-mprefer-vector-width=512"), ("-march=native", "-mprefer-vector-width=256")),
+    "avx2": (("-mavx2", "-mfma", "-mbmi2"),),
+    "sse2": ((),),
+    "plain": ((),),
+}
+
+Floats = NDArray[np.float64]
+
+_HEAD = """\
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+uint64_t read_only(size_t n, const uint64_t *restrict x, const uint64_t *restrict y, const uint64_t *restrict z)
+{
+    uint64_t mixed = 0;
+    for (size_t i = 0; i < n; i++)
+        mixed ^= x[i] ^ y[i] ^ z[i];
+    return mixed;
+}
+
+typedef size_t (*kernel)(int, const double *, size_t, const double *, const double *, const double *, int8_t *);
+
+void over_and_over(kernel ask, size_t times, const double *sizes, size_t n, const double *x, const double *y,
+                   const double *z, int8_t *out)
+{
+    while (times--)
+        ask(0, sizes, n, x, y, z, out);
+}
+
+void plain(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
+           const double *restrict zs, int8_t *restrict out)
+{
+"""
+
+
+@dataclass(frozen=True)
+class CBaseline:
+    """A library, and the flags that made it."""
+
+    library: ctypes.CDLL
+    flags: tuple[str, ...]
+
+    def read_only(self, x: Floats, y: Floats, z: Floats) -> Clocked:
+        """Reading the columns, one thread."""
+        function, pointers = self.library.read_only, [column.ctypes.data for column in (x, y, z)]
+        function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
+        return _clocked(lambda: int(function(len(x), *pointers)) & 0xFFFF)
+
+    def read_by_the_clock(self, x: Floats, y: Floats, z: Floats, threads: int) -> Clocked:
+        """The same shared among threads as the kernel shares its rows, by the clock on the wall."""
+        function = self.library.read_only
+        function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
+
+        def part(start: int, stop: int) -> int:
+            return int(function(stop - start, *(column[start:].ctypes.data for column in (x, y, z)))) & 0xFFFF
+
+        return clocked(lambda: np.array([in_parts(part, len(x), threads)]))
+
+    def over_and_over(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8], times: int) -> None:
+        """The compiled kernel `times` times, in one call during which other threads of Python run."""
+        ask = ctypes.CDLL(str(compiled().__file__)).hypcheck_ask_scene
+        function = self.library.over_and_over
+        function.restype = None
+        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
+        pointers = [column.ctypes.data for column in (x, y, z, out)]
+        function(ctypes.cast(ask, ctypes.c_void_p), times, sizes.ctypes.data, len(x), *pointers)
+
+    def plain(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8]) -> Clocked:
+        """The plain formula, one thread; the sum is of its answers."""
+        function = self.library.plain
+        function.restype = None
+        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
+        pointers = [column.ctypes.data for column in (x, y, z, out)]
+        return _clocked(lambda: function(sizes.ctypes.data, len(x), *pointers), lambda: int(np.count_nonzero(out)))
+
+
+def c_baselines(folder: Path, level: str) -> list[CBaseline]:
+    """One for each width of vectors that the level has. Raises UnavailableError where there is no compiler."""
+    program, code = compiler_here(), folder / "baselines.c"
+    code.write_text(baseline_source(), encoding="ascii")
+    found = []
+    for number, flags in enumerate(LEVEL_FLAGS[level]):
+        library = folder / f"baselines-{number}.so"
+        done = run_compiler([program, *FLAGS, *flags, "-shared", str(code), "-o", str(library), "-lm"])
+        if done.returncode == 0:
+            found.append(CBaseline(ctypes.CDLL(str(library)), flags))
+    if not found:
+        raise UnavailableError(f"{program} does not compile the baselines in C")
+    return found
+
+
+def baseline_source() -> str:
+    """The C of both."""
+    body = of_formula(FORMULAS["table-2"], "float64")
+    sizes = "".join(f"    const double {name} = sizes[{place}];\n" for place, name in enumerate(SIZES))
+    centre = "".join(f"        const double {name} = {name}s[i];\n" for name in ("x", "y", "z"))
+    before = "".join(f"    {line}\n" for line in body.before)
+    inside = "".join(f"        {line}\n" for line in body.inside)
+    loop = (
+        f"    for (size_t i = 0; i < n; i++) {{\n{centre}{inside}        out[i] = (int8_t){body.answer};\n    }}\n}}\n"
+    )
+    return _HEAD + sizes + before + loop
+
+
+def _clocked(call: Callable[[], object], checksum: Callable[[], int] | None = None) -> Clocked:
+    def run(repeat: int) -> tuple[int, int]:
+        result: object = 0
+        started = thread_time_ns()
+        for _ in range(repeat):
+            result = call()
+        took = thread_time_ns() - started
+        return took, checksum() if checksum is not None else int(result)  # type: ignore[call-overload]
+
+    return run
+
+
+MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
+AGAIN = 200
+PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
+
+CEILING = KernelTarget("memory speed", "certified, one thread, of the speed of reading the rows; 1e7 rows", 0.75)
+PLAIN = KernelTarget(
+    "plain C, from memory", "certified, one thread, of the speed of the plain formula in C; 1e7 rows", 0.95
+)
+IN_CACHE = KernelTarget(
+    "plain C, in cache", "certified, one thread, of the speed of the plain formula in C; 1e5 rows", 0.6
+)
+THREADS = KernelTarget("two threads", "two threads of the speed of one; 1e7 rows", 1.8)
+CACHED_THREADS = KernelTarget(
+    "two threads, in cache", "two threads of the speed of one; 1e5 rows each, over and over", 1.8
+)
+TOUCHING = KernelTarget(
+    "near contact", "nanoseconds a row where all rows are within 1e-15 of contact", 2000.0, at_most=True
+)
+STREAMED = KernelTarget(
+    "streamed", "a row in streams of 1e6 to 1e9 rows, the dearest to the cheapest", 1.15, at_most=True
+)
+
+
+def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
+    """Ten million rows: reading them, the plain formula, the kernel on one thread and on two."""
+    columns, out = uniform_columns(MANY), np.zeros(MANY, dtype=np.int8)
+    libraries = c_baselines(folder, str(choice().level))
+    entries = [
+        TimingEntry("read", MANY, libraries[0].read_only(*columns)),
+        *_plain(libraries, columns, out),
+        TimingEntry("one", MANY, thread_clocked(lambda: _answered(columns, out))),
+        TimingEntry("one by the clock", MANY, clocked(lambda: _answered(columns, out))),
+        TimingEntry("two by the clock", MANY, clocked(lambda: _answered(columns, out, threads=2))),
+        TimingEntry("read by the clock", MANY, libraries[0].read_by_the_clock(*columns, threads=1)),
+        TimingEntry("read on two by the clock", MANY, libraries[0].read_by_the_clock(*columns, threads=2)),
+    ]
+    found = measured_samples(entries, rounds)
+    one, plain = found["one"], _fastest(found)
+    level = choice().level
+    beside = f"{rate_text(one)} on {level}"
+    yield CEILING.line(
+        times_as_fast(one, found["read"]), f"{beside}; reading x, y and z alone: {rate_text(found['read'])}"
+    )
+    yield PLAIN.line(times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate_text(plain)}")
+    alone, two = found["one by the clock"], found["two by the clock"]
+    read, read_on_two = found["read by the clock"], found["read on two by the clock"]
+    gain = median(times_as_fast(read_on_two, read))
+    beside = f"reading x, y and z alone: {rate_text(read)}; on two, {gain:.3g} times as fast: {rate_text(read_on_two)}"
+    says = f"by the clock, one thread: {rate_text(alone)}; two: {rate_text(two)}; {beside}"
+    yield THREADS.line(times_as_fast(two, alone), says)
+
+
+def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
+    """A hundred thousand rows, which stay in the cache."""
+    columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
+    libraries = c_baselines(folder, str(choice().level))
+    one = TimingEntry("one", CACHED, thread_clocked(lambda: _answered(columns, out)))
+    found = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
+    plain = _fastest(found)
+    says = f"{rate_text(found['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate_text(plain)}"
+    yield IN_CACHE.line(times_as_fast(found["one"], plain), says)
+
+
+def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
+    """Two threads whose rows stay in the cache, over and over: what the memory takes no part in."""
+    columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
+    library = c_baselines(folder, str(choice().level))[0]
+    entries = [
+        TimingEntry(name, threads * CACHED * AGAIN, clocked(partial(_over_and_over, library, columns, out, threads)))
+        for name, threads in (("one", 1), ("two", 2))
+    ]
+    one, two = measured_samples(entries, 3 * rounds).values()
+    says = f"by the clock, one thread: {rate_text(one)}; two: {rate_text(two)}"
+    yield CACHED_THREADS.line(times_as_fast(two, one), says)
+
+
+def _over_and_over(library: CBaseline, columns: Columns, out: Positions, threads: int) -> Positions:
+    """Each thread answers CACHED rows of its own AGAIN times."""
+    sizes = np.array(TOWER_SIZES)
+
+    def part(start: int, stop: int) -> int:
+        x, y, z = (column[start:stop] for column in columns)
+        library.over_and_over(sizes, x, y, z, out[start:stop], AGAIN)
+        return 0
+
+    in_parts(part, threads * CACHED, threads)
+    return out[: threads * CACHED]
+
+
+def near_contact(rounds: int) -> Iterator[KernelLine]:
+    """Rows that floats cannot decide."""
+    columns, out = touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
+    found = measured_samples([TimingEntry("worst", WORST, thread_clocked(lambda: _answered(columns, out)))], rounds)[
+        "worst"
+    ]
+    yield TOUCHING.line(found.samples_ns, f"{rate_text(found)}; the exact integers decide nearly all of them")
+
+
+def streamed(most: int, rounds: int) -> Iterator[KernelLine]:
+    """From a million rows to `most`, a million at a time, out of a ring of parts that no cache holds."""
+    columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
+    slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
+    parts = [(columns[0][each], columns[1][each], columns[2][each]) for each in slices]
+    _cost_of_stream(PARTS, parts, out)
+    before = forget_peak()
+    totals = [10**k for k in range(4) if PART * 10**k <= most]
+    costs = [[_cost_of_stream(total, parts, out) for total in totals] for _ in range(rounds)]
+    grown = max(0, peak() - before)
+    middle = np.median(costs, axis=0).tolist()
+    each = ", ".join(f"{PART * total:,} rows {cost:.3g} ns" for total, cost in zip(totals, middle, strict=True))
+    says = f"a row of {each}; memory grew by {grown / 2**20:.1f} MB meanwhile"
+    yield STREAMED.line([max(cost) / min(cost) for cost in costs], says)
+
+
+def _cost_of_stream(total: int, parts: Sequence[Columns], out: Positions) -> float:
+    """Nanoseconds a row in a stream of `total` parts; a short stream is repeated, and the middle one taken."""
+    streams = []
+    for start in range(max(1, LEAST_PARTS // total)):
+        began = thread_time_ns()
+        for k in range(total):
+            _answered(parts[(start + k) % len(parts)], out)
+        streams.append((thread_time_ns() - began) / (total * PART))
+    return median(streams)
+
+
+def _plain(libraries: list[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
+    sizes = np.array(TOWER_SIZES)
+    return [
+        TimingEntry(" ".join(each.flags) or "no flags", len(out), each.plain(sizes, *columns, out))
+        for each in libraries
+    ]
+
+
+def _fastest(found: dict[str, Samples]) -> Samples:
+    others = [each for name, each in found.items() if not name.startswith(("read", "one", "two"))]
+    return min(others, key=lambda each: each.median_ns)
+
+
+def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
+    fill_scene(TOWER_SIZES, columns, out, "position", threads)
+    return out

@@ -1,0 +1,295 @@
+"""All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
+
+What is compared in numpy and in Python: the formulas, the fast path's fallback, roots, exact ways, other shapes.
+
+What is compared in C: the formulas, the dual form and the roots, printed and compiled when bench begins.
+
+What is compared of collision engines: a mesh of 100 to 100,000 triangles built once a scene, or one for each row.
+
+Everything that is compared, by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from hypcheck.bench import foreign
+from hypcheck.bench.c_library import InC, bodies
+from hypcheck.bench.c_source import FAST
+from hypcheck.bench.contender import Contender, EmptyCall, InPython, InScalars, PreparedWork, of_method, one_by_one
+from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen_names, scene_of
+from hypcheck.bench.timing import clocked
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.geometry.rows import CANNOT_SAY, Rows
+from hypcheck.implementations import alternatives
+from hypcheck.implementations.alternatives import dual_by_scene
+from hypcheck.implementations.builtin import builtin_methods, fast_scene
+from hypcheck.implementations.description import Domain
+from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, SceneMesh, height_of, rows_by_sizes, scene_mesh
+from hypcheck.implementations.method import Answers, ByScene, Method, Sizes, by_scene
+from hypcheck.kernel import numpy_kernel
+from hypcheck.kernel.choice import choice
+
+ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
+PRECISIONS = ("float32", "float64")
+
+PAPER = "the paper's own formula: it answers whether the pair is exterior, no more"
+THIRTEEN = "the way that the paper attributes to its [13]"
+BISECTED = "its multiplier is found by plain bisection, which nothing was done to make fast"
+CERTIFIED = "where its bound cannot tell, integers do"
+_UNSAID = "what does not converge is not said"
+_QUICK_DIGITS = "-15"
+
+Methods = dict[str, Method]
+
+
+def numpy_contenders() -> Iterable[Contender]:
+    """All of them, the reference among them."""
+    methods = builtin_methods()
+    yield from _formulas(methods)
+    yield from _fast(methods)
+    yield from _roots(methods)
+    yield from _exact(methods)
+    yield from _shapes(methods)
+
+
+def _formulas(methods: Methods) -> Iterable[Contender]:
+    """Table 2 in every format, and the others in two."""
+    listed = [("table-2", name) for name in ("float16", *PRECISIONS, "longdouble") if f"table-2-{name}" in methods]
+    for formula, format_name in [*listed, *((name, each) for name in ALGEBRAIC for each in PRECISIONS)]:
+        paper = formula == "table-2"
+        yield of_method(
+            methods[f"{formula}-{format_name}"],
+            "numpy",
+            "paper" if paper else "algebraic",
+            scene=_scene_of_formula(formula, format_name),
+            accuracy_only=format_name == "float16",
+            note=PAPER if paper else BISECTED if formula == "dual" else "",
+            timed=4096 if formula == "dual" else None,
+            singles=8 if formula == "dual" else 32,
+        )
+
+
+def _scene_of_formula(name: str, format_name: str) -> ByScene:
+    return partial(dual_by_scene, format_name) if name == "dual" else by_scene(FORMULAS[name], format_name)
+
+
+def _fast(methods: Methods) -> Iterable[Contender]:
+    """The numpy path, the compiled one where it runs, and one call of hypcheck.position for each row."""
+    found = of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
+    yield replace(found, load=partial(InPython, numpy_kernel.positions, numpy_kernel.positions_of_scene))
+    if choice().kernel == "compiled":
+        note = f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
+        # A batch alone: one call at a time is position-python from Python, and fast-c from C.
+        yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=note, singles=0)
+    by_one = of_method(methods["fast"], "python", "certified", name="position-python", timed=1024, note=CERTIFIED)
+    yield replace(by_one, title="hypcheck.position, one call a row", load=_position, singles=1024)
+
+
+def _position() -> InScalars:
+    from hypcheck.kernel.scalar import position  # noqa: PLC0415 - chooses the kernel where it is loaded
+
+    return InScalars(position)
+
+
+def _roots(methods: Methods) -> Iterable[Contender]:
+    for precision in PRECISIONS:
+        scene, method = alternatives.trigonometric_roots_by_scene(precision), methods[f"trigonometric-{precision}"]
+        yield of_method(method, "numpy", "roots", scene=scene, note=THIRTEEN)
+    yield of_method(methods["numpy-roots"], "python", "roots", judged=2000, timed=96, note="one call a row")
+    for name in (name for name in methods if name.startswith("mpmath-roots-")):
+        found = of_method(methods[name], "python", "roots", judged=240, timed=4, note=_UNSAID)
+        yield replace(found, quick=name.endswith(_QUICK_DIGITS))
+
+
+def _exact(methods: Methods) -> Iterable[Contender]:
+    yield of_method(methods["exact-integers"], "python", "exact", judged=3000, timed=192)
+    yield of_method(methods["exact-oracle"], "python", "exact", judged=3000, timed=192)
+    yield of_method(
+        methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, singles=16, note="tells the distance too"
+    )
+
+
+def _shapes(methods: Methods) -> Iterable[Contender]:
+    scenes: dict[str, ByScene] = {
+        "bounding-sphere": alternatives.bounding_sphere_scene,
+        "bounding-cylinder": alternatives.bounding_cylinder_scene,
+    }
+    for name, scene in scenes.items():
+        yield of_method(methods[name], "numpy", "bounding", scene=scene, note="another shape in the spheroid's place")
+
+
+_KINDS = {
+    "table-2": ("paper", PAPER),
+    "trigonometric": ("roots", THIRTEEN),
+    "fast": ("certified", CERTIFIED),
+    "dual": ("algebraic", BISECTED),
+}
+
+
+COMPILER = "C compiler"
+"""What these need."""
+
+SINGLES = 4096
+"""A branch predictor learns the branches of 64 rows, and the dual form's search then runs several times as fast."""
+
+
+def c_contenders(library: Path | None) -> Iterable[Contender]:
+    """Each method of the library, which may yet have to be made; it is named as in numpy, with -c behind."""
+    methods = builtin_methods()
+    for place, body in enumerate(bodies(), start=1):
+        if body.name in methods:  # a long double that is no more than float64 is left out
+            kind, note = _KINDS.get(_without_format(body.name), ("algebraic", ""))
+            found = of_method(methods[body.name], "C", kind, name=f"{body.name}-c", note=note)
+            if body.name == FAST.name:
+                found = replace(found, title="the fast path, compiled with the others and called from C")
+            yield replace(found, load=partial(InC, library or Path(), place), singles=SINGLES, needs=COMPILER)
+
+
+def _without_format(name: str) -> str:
+    return name.rpartition("-")[0] or name
+
+
+TRIANGLES = (100, 1_000, 10_000, 100_000)
+COAL_TRIANGLES = (10_000,)
+MOST_SCENES = 8
+"""Workloads of more pairs of bodies than this are not asked: a mesh that is built for one row is not built once."""
+
+MOST_QUICK = 1_000
+"""Larger meshes are left to full runs."""
+
+ONCE, FOR_EACH = "build once", "build each"
+_TITLES = {
+    "point": "distance from the centre to the scaled mesh",
+    "sphere": "unit sphere against the scaled mesh",
+    "ellipsoid": "ellipsoid against the mesh",
+}
+
+
+@dataclass(frozen=True)
+class InEngine:
+    """One pairing with meshes of about so many triangles, each built once and kept."""
+
+    engine: Engine
+    pairing: str
+    triangles: int
+    meshes: dict[tuple[Sizes, float], SceneMesh] = field(default_factory=dict)
+    trouble: str = ""
+
+    def answer(self, rows: Rows) -> Answers:
+        """Its answers, scene by scene; building is not avoided, but kept."""
+        found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+        for sizes, places in rows_by_sizes(rows):
+            found[places] = self.mesh(sizes, rows[places]).positions(rows[places])
+        return found
+
+    def mesh(self, sizes: Sizes, rows: Rows) -> SceneMesh:
+        """The mesh of a scene."""
+        key = sizes, height_of(sizes, rows)
+        if key not in self.meshes:
+            self.meshes[key] = scene_mesh(self.engine, self.pairing, *key, self.triangles)
+        return self.meshes[key]
+
+    def batch(self, rows: Rows) -> PreparedWork:
+        """Every row asked, the meshes being there."""
+        work = partial(self._ready(rows), rows)
+        return PreparedWork(len(rows), clocked(work), work)
+
+    def single(self, rows: Rows) -> PreparedWork:
+        """The same by a call a row."""
+        return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
+
+    def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
+        sizes = scene_of(rows)
+        if sizes is not None:
+            return self.mesh(sizes, rows).positions
+        self.answer(rows)  # builds them
+        return self.answer
+
+    def build(self, rows: Rows) -> PreparedWork | None:
+        """The mesh of a scene, from the vertices to the engine's tree; its answer is how many triangles it has."""
+        sizes = scene_of(rows)
+        if sizes is None:
+            return None
+        known = np.array([self.mesh(sizes, rows).triangles])
+        make = partial(scene_mesh, self.engine, self.pairing, sizes, height_of(sizes, rows), self.triangles)
+        return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
+
+    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
+        """As of any Python function."""
+        return None if mode == "build" else InPython(self.answer).empty(rows, mode)
+
+    def close(self) -> None:
+        """Let the meshes go."""
+        self.meshes.clear()
+
+
+def mesh_contenders() -> Iterable[Contender]:
+    """Every pairing in every size."""
+    for pairing in PAIRINGS:
+        for triangles in TRIANGLES:
+            yield _built_once(FCL, pairing, triangles)
+    for pairing in PAIRINGS:
+        for triangles in COAL_TRIANGLES:
+            yield _built_once(COAL, pairing, triangles)
+    methods = builtin_methods()
+    for pairing in PAIRINGS:
+        if f"fcl-{pairing}-mesh" in methods:
+            found = of_method(methods[f"fcl-{pairing}-mesh"], "FCL", "mesh", judged=400, timed=8)
+            note = "the mesh covers the body's surroundings alone, and is built anew for each row"
+            yield replace(found, amortised=FOR_EACH, singles=8, needs=FCL.title, note=note, quick=False)
+
+
+def _built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
+    return Contender(
+        name=f"{engine.name}-{pairing}-{triangles}",
+        title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
+        tier="FCL",
+        kind="mesh",
+        precision="float64",
+        question="position",
+        domain=Domain(),
+        load=partial(InEngine, engine, pairing, triangles),
+        judged=3000 if triangles < 100_000 else 1200,
+        timed=256,
+        singles=32,
+        amortised=ONCE,
+        scenes=MOST_SCENES,
+        needs=engine.title,
+        note="the time of a row is without that of building",
+        quick=triangles <= MOST_QUICK,
+    )
+
+
+_SLOW = 1_000
+"""Who is judged on fewer rows than this is slow."""
+
+
+def contenders(plan: BenchPlan) -> dict[str, Contender]:
+    """All that this run compares and can, by name, the reference first. Raises InputError where the plan names none."""
+    found = {each.name: _quick(each) if plan.quick else each for each in _everything(plan)}
+    others = {each.name: each for each in foreign.foreign_contenders(plan.foreign, plan.limits)}
+    names = chosen_names(list(found), plan.methods, "method")
+    found |= others
+    return {
+        name: found[name]
+        for name in dict.fromkeys((REFERENCE, *names, *others))
+        if found[name].needs not in plan.missing and (found[name].quick or not plan.quick or plan.methods)
+    }
+
+
+def _quick(each: Contender) -> Contender:
+    """Of a slow method a quick run asks a quarter: a root by mpmath takes milliseconds."""
+    return each if each.judged is None or each.judged >= _SLOW else replace(each, judged=each.judged // 4)
+
+
+def _everything(plan: BenchPlan) -> Iterable[Contender]:
+    """Every method, chosen or not."""
+    yield from numpy_contenders()
+    yield from c_contenders(plan.compiled)
+    yield from mesh_contenders()

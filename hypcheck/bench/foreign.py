@@ -1,0 +1,200 @@
+"""What a SPEC names, compared beside the others: in a process of its own, by its own clock where it offers one."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from hypcheck.bench.contender import Contender, EmptyCall, PreparedWork, of_method
+from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
+from hypcheck.bench.timing import Clocked, TimingRefusedError
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations.builtin import builtin
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.frames import LARGEST
+from hypcheck.implementations.implementation import Implementation, open_implementation
+from hypcheck.implementations.method import Answers
+from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
+from hypcheck.implementations.spec import parse_spec
+
+SINGLES = {"library": 256, "python": 64, "command": 16}
+"""Rows that are asked one by one, by the kind of SPEC. Our worker takes them in turn, so that a branch predictor does
+not learn them; a command is asked a question for each."""
+
+_TRIED = 64
+_TRIES, _TRYING_S = 5, 0.2
+"""So often a batch is tried, unless that takes longer, and the fastest counts: after one interruption it would be asked
+about few rows."""
+_JUDGED_S, _TIMED_S = 4.0, 0.01
+"""What judging one workload may take, and a timed batch."""
+
+
+@dataclass(frozen=True)
+class ForeignMethod:
+    """A SPEC that was started, what it says of itself, and how many rows it is fast enough for."""
+
+    spec: str
+    name: str
+    description: Description
+    judged: int
+    timed: int
+
+
+def foreign_method(spec: str, limits: Limits, taken: Sequence[str]) -> ForeignMethod:
+    """What a SPEC is. Raises StartError where it cannot be started, and InputError where it is no SPEC."""
+    with open_implementation(spec, limits) as implementation:
+        description = implementation.description
+        took = _seconds_a_row(implementation)
+    name = description.name if description.name not in taken else f"{description.name} ({spec})"
+    return ForeignMethod(
+        spec, name, description, max(200, int(_JUDGED_S / took)), min(LARGEST, max(1, int(_TIMED_S / took)))
+    )
+
+
+def _seconds_a_row(implementation: Implementation) -> float:
+    """What a row takes in a batch, asked in larger and larger ones until that takes long enough to tell."""
+    some = WORKLOADS["uniform"].rows(1, _TRIED)
+    inside = some[implementation.description.domain.holds(some)]
+    some = inside if len(inside) else np.array([[*NEAR_SCENES[0], 1.0, 0.5, 2.0]])
+    first = implementation.classify(some[:1])
+    if Outcome.TIMEOUT in first.outcomes:  # it would be waited for again and again
+        raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")
+    implementation.classify(some)  # warms it up
+    while True:
+        took = _fastest(implementation, some)
+        if took > _TIMED_S or len(some) * 8 > LARGEST:
+            return max(took / len(some), 1e-9)
+        some = np.repeat(some, 8, axis=0)
+
+
+def _fastest(implementation: Implementation, rows: Rows) -> float:
+    tries = [_seconds(implementation, rows)]
+    while len(tries) < _TRIES and sum(tries) < _TRYING_S:
+        tries.append(_seconds(implementation, rows))
+    return min(tries)
+
+
+def _seconds(implementation: Implementation, rows: Rows) -> float:
+    started = time.perf_counter()
+    implementation.classify(rows)
+    return time.perf_counter() - started
+
+
+def foreign_contenders(found: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
+    """A contender for each SPEC; a built-in method is one of ours and runs as such."""
+    for each in found:
+        description = each.description
+        kind, words = parse_spec(each.spec).kind, parse_spec(each.spec).words
+        if kind == "builtin":
+            method = builtin(words[0])
+            yield of_method(method, "numpy", "algebraic", judged=method.most, timed=min(8192, each.timed))
+            continue
+        yield Contender(
+            name=each.name,
+            title=" ".join(filter(None, (description.name, description.version, description.language))),
+            tier="foreign",
+            kind="foreign",
+            precision=description.precision,
+            question=description.question,
+            domain=description.domain,
+            load=partial(_opened, each.spec, limits),
+            exact=description.precision == "exact",
+            judged=each.judged,
+            timed=each.timed,
+            singles=SINGLES[kind],
+            note=f"as {each.spec}",
+        )
+
+
+def _opened(spec: str, limits: Limits) -> RunningForeign:
+    return RunningForeign(open_implementation(spec, limits), parse_spec(spec).kind)
+
+
+@dataclass
+class RunningForeign:
+    """An implementation, running; `kind` is that of its SPEC. `trouble` says why rows went without an answer."""
+
+    implementation: Implementation
+    kind: str
+    trouble: str = field(default="", init=False)
+
+    def answer(self, rows: Rows) -> Answers:
+        """Its answers; CANNOT_SAY where it gave none."""
+        return self._asked(rows, by_scene=False)
+
+    def batch(self, rows: Rows) -> PreparedWork:
+        """The rows by one question, by scene where it offers that and they share their sizes."""
+        rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
+        answers = partial(self._asked, rows, by_scene=by_scene)
+        if self._clock is None:
+            return PreparedWork(len(rows), self._round_trips(rows), answers, "process")
+        return PreparedWork(len(rows), self._times(rows, answers, by_scene=by_scene), answers, self._clock)
+
+    def single(self, rows: Rows) -> PreparedWork | None:
+        """A row a question; a command without a clock of its own is not asked, since the pipe would be timed."""
+        if self._clock is None:
+            return None
+        answers = partial(self._asked, rows, by_scene=False)
+        return PreparedWork(len(rows), self._times(rows, answers, each=True), answers, self._clock)
+
+    def build(self, rows: Rows) -> None:
+        """Nothing that we know of is built."""
+
+    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
+        """Of a library a call that does nothing; of a command without a clock a question about one row; else none."""
+        name = f"of {self.implementation.spec}"
+        if self._clock is None and mode == "batch":
+            return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
+        if self.kind == "library" and mode == "single":
+            calls = self._times(rows[:0], _none, each=True)
+            return EmptyCall(name, PreparedWork(1, calls, _none))
+        return None
+
+    def close(self) -> None:
+        """Let it leave."""
+        self.implementation.close()
+
+    @property
+    def _clock(self) -> str | None:
+        if self.kind == "command":
+            return "time protocol" if self.implementation.declared.time else None
+        return "worker"
+
+    def _asked(self, rows: Rows, *, by_scene: bool) -> Answers:
+        answered = self.implementation.classify(rows, by_scene=by_scene and len(rows) > 0)
+        if answered.reasons:
+            place, reason = next(iter(answered.reasons.items()))
+            self.trouble = f"{reason}; the row is {', '.join(map(repr, rows[place].tolist()))}"
+        return answered.answers
+
+    def _times(
+        self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, each: bool = False
+    ) -> Clocked:
+        """By the clock of whoever runs it, which checks its own sum against the answers (methods/implementation.py)."""
+        right = int(answers().sum(dtype=np.int64))
+
+        def run(repeat: int) -> tuple[int, int]:
+            try:
+                took = self.implementation.time(rows, repeat, by_scene=by_scene, each=each)
+            except TimingError as error:
+                raise TimingRefusedError(str(error)) from None
+            return took or 0, right
+
+        return run
+
+    def _round_trips(self, rows: Rows) -> Clocked:
+        def run(repeat: int) -> tuple[int, int]:
+            started = time.perf_counter_ns()
+            for _ in range(repeat):
+                answers = self.implementation.classify(rows, batch=len(rows)).answers
+            return time.perf_counter_ns() - started, int(answers.sum(dtype=np.int64))
+
+        return run
+
+
+def _none() -> Answers:
+    return np.empty(0, dtype=np.int8)

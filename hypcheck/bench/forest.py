@@ -1,0 +1,277 @@
+"""`hypcheck bench --forest`: a walker's step among 10 to a million trees, beside FCL's broad phase.
+
+Forests of any number of trees at one density, a walker's way through each, and the truth about every step of it.
+
+Who is asked about a step: our scene, and FCL's tree of bounding boxes, the forest's trees meshes or cylinders.
+
+What a step costs against the number of trees: lines "forest" of the record, all answers judged before the clock.
+
+`hypcheck bench --forest`: a walker's step among 10 to a million trees, beside FCL's broad phase.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import hypot
+from time import perf_counter
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.bench.needs import note_absent
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.timing import Samples, TimingEntry, clocked_calls, estimate, measure, ratios
+from hypcheck.errors import UnavailableError
+from hypcheck.geometry.pair import Lengths, Position, to_integers
+from hypcheck.implementations.meshes import FCL, grid_of
+from hypcheck.kernel.scene import Scene
+from hypcheck.record import Recorder
+from hypcheck.record.measurements import ForestLine
+from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.truth import exact
+
+ROOM = 25.0
+"""Square metres for each tree."""
+
+KINDS = tuple((alpha, gamma) for alpha in (0.61, 0.52, 0.45, 0.38, 0.27, 0.2, 0.14, 0.08) for gamma in (6.0, 28.0))
+"""α and γ of the trees, in metres: half of them wider than the walker, half narrower (section 3.1 of the paper)."""
+
+WALKER = Mover(0.3, 0.9)
+STEP, REFUSED_TURN, LARGEST_TURN = 0.25, 60.0, 15.0
+"""How the walker goes: metres, and degrees."""
+
+LOOK_AHEAD = 3.0
+"""Metres beyond which no tree of KINDS and no walker touch: the widest trunk is below 0.7 m at her height."""
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Forest:
+    """Trees at `places` (n, 2), of the kinds that `kinds` (n,) number, on a square with sides of `side` metres."""
+
+    side: float
+    places: NDArray[np.float64]
+    kinds: NDArray[np.int64]
+
+    @cached_property
+    def model(self) -> SceneModel:
+        """The forest as a scene that asks whether the walker is clear of it, on a plain."""
+        pairs = zip(self.kinds.tolist(), self.places.tolist(), strict=True)
+        trees = tuple(_tree(number, kind, (x, y)) for number, (kind, (x, y)) in enumerate(pairs, start=1))
+        return SceneModel("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))
+
+    def clear(self, centre: Point) -> bool:
+        """The truth, from rational arithmetic, about every tree that is not metres away."""
+        x, y, _ = centre
+        near = np.flatnonzero(np.hypot(self.places[:, 0] - x, self.places[:, 1] - y) < LOOK_AHEAD)
+        return all(self._beside(index, centre) is Position.EXTERIOR for index in near.tolist())
+
+    def _beside(self, index: int, centre: Point) -> Position:
+        alpha, gamma = KINDS[int(self.kinds[index])]
+        there = self.places[index].tolist()
+        x, y = (Fraction(here) - Fraction(tree) for here, tree in zip(centre[:2], there, strict=True))
+        radial = to_integers((alpha, WALKER.b, x, y))
+        axial = to_integers((gamma, WALKER.d, centre[2]))
+        return exact.position(Lengths(radial[0], radial[1], radial[2], radial[3], *axial))
+
+
+def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:
+    alpha, gamma = KINDS[kind]
+    return Hyperboloid(f"tree {number}", alpha, gamma, (*place, 0.0), Span(-0.9, 5.0))
+
+
+def forest_of(trees: int, seed: int) -> Forest:
+    """So many trees, uniform on a square."""
+    draw = np.random.Generator(np.random.PCG64([seed, trees]))
+    side = float(np.sqrt(ROOM * trees))
+    return Forest(side, side * draw.random((trees, 2)), draw.integers(0, len(KINDS), trees))
+
+
+def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
+    """The centres that a walker asks about: each a step from where she is, taken where it is clear."""
+    draw = np.random.Generator(np.random.PCG64([seed, steps]))
+    x = y = forest.side / 2
+    heading, asked = 0.0, []
+    for turn, side in draw.random((steps, 2)).tolist():
+        to_x = x + STEP * float(np.cos(np.deg2rad(heading)))
+        to_y = y + STEP * float(np.sin(np.deg2rad(heading)))
+        asked.append((to_x, to_y, 0.0))
+        if 0 < to_x < forest.side and 0 < to_y < forest.side and scene.position(to_x, to_y, 0.0) == 1:
+            x, y = to_x, to_y
+            heading += LARGEST_TURN * (2 * turn - 1)
+        else:
+            heading += REFUSED_TURN if side < 0.5 else -REFUSED_TURN
+    return asked
+
+
+Clear = Callable[[float, float, float], int]
+"""1 where the walker is clear of every tree, else 0."""
+
+TRIANGLES = 128
+HEIGHT = 1.2 * WALKER.d
+"""Up to where a tree's mesh reaches, both ways: beyond the walker's head and feet."""
+
+
+@dataclass(frozen=True)
+class Walker:
+    """Something that is asked about steps. `make` builds what it needs for a forest and answers from then on."""
+
+    title: str
+    triangles: int | None
+    make: Callable[[Forest], Clear]
+
+
+def _walker_scene(forest: Forest) -> Clear:
+    scene = Scene(forest.model)
+    scene.position(0.0, 0.0, 0.0)  # which prepares it
+    return scene.position
+
+
+def _meshes() -> list[Any]:
+    """A mesh of each kind, which all trees of that kind share."""
+    import fcl  # noqa: PLC0415
+
+    found = []
+    for alpha, gamma in KINDS:
+        vertices, triangles = grid_of(alpha, gamma, HEIGHT, TRIANGLES).mesh()
+        mesh = fcl.BVHModel()
+        mesh.beginModel(len(triangles), len(vertices))
+        mesh.addSubModel(vertices, triangles)
+        if mesh.endModel() != 0:
+            raise UnavailableError("FCL refuses the mesh of a tree")
+        found.append(mesh)
+    return found
+
+
+def _cylinders() -> list[Any]:
+    """The least upright cylinder around the part of each kind that the walker can reach."""
+    import fcl  # noqa: PLC0415
+
+    return [fcl.Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
+
+
+def _by_fcl(shapes: Callable[[], list[Any]]) -> Callable[[Forest], Clear]:
+    def make(forest: Forest) -> Clear:
+        import fcl  # noqa: PLC0415
+
+        kinds = shapes()
+        trees = [
+            fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
+            for kind, (x, y) in zip(forest.kinds.tolist(), forest.places.tolist(), strict=True)
+        ]
+        manager = fcl.DynamicAABBTreeCollisionManager()
+        manager.registerObjects(trees)
+        manager.setup()
+        walker = fcl.CollisionObject(fcl.Ellipsoid(WALKER.b, WALKER.b, WALKER.d))
+
+        def clear(x: float, y: float, z: float, _kept: Any = (kinds, trees)) -> int:  # noqa: ANN401
+            walker.setTranslation(np.array([x, y, z]))
+            found = fcl.CollisionData()  # results are not reset between calls
+            manager.collide(walker, found, fcl.defaultCollisionCallback)
+            return int(not found.result.is_collision)
+
+        return clear
+
+    return make
+
+
+OURS = "hypcheck.Scene"
+WALKERS: Mapping[str, Walker] = MappingProxyType(
+    {
+        OURS: Walker("a grid of cells, then exact decisions", None, _walker_scene),
+        "fcl-meshes": Walker(
+            f"FCL: DynamicAABBTreeCollisionManager, trees as meshes of about {TRIANGLES} triangles, one for each of "
+            f"{len(KINDS)} kinds; an Ellipsoid walks",
+            TRIANGLES,
+            _by_fcl(_meshes),
+        ),
+        "fcl-cylinders": Walker("FCL: the same with a bounding cylinder for each tree", None, _by_fcl(_cylinders)),
+    }
+)
+
+
+def here() -> dict[str, Walker]:
+    """Those that can be asked here; FCL may be missing."""
+    return {name: each for name, each in WALKERS.items() if name == OURS or FCL.trouble() is None}
+
+
+def answers(clear: Clear, centres: list[Point]) -> list[int]:
+    """What it says of each centre."""
+    return [clear(*centre) for centre in centres]
+
+
+TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
+MOST, QUICK_MOST = 100_000, 10_000
+"""The largest forest of a run that measures all things, and of a quick one: FCL takes seconds to build the next."""
+
+STEPS = 256
+ROUNDS, QUICK_ROUNDS = 11, 5
+
+Advance = Callable[[int], object]
+
+
+def sizes(plan: BenchPlan) -> Sequence[int]:
+    """How many trees the run's forests have."""
+    most = QUICK_MOST if plan.quick else max(TREES) if plan.forest else MOST
+    return tuple(trees for trees in TREES if trees <= most)
+
+
+def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int], *, quick: bool) -> None:
+    """Add a line for each forest, which has so many trees, and each of those that are asked."""
+    for trees in forests:
+        for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
+            recorder.add(line)
+        advance(1)
+    if (trouble := FCL.trouble()) is not None:
+        note_absent(recorder, FCL.title, trouble)
+
+
+def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
+    centres = walk(Scene(forest.model), forest, STEPS, seed)
+    truth = [int(forest.clear(centre)) for centre in centres]
+    made = {name: _made(each, forest) for name, each in here().items()}
+    wrong = {
+        name: sum(said != true for said, true in zip(answers(clear, centres), truth, strict=True))
+        for name, (clear, _) in made.items()
+    }
+    entries = [TimingEntry(name, STEPS, clocked_calls(clear, centres)) for name, (clear, _) in made.items()]
+    *_, (_, samples) = measure(entries, rounds)
+    ours = samples[0]
+    for each in samples:
+        built_s = made[each.name][1]
+        yield _line(each, ours, here()[each.name], len(forest.places), built_s, wrong[each.name])
+
+
+def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
+    """What answers, and the seconds it took to build; the list of trees is there before."""
+    forest.model  # noqa: B018 - a property that is made once
+    gc.collect()
+    started = perf_counter()
+    clear = walker.make(forest)
+    return clear, perf_counter() - started
+
+
+def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> ForestLine:
+    step = estimate([each.samples_ns])
+    ratio = estimate(ratios([each.samples_ns], [ours.samples_ns]))
+    return ForestLine(
+        method=each.name,
+        title=walker.title,
+        exact=each.name == OURS,
+        trees=trees,
+        triangles=walker.triangles,
+        asked=STEPS,
+        wrong=wrong,
+        build_s=built_s,
+        step_ns=step.median,
+        ci95_ns=(step.low, step.high),
+        ratio=ratio.median,
+        ratio_ci95=(ratio.low, ratio.high),
+    )

@@ -1,0 +1,216 @@
+"""`hypcheck derive` and `hypcheck simulate`: the paper's derivation and claims, and its two applications.
+
+`hypcheck derive`: the derivation, the propositions, the ledger of the paper's claims and the costs.
+
+`hypcheck simulate`: the paper's two applications. Options into a plan, the result as text or JSON, and pictures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from hypcheck.cli.commands import CommandGroup
+from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath
+from hypcheck.cli.progress import watched
+from hypcheck.errors import Exit, InputError
+from hypcheck.messages import printable
+from hypcheck.paper.derive.formats import FORMATS, PARTS
+
+if TYPE_CHECKING:
+    from hypcheck.scene.model import SceneModel
+
+
+_HELP = """Show the derivation step by step, the proofs of the propositions, and what became of the paper's claims.
+
+Everything that is shown is derived by sympy while it is printed: formulas are held against what follows from the two
+surfaces, counterexamples are searched for among small rational pairs and proved by certificates.
+
+\b
+hypcheck derive
+hypcheck derive --only ledger
+hypcheck derive --claim "Proposition 3"
+hypcheck derive --format latex --output derivation.tex
+hypcheck derive --format erratum --output erratum.tex
+
+Ends with 0 when all that was shown holds, with 6 when our derivation disagrees with what it is said to show.
+"""
+
+
+@click.command(help=_HELP, short_help="Show the derivation and the ledger of the paper's claims, checked.")
+@click.option("--format", "form", type=click.Choice(tuple(FORMATS)), default="text", show_default=True)
+@click.option("--only", multiple=True, type=click.Choice(tuple(PARTS)), help="A part; several may be given.")
+@click.option("--claim", metavar="NUMBER", help="One claim in full: 12, A.2b, 'Remark 4', 'Table 2', 'Proposition 5'.")
+@click.option("--output", default="-", show_default=True, metavar="FILE", help="Where it goes, whole or not at all.")
+@click.pass_context
+def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: str | None, output: str) -> None:
+    """Derive, and tell what came of it."""
+    if claim is not None and only:
+        raise InputError("--claim shows one claim and --only parts of all; use one of them")
+    if form == "erratum" and (claim is not None or only):
+        raise InputError("--format erratum writes one whole note; it takes neither --claim nor --only")
+    from hypcheck.paper.derive.formats import writer
+    from hypcheck.paper.derive.selection import Selection
+
+    chosen = Selection(() if claim is not None else only or tuple(PARTS), claim)
+    _write(writer(form)(chosen), output)
+    if form == "erratum" and output != "-":
+        from hypcheck.paper.derive.erratum import compile_note
+
+        click.echo(compile_note(Path(output)), err=True)
+    failing = chosen.failing
+    if failing:
+        click.echo(f"hypcheck: our derivation disagrees with what it is said to show: {', '.join(failing)}", err=True)
+    context.exit(Exit.ORACLES_DISAGREE if failing else Exit.HELD)
+
+
+def _write(lines: Iterable[str], output: str) -> None:
+    """Lines to standard output as they come, or to a file that appears when it is complete."""
+    if output == "-":
+        for line in lines:
+            click.echo(line)
+        return
+    from hypcheck.tables.streams import writing
+
+    with writing(output) as file:
+        for line in lines:
+            file.write(f"{line}\n".encode())
+
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+SEED = click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+OUT = click.option("--out", type=OutputPath(), help="A folder for the JSON and the pictures.")
+CONTINUOUS = click.option("--continuous", is_flag=True, help="Decide exactly what happens between the positions too.")
+FORMAT = click.option(
+    "--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True, help="To the terminal."
+)
+SHOW = click.option("--show-scene", is_flag=True, help="Print a shipped scene's file, to be changed, and end.")
+
+
+def common(command: Command) -> Command:
+    """The options that both simulations have."""
+    for option in (SHOW, FORMAT, OUT, CONTINUOUS, SEED):
+        command = option(command)
+    return command
+
+
+@click.group(
+    cls=CommandGroup, short_help="The paper's two applications: a walker among trees, a quadcopter in a tower."
+)
+def simulate() -> None:
+    """Simulate the two applications of the paper, with every assumption in a scene file (docs/simulate.md).
+
+    They are the walker among trees of section 3.1 and the quadcopter in a cooling tower of sections 3.2 and 4.
+    """
+
+
+@simulate.command(short_help="A walker among many trees, by Procedure 1 in float32.")
+@click.option("--scene", "name", default="forest", show_default=True, help="A scene file, or a shipped scene.")
+@click.option("--steps", type=IntegerOption(0), help="Steps to try.  [default: as the scene says]")
+@common
+def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
+    """A walker among trees of both types (section 3.1), by Procedure 1 with what Table 2 takes out of the loop.
+
+    She obeys the procedure in float32. Told are the evaluations that a line makes needless, and the phantom contacts:
+    places far from any tree where the procedure stops her all the same.
+    """
+    if flags["show_scene"]:
+        _show(name)
+        return
+    from hypcheck.paper.forest import ForestPlan, forest_lines, simulate_forest
+
+    plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
+    length = plan.count
+    _make_ready("forest", out)
+    with watched(length, "steps") as pace:
+        result = simulate_forest(plan, pace.advance)
+    _deliver(result, form, forest_lines(result), out)
+
+
+@simulate.command(short_help="A quadcopter in a cooling tower, by Procedures 2.a and 2.b; Table 5 again.")
+@click.option("--scene", "name", default="tower", show_default=True, help="A scene file, or tower-simplest.")
+@click.option("--table", type=click.Choice(["5"]), help="Make the paper's Table 5 again.")
+@click.option("--runs", type=IntegerOption(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
+@click.option(
+    "--speed", type=NumberOption(1e-6, 1e6), default=5.0, show_default=True, help="Of the flights in the figure, m/s."
+)
+@click.option("--time", type=NumberOption(1e-6, 1e6), default=0.2, show_default=True, help="Their response time, s.")
+@click.option(
+    "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]"
+)
+@common
+def tower(
+    name: str,
+    table: str | None,
+    runs: int | None,
+    speed: float,
+    time: float,
+    workers: int | None,
+    seed: int,
+    out: Path | None,
+    form: str,
+    **flags: bool,
+) -> None:
+    """A quadcopter in a cooling tower (sections 3.2 and 4), by Procedures 2.a and 2.b.
+
+    Three flights of 25 positions, as in the paper's Figure 4. With --table 5 also the executions with Δ ≤ 0 for each
+    speed and response time, with standard errors, beside the printed figures. The same seed gives the same result,
+    whatever the number of workers.
+    """
+    if flags["show_scene"]:
+        _show(name)
+        return
+    from hypcheck.paper.tower import TowerPlan, simulate_tower, tower_lines
+    from hypcheck.processes import processes, usable_processors
+
+    if runs is not None and table is None:
+        raise InputError("--runs is of the table; it needs --table 5")
+    each = (1000 if runs is None else runs) if table is not None else 0
+    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"])
+    moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
+    _make_ready("tower", out)
+    count = min(workers or usable_processors(), len(moves))
+    with processes(count) as executor, watched(sum(moves), "flights") as pace:
+        result = simulate_tower(plan, executor, pace.advance)
+    _deliver(result, form, tower_lines(result), out)
+
+
+def _scene(name: str) -> SceneModel:
+    from hypcheck.scene.reading import read_scene
+
+    return read_scene(name)
+
+
+def _show(name: str) -> None:
+    from hypcheck.scene.reading import shipped_scenes, shipped_text
+
+    if name not in shipped_scenes():
+        raise InputError(f"--show-scene: {name!r} is no shipped scene; there are {', '.join(shipped_scenes())}")
+    click.echo(shipped_text(name), nl=False)
+
+
+def _make_ready(kind: str, out: Path | None) -> None:
+    """See that the folder for the files can take them, before anything is simulated."""
+    if out is not None:
+        from hypcheck.report.simulation import make_ready
+
+        make_ready(kind, out)
+
+
+def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path | None) -> None:
+    """The files first, then the result; what was written goes to standard error, beside it."""
+    import json
+
+    written = []
+    if out is not None:
+        from hypcheck.report.simulation import write_simulation
+
+        written = write_simulation(result, out)
+    for line in [json.dumps(result)] if form == "json" else lines:
+        click.echo(printable(line))
+    for line in written:
+        click.echo(printable(line), err=True)

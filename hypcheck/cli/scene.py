@@ -1,0 +1,145 @@
+"""`hypcheck plan` and `hypcheck emit`: what a scene needs, and a kernel that contains only that.
+
+`hypcheck plan`: what a scene needs, what it does without, why, and what that saves.
+
+`hypcheck emit`: a kernel that contains only what a scene needs, in one of five languages.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from hypcheck.messages import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from hypcheck.bench.scene import KernelSaving
+    from hypcheck.kernel.specialise.plan import ScenePlan
+
+
+_PLAN_HELP = """Tell what SCENE needs of the mathematics, what is left out, why that is allowed, and what it saves.
+
+SCENE is a file (docs/scenes.md) or a shipped scene; `hypcheck emit` writes the kernel that the plan describes.
+
+\b
+hypcheck plan tower
+hypcheck plan forest.toml --precision float32 --json
+hypcheck plan tower --measure
+"""
+
+
+@click.command(help=_PLAN_HELP, short_help="Tell what a scene needs, and what can be left out.")
+@click.argument("scene")
+@click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
+@click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
+@click.option("--measure", is_flag=True, help="Compile the kernel, and time it beside Table 2 as printed.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+def plan(scene: str, precision: str, question: str | None, measure: bool, as_json: bool) -> None:
+    """Plan, and tell."""
+    import json
+
+    from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
+
+    found = planned(scene, precision, question)
+    times = list(_measured(found)) if measure else []
+    if as_json:
+        from hypcheck.bench.scene import saving_fields
+
+        told = plan_as_json(found)
+        click.echo(json.dumps({**told, "measured": [saving_fields(each) for each in times]} if measure else told))
+        return
+    for text in plan_lines(found):
+        click.echo(printable(text))
+    for place, each in enumerate(times, start=1):
+        click.echo(printable(f"{place}. {each.says}"))
+
+
+def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
+    """The plan for a scene by its name; raises InputError."""
+    from dataclasses import replace
+
+    from hypcheck.errors import InputError
+    from hypcheck.kernel.specialise.plan import plan_of
+    from hypcheck.scene.model import QUESTIONS
+    from hypcheck.scene.reading import read_scene
+
+    found = read_scene(scene)
+    if question is not None:
+        if question not in QUESTIONS:
+            raise InputError(f"the question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
+        found = replace(found, question=question)
+    return plan_of(found, precision)
+
+
+def _measured(found: ScenePlan) -> Iterator[KernelSaving]:
+    """What each setting saves; raises UnavailableError where there is no C compiler."""
+    from pathlib import Path
+    from tempfile import TemporaryDirectory
+
+    from hypcheck.bench.scene import kernel_savings
+
+    with TemporaryDirectory(prefix="hypcheck-plan-") as folder:
+        yield from kernel_savings(found, Path(folder))
+
+
+LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
+
+_EMIT_HELP = """Write a kernel that contains only what a scene needs: small, readable, without dependencies.
+
+SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
+is answered; `hypcheck plan` tells what is left out and why. The head of the kernel says what is proved of it.
+
+\b
+hypcheck emit --scene tower --language c --output kernel.c
+hypcheck emit --scene forest.toml --language rust --precision float32 --output kernel.rs
+cc -O3 -fPIC -shared kernel.c -lm -o kernel.so && hypcheck verify library:./kernel.so
+
+C, C++ and Rust have the names and the signature that `verify library:` takes; the Python file is for
+`python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
+`hypcheck init --language javascript`.
+
+Kernels that are linked into one program, or beside hypcheck.h, need different names: with `--prefix tower` the
+functions are tower_classify, tower_classify_scene and tower_describe (C, C++, Rust). `verify library:` asks for the
+default names.
+"""
+
+
+@click.command(help=_EMIT_HELP, short_help="Write a kernel that contains only what a scene needs.")
+@click.option("--scene", required=True, metavar="SCENE", help="A scene file, or the name of a shipped scene.")
+@click.option("--language", required=True, type=click.Choice(LANGUAGES), help="What the kernel is written in.")
+@click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
+@click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
+@click.option(
+    "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="What the kernel's functions begin with."
+)
+@click.option(
+    "--output", default="-", show_default=True, metavar="FILE", help="Where to write it; - is standard output."
+)
+@click.option(
+    "--proof", metavar="FILE", help="Write a proof of the discriminant's bound too, for Coq (docs/proofs.md)."
+)
+def emit(
+    scene: str, language: str, precision: str, question: str | None, prefix: str, output: str, proof: str | None
+) -> None:
+    """Plan, and write."""
+    # DROPPED
+    from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
+    from hypcheck.kernel.printing.coq import proof_of
+    from hypcheck.tables.streams import writing
+
+    require_prefix(prefix, language)
+    plan = planned(scene, precision, question)
+    command = ["hypcheck", "emit", "--scene", scene, "--language", language]
+    command += [] if precision == "float64" else ["--precision", precision]
+    command += [] if question is None else ["--question", question]
+    command += [] if prefix == PREFIX else ["--prefix", prefix]
+    text = emitted(plan, language, command, prefix)
+    proved = None if proof is None else proof_of(plan)
+    with writing(output) as stream:
+        stream.write(text.encode("utf-8"))
+    if proof is not None and proved is not None:
+        with writing(proof) as stream:
+            stream.write(proved.encode("utf-8"))

@@ -1,0 +1,182 @@
+"""`hypcheck init` and `hypcheck info`: the files of a project under test, and what this installation has.
+
+`hypcheck init`: options into a project's files, written; then what to type next.
+
+`hypcheck info`: versions, which kernel runs and why, which oracles and engines are available.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hypcheck.errors import InputError
+from hypcheck.messages import printable
+from hypcheck.scaffold.project import LANGUAGES, Project
+
+_NAMELESS = "predicate"
+"""The name where neither --name nor the folder has one."""
+
+
+@click.command(short_help="Write an adapter around a stub, its build line, settings and a CI workflow.")
+@click.option("--language", type=click.Choice(list(LANGUAGES)), required=True)
+@click.option(
+    "--directory",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    help="The repository's root; by default the working directory.",
+)
+@click.option("--name", help="What reports call the implementation; by default as the directory.")
+@click.option(
+    "--from",
+    "source",
+    metavar="REQUIREMENT",
+    help="What the workflow installs, pinned: a git URL (https, ssh, file), a wheel or sdist, or NAME==VERSION.",
+)
+@click.option("--force", is_flag=True, help="Replace files that are there.")
+def init(language: str, directory: Path, name: str | None, source: str | None, *, force: bool) -> None:
+    """Write what gates an implementation of your own: an adapter around a stub, hypcheck.toml, a CI workflow.
+
+    \b
+    hypcheck init --language c --directory engine
+    hypcheck init --language rust --from https://example.org/hypcheck.git@v1.2.0
+    hypcheck init --language go --from ./vendor/hypcheck-1.2.0-py3-none-any.whl
+
+    The adapter has a folder of its own and needs no dependencies. The stub is the paper's Table 2, right in the paper's
+    scenes and wrong elsewhere: replace it with a call of your predicate. docs/protocol.md says how the adapter speaks.
+
+    A second language in the same directory is added to hypcheck.toml and to the workflow, which then gate both.
+
+    Without --from the workflow fails in its step `Install hypcheck`, which says what to write there: no package index
+    is known to have hypcheck, and anyone may take a free name. A branch or tag of a git URL is pinned to its commit.
+    """  # noqa: D301 - the \b is click's: what follows it is not to be filled
+    from hypcheck.scaffold.repository import IGNORED, shared_files, write_all
+    from hypcheck.scaffold.requirement import pinned, requirement
+
+    wanted = pinned(requirement(source, directory)) if source is not None else None
+    project = Project(LANGUAGES[language], _named(name, directory))
+    shared, told = shared_files(directory, project, wanted, force=force)
+    added = {path for path in shared if os.path.exists(directory / path) and (path == IGNORED or not force)}
+    texts = project.files() | shared
+    write_all(directory, texts, force=force, replaced=added)
+    for path in texts:
+        click.echo(printable(f"{directory / path}{_remark(path, project, added)}"))
+    for sentence in (*told, *(wanted.says if wanted is not None else ())):
+        click.echo(printable(sentence))
+    _say_next(project, directory)
+
+
+def _remark(path: str, project: Project, added: Collection[str]) -> str:
+    if path == project.predicate:
+        return "   the stub: replace it"
+    return "   was there: added to" if path in added else ""
+
+
+def _say_next(project: Project, directory: Path) -> None:
+    click.echo(f"\nType next{'' if directory == Path() else f', in {printable(shlex.quote(str(directory)))}'}:\n")
+    for command in project.commands:
+        click.echo(printable(f"    {command}"))
+    click.echo(f"\nThe second passes. The third fails, on the ring for one, until {project.predicate} is yours.")
+
+
+def _named(name: str | None, directory: Path) -> str:
+    from hypcheck.scaffold.project import safe_name
+
+    if name is None:
+        return safe_name(os.path.basename(os.path.abspath(directory))) or _NAMELESS
+    safe = safe_name(name)
+    if not safe:
+        raise InputError(f"--name is {name!r}; it must have a letter or a digit of ASCII")
+    if safe != name:
+        click.echo(f"the name {name!r} is written as {safe}")
+    return safe
+
+
+LIBRARIES = ("numpy", "sympy", "mpmath", "python-fcl", "click", "matplotlib", "jinja2", "distributed", "coal")
+
+
+@click.command(short_help="Say which versions, kernel and oracles are here, and why.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+def info(as_json: bool) -> None:
+    """Say what this installation has: versions, the kernel in use and the reason for it, the oracles.
+
+    HYPCHECK_KERNEL=compiled or numpy forces a kernel, HYPCHECK_LEVEL its instruction set, HYPCHECK_THREADS the number
+    of threads it may use.
+    """
+    import json
+
+    found = gathered()
+    click.echo(json.dumps(found) if as_json else "\n".join(_lines(found)))
+
+
+def gathered() -> dict[str, Any]:
+    """Everything that is told, as --json has it."""
+    import platform
+    import sys
+
+    from hypcheck.implementations.meshes import COAL, FCL
+    from hypcheck.kernel.choice import choice, most_threads
+    from hypcheck.kernel.core import HEADER
+    from hypcheck.runs.oracles import ORACLES
+    from hypcheck.version import VERSION
+
+    chosen = choice()
+    threads = most_threads() if chosen.kernel == "compiled" else 1
+    return {
+        "hypcheck": VERSION,
+        "python": platform.python_version(),
+        "executable": sys.executable,
+        "system": f"{platform.system()} {platform.machine()}",
+        "versions": _versions(),
+        "kernel": {"name": chosen.kernel, "level": chosen.level, "reason": chosen.reason, "threads": threads},
+        "header": str(HEADER),
+        "oracles": {name: _availability_of(oracle.available()) for name, oracle in ORACLES.items()},
+        "engines": {engine.title: _availability_of(engine.trouble()) for engine in (FCL, COAL)},
+    }
+
+
+def _availability_of(trouble: str | None) -> dict[str, Any]:
+    return {"available": trouble is None, "reason": trouble}
+
+
+def _versions() -> dict[str, str | None]:
+    """Of the libraries that may be used, from their metadata: to ask the modules would load them."""
+    return {name: _version(name) for name in LIBRARIES}
+
+
+def _version(name: str) -> str | None:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _lines(found: dict[str, Any]) -> list[str]:
+    kernel = found["kernel"]
+    level = f", {kernel['level']}" if kernel["level"] else ""
+    present = [f"{name} {text}" for name, text in found["versions"].items() if text]
+    absent = [name for name, text in found["versions"].items() if not text]
+    threads = f"{kernel['threads']} thread{'s' if kernel['threads'] > 1 else ''}"
+    return [
+        f"hypcheck   {found['hypcheck']}, Python {found['python']} on {found['system']}",
+        f"libraries  {', '.join(present)}" + (f"; not installed: {', '.join(absent)}" if absent else ""),
+        f"kernel     {kernel['name']}{level}, up to {threads}: {kernel['reason']}",
+        f"C header   {found['header']}",
+        *_availability("oracles", found["oracles"]),
+        *_availability("engines", found["engines"]),
+    ]
+
+
+def _availability(title: str, found: dict[str, dict[str, Any]]) -> list[str]:
+    said = [
+        f"{name}: {'available' if each['available'] else 'not available: ' + each['reason']}"
+        for name, each in found.items()
+    ]
+    return [f"{title if place == 0 else '':11}{each}" for place, each in enumerate(said)]

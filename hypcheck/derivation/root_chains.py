@@ -1,0 +1,324 @@
+"""The roots of g beside −A, 0 and B, and what exterior and interior mean for them.
+
+Links about any cubic with real roots that several chains use: Vieta's formulas, signs between roots, Δ.
+
+Where the roots of g stand to −A, 0 and B: signs at three places, and Vieta's product.
+
+From the rule to the roots: what exterior and interior mean for them, and where Δ = 0 deceives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import product
+
+import sympy
+
+from hypcheck.derivation import pencil
+from hypcheck.derivation.links import C0, C1, C2, GENERIC_CUBIC, Chain, FiniteCases, Link, identity, known, sign
+from hypcheck.derivation.pencil import LAMBDA, B, discriminant_of_cubic, symbol
+
+ROOTS = tuple(symbol(name) for name in ("r1", "r2", "s"))
+
+
+def coefficients_of_roots() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
+    """c2, c1, c0 of (λ − r1)(λ − r2)(λ − s)."""
+    r1, r2, s = ROOTS
+    _, c2, c1, c0 = sympy.Poly((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s), LAMBDA).all_coeffs()
+    return c2, c1, c0
+
+
+def slope_of_roots(at: sympy.Expr) -> sympy.Expr:
+    """g' of (λ − r1)(λ − r2)(λ − s) at a value of λ."""
+    r1, r2, s = ROOTS
+    return sympy.diff((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s), LAMBDA).subs(LAMBDA, at)
+
+
+def distinct_roots() -> Link:
+    """Δ > 0 means three different real roots."""
+    real, imaginary, s = (symbol(name) for name in ("p", "q", "s"))
+    of_pair = sympy.Poly(((LAMBDA - real) ** 2 + imaginary**2) * (LAMBDA - s), LAMBDA).all_coeffs()[1:]
+    of_pair_discriminant = discriminant_of_cubic().subs(dict(zip((C2, C1, C0), of_pair, strict=True)))
+    return Link(
+        "Δ > 0 exactly if g has three different real roots: it is the product of their squared differences, and below "
+        "0 for a pair p ± q·i beside a real root s.",
+        "identity",
+        (
+            known("Δ is the product of the squared differences of the roots"),
+            identity("Δ = −4·q²·((s − p)² + q²)²", of_pair_discriminant),
+            sign("−4·q²·(t² + q²)² < 0", "q"),
+        ),
+    )
+
+
+def positive_roots_have_signs() -> Link:
+    """Vieta's formulas for three positive roots."""
+    c2, c1, _ = coefficients_of_roots()
+    return Link(
+        "Three positive roots r1, r2, s mean c2 < 0 and c1 > 0.",
+        "sign",
+        (
+            identity("c2 = −(r1 + r2 + s)", c2),
+            sign("−(r1 + r2 + s) < 0", "r1 r2 s"),
+            identity("c1 = r1·r2 + r2·s + s·r1", c1),
+            sign("r1·r2 + r2·s + s·r1 > 0", "r1 r2 s"),
+        ),
+    )
+
+
+def no_negative_root() -> Link:
+    """Descartes' rule where all signs are alike."""
+    p, q, r = (symbol(name) for name in ("p", "q", "r"))
+    mirrored = -GENERIC_CUBIC.subs({C2: -p, C1: q, C0: -r}, simultaneous=True).subs(LAMBDA, -LAMBDA)
+    return Link(
+        "c2 < 0 and c1 > 0 leave no root below 0: with c2 = −p, c1 = q, c0 = −r every term of −g(−λ) is positive.",
+        "sign",
+        (
+            identity("−g(−λ) = λ³ + p·λ² + q·λ + r", mirrored),
+            sign("λ³ + p·λ² + q·λ + r > 0", "p q r", "lambda"),
+        ),
+    )
+
+
+def positive_between_roots() -> Link:
+    """g > 0 between its two lower roots."""
+    u, v, w = (symbol(name) for name in ("u", "v", "w"))
+    r1, r2, s = ROOTS
+    product = ((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s)).subs({r1: LAMBDA - u, r2: LAMBDA + v, s: LAMBDA + w})
+    return Link(
+        "Between its two lower roots g is positive: λ = r1 + u = r2 − v = s − w.",
+        "sign",
+        (identity("(λ − r1)·(λ − r2)·(λ − s) = u·v·w", product), sign("u·v·w > 0", "u v w")),
+    )
+
+
+def roots_chain() -> Chain:
+    """One root is at least B; the other two are complex, or stand together in one of four intervals."""
+    return Chain(
+        "roots",
+        "One root s of g is at least B. The other two are complex, or lie together in one of (−∞, −A], [−A, 0), (0, "
+        "B], [B, ∞).",
+        (*_signs(), _one_root_beyond(), _same_sign(), _same_side(), _together()),
+    )
+
+
+def _signs() -> tuple[Link, ...]:
+    return (
+        Link(
+            "g is not positive at −A.",
+            "sign",
+            (known("g(−A) = −AP(A + B)"), sign("−A·P·(A + B) ≤ 0", "A B", "P")),
+        ),
+        Link("g is negative at 0.", "sign", (known("g(0) = −AB"), sign("−A·B < 0", "A B"))),
+        Link(
+            "g is not positive at B.",
+            "sign",
+            (known("g(B) = −BQ(A + B)"), sign("−B·Q·(A + B) ≤ 0", "A B", "Q")),
+        ),
+    )
+
+
+def _one_root_beyond() -> Link:
+    leading = sympy.Poly(pencil.cubic().g, LAMBDA).LC()
+    return Link(
+        "So one root is at least B: g(B) ≤ 0, and g grows without bound, its leading coefficient being 1. Call the "
+        "largest root s.",
+        "cited theorem",
+        (identity("coefficient of λ³ in g = 1", leading),),
+        cites="intermediate value theorem",
+    )
+
+
+def _same_sign() -> Link:
+    _, _, c0 = coefficients_of_roots()
+    return Link(
+        "The product of the other two is A·B/s > 0: if they are real they have one sign, and neither is 0.",
+        "sign",
+        (
+            identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
+            identity("c0 = −A·B", pencil.cubic().c0),
+            sign("A·B/s > 0", "A B s"),
+        ),
+    )
+
+
+def _same_side() -> Link:
+    """Of the quadratic k(λ) = g(λ)/(λ − s); B = s − w."""
+    r1, r2, s = ROOTS
+    quadratic = (LAMBDA - r1) * (LAMBDA - r2)
+    g, w = pencil.cubic().g, symbol("w")
+    at_minus_A = (g / (LAMBDA - s)).subs(LAMBDA, -pencil.A)
+    at_B = (g / (LAMBDA - s)).subs(LAMBDA, pencil.B).subs(s, pencil.B + w)
+    return Link(
+        "The other two stand on one side of −A, and on one side of B: k = g/(λ − s) = (λ − r1)·(λ − r2) is not "
+        "negative at −A, nor at B = s − w. (Where w = 0 both are at most s = B.)",
+        "sign",
+        (
+            identity("k(−A) = (r1 + A)·(r2 + A)", quadratic.subs(LAMBDA, -pencil.A)),
+            identity("k(−A) = A·P·(A + B)/(A + s)", at_minus_A),
+            sign("A·P·(A + B)/(A + s) ≥ 0", "A B s", "P"),
+            identity("k(B) = (r1 − B)·(r2 − B)", quadratic.subs(LAMBDA, pencil.B)),
+            identity("k(B) = B·Q·(A + B)/w", at_B),
+            sign("B·Q·(A + B)/w ≥ 0", "A B w", "Q"),
+        ),
+    )
+
+
+def _together() -> Link:
+    """With A = B = 2 every place of two roots to −A, 0 and B is that of one of these pairs."""
+    places = (-3, -2, -1, 1, 2, 3)
+    return Link(
+        "Hence they lie together in one of the four intervals.",
+        "case split",
+        (
+            FiniteCases(
+                "r1·r2 > 0 and (r1 + A)·(r2 + A) ≥ 0 and (r1 − B)·(r2 − B) ≥ 0: one interval",
+                tuple(product(places, repeat=2)),
+                in_one_interval,
+            ),
+        ),
+    )
+
+
+def in_one_interval(r1: int, r2: int) -> bool:
+    """Whether two roots that the three products allow share an interval, for A = B = 2."""
+    if not (r1 * r2 > 0 and (r1 + 2) * (r2 + 2) >= 0 and (r1 - 2) * (r2 - 2) >= 0):
+        return True
+    return (
+        (r1 <= -2 and r2 <= -2) or (-2 <= r1 < 0 and -2 <= r2 < 0) or (0 < r1 <= 2 and 0 < r2 <= 2) or min(r1, r2) >= 2
+    )
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """How the roots of g can stand, after the chain "roots": what it means for signs and for the position.
+
+    `delta` is the sign of Δ. `all_positive` is true where c2 < 0 and c1 > 0 in case Δ > 0. `crowded` marks three roots
+    none of which is below B, or two at most −A.
+    """
+
+    name: str
+    delta: int
+    all_positive: bool
+    position: int
+    crowded: bool = False
+    ring: bool = False
+
+
+PATTERNS = (
+    Pattern("two different roots in (0, B]", 1, True, 1),
+    Pattern("three different roots, none below B", 1, True, 0, crowded=True),
+    Pattern("two different roots in [−A, 0)", 1, False, -1),
+    Pattern("two different roots at most −A", 1, False, 0, crowded=True),
+    Pattern("the double root B above a simple one", 0, True, 1, ring=True),
+    Pattern("another double root", 0, True, 0),
+    Pattern("a double root below 0", 0, False, 0),
+    Pattern("one real root", -1, True, 0),
+    Pattern("one real root, other signs", -1, False, 0),
+)
+
+
+def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Callable[[Pattern], bool]) -> Link:
+    """That what is said is `right` of every pattern of roots that can occur, which are those `where` it says so."""
+    possible = tuple((pattern,) for pattern in PATTERNS if where(pattern))
+    return Link(
+        statement,
+        "case split",
+        (FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right),),
+    )
+
+
+def no_contact_but_the_ring() -> Link:
+    """What Δ ≤ 0 means for every size."""
+    return true_of_patterns(
+        "So Δ ≤ 0 means contact or the ring, and for the interior nothing else than “no”.",
+        lambda roots: roots.delta <= 0,
+        lambda roots: roots.position == 0 or roots.ring,
+    )
+
+
+def positions_chain() -> Chain:
+    """What the propositions have in common."""
+    return Chain(
+        "positions",
+        "Exterior has three positive roots, different but on the ring; interior has two different negative roots; and "
+        "the signs of Δ, c2 and c1 tell how many roots are real, different and positive.",
+        (
+            exterior_has_positive_roots(),
+            interior_has_negative_roots(),
+            only_the_ring(),
+            ring_is_exterior(),
+            distinct_roots(),
+            positive_roots_have_signs(),
+            no_negative_root(),
+            positive_between_roots(),
+        ),
+        needs=("rule", "roots"),
+    )
+
+
+def exterior_has_positive_roots() -> Link:
+    """From g > 0 in (0, B) to three positive roots."""
+    _, _, c0 = coefficients_of_roots()
+    return Link(
+        "Exterior means g > 0 somewhere in (0, B), so by its signs at 0 and B two roots r1 < r2 in (0, B]; the third, "
+        "A·B/(r1·r2), is positive too.",
+        "sign",
+        (
+            known("g(0) = −AB"),
+            known("g(B) = −BQ(A + B)"),
+            identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
+            sign("A·B/(r1·r2) > 0", "A B r1 r2"),
+        ),
+    )
+
+
+def interior_has_negative_roots() -> Link:
+    """From g > 0 in (−A, 0) to two different negative roots."""
+    return Link(
+        "Interior means g > 0 somewhere in (−A, 0), so by its signs at −A and 0 two different roots in [−A, 0); the "
+        "third is at least B > 0. Three different roots: Δ > 0.",
+        "sign",
+        (
+            known("g(−A) = −AP(A + B)"),
+            known("g(0) = −AB"),
+            sign("−A·P·(A + B) ≤ 0", "A B", "P"),
+            sign("−A·B < 0", "A B"),
+        ),
+    )
+
+
+def only_the_ring() -> Link:
+    """Exterior with a double root."""
+    w, t, m, n = (symbol(name) for name in "wtmn")
+    at_B = ((LAMBDA - m) ** 2 * (LAMBDA - n)).subs({LAMBDA: B, m: B + w, n: B - t}, simultaneous=True)
+    return Link(
+        "Exterior with a double root m, g = (λ − m)²·(λ − n), is the ring: g > 0 below B puts n = B − t below it, so m "
+        "= B + w is the root that is at least B; g(B) ≤ 0 leaves w = 0. So Q = 0, g'(B) = 0, and n = A/B < B.",
+        "sign",
+        (
+            identity("g(B) = w²·t", at_B),
+            sign("w²·t > 0", "w t"),
+            known("g(B) = −BQ(A + B)"),
+            known("with Q = 0, g'(B) = 0 only at P = (A + B)(B + 1)/B"),
+            known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
+        ),
+    )
+
+
+def ring_is_exterior() -> Link:
+    """The converse: λ between A/B and B."""
+    at = symbol("m")
+    u, v = symbol("u"), symbol("v")
+    g = ((LAMBDA - B) ** 2 * (LAMBDA - at)).subs({LAMBDA: B - u, at: B - u - v}, simultaneous=True)
+    return Link(
+        "On the ring the spheroid is exterior: g is positive between the simple root A/B < B and B, where λ = B − u "
+        "and A/B = λ − v.",
+        "sign",
+        (
+            known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
+            identity("g(λ) = u²·v", g),
+            sign("u²·v > 0", "u v"),
+        ),
+    )

@@ -1,0 +1,158 @@
+"""Many pairs at once: float64 arrays of shape (n, 7), columns as in pair.COLUMNS; and ranges of rows.
+
+Many queries at once: float64 arrays of shape (n, 7), columns as in pairs.COLUMNS.
+
+Ranges of ratios and of lengths: those that everybody is asked about, and which rows lie in given ones.
+"""
+
+from __future__ import annotations
+
+import math
+import reprlib
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with
+from hypcheck.messages import counted, escaped
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.float64]
+Positions = NDArray[np.int8]
+Columns = tuple[Floats, Floats, Floats]
+"""x, y, z of shape (n,), with any strides."""
+
+_ROWS_WANTED = f"an array (n, 7) of numbers: {', '.join(COLUMNS)}"
+
+CANNOT_SAY = 2
+"""What stands for an answer where a method does not give one."""
+
+
+def as_rows(values: ArrayLike) -> Rows:
+    """`values` as a float64 array (n, 7); contiguous float64 input is not copied.
+
+    Raises InputError where the shape or the type cannot be that, or where values are masked; the values themselves are
+    not looked at.
+    """
+    rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be {_ROWS_WANTED}"))
+    if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
+        raise InputError(f"the rows have shape {rows.shape}; it must be (n, 7): {', '.join(COLUMNS)}")
+    return rows
+
+
+def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """What stands for x, y, z …, a number or an array (n,) each, as float64 columns of one length n.
+
+    Raises InputError naming what is none, or the shapes that do not go together.
+    """
+    wanted = "it must be a number or an array (n,) of numbers"
+    columns = [np.atleast_1d(as_numbers(f"{name} is", each, wanted)) for name, each in zip(names, given, strict=True)]
+    try:
+        shape = np.broadcast_shapes(*(each.shape for each in columns))
+    except ValueError:
+        shape = ()
+    if len(shape) != 1:
+        shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
+        raise InputError(f"{shapes} have shapes that do not go together; each must be (n,) or a number")
+    return tuple(np.broadcast_to(each, shape) for each in columns)
+
+
+def as_numbers(subject: str, values: object, wanted: str) -> Floats:
+    """`values` as float64 of their own shape. Raises InputError, "<subject> …; <wanted>", unless all are real numbers.
+
+    What float64 does not hold becomes infinite. Texts and truth values are no numbers, and masked values none either.
+    """
+    require_unmasked(subject, values)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):  # of several lengths
+        array = np.empty(0, dtype=np.object_)
+    if array.dtype.kind not in "iuf":
+        found = f"an array of {values.dtype}" if isinstance(values, np.ndarray) else escaped(reprlib.repr(values), 60)
+        raise InputError(f"{subject} {found}; {wanted}")
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
+
+
+def require_unmasked(subject: str, values: object) -> None:
+    """Raise InputError for an array with masked values: without their mask they would be answered like others."""
+    ma = sys.modules.get("numpy.ma")  # where nobody has imported it, nothing is masked, and that takes a while
+    if ma is not None and isinstance(values, ma.MaskedArray) and (count := int(ma.getmaskarray(values).sum())):
+        these = "it" if count == 1 else "these"
+        raise InputError(f"{subject} masked in {counted(count, 'place')}; fill {these}, with nan or a number")
+
+
+def invalid(rows: Rows) -> NDArray[np.bool_]:
+    """A mask (n,) of the rows that are no valid query (see pairs.Pair)."""
+    sizes = rows[:, : len(SIZES)]
+    return np.asarray(~(np.isfinite(rows).all(axis=1) & (sizes > 0).all(axis=1)))
+
+
+def first_trouble(rows: Rows, first_number: int = 0) -> str | None:
+    """The sentence about the first invalid row, counted from `first_number`, or None where all rows are valid."""
+    bad = np.flatnonzero(invalid(rows))
+    if not len(bad):
+        return None
+    index = int(bad[0])
+    for name, value in zip(COLUMNS, rows[index].tolist(), strict=True):
+        trouble = trouble_with(name, value)
+        if trouble is not None:
+            return f"row {first_number + index}: {trouble}"
+    raise AssertionError("a row was found invalid, but none of its values is")
+
+
+def require_valid(rows: Rows, first_number: int = 0) -> None:
+    """Raise InputError about the first invalid row, if there is one."""
+    trouble = first_trouble(rows, first_number)
+    if trouble is not None:
+        raise InputError(trouble)
+
+
+Range = tuple[float, float]
+
+ORDINARY_RATIO: Range = (1e-8, 1e8)
+ORDINARY_MAGNITUDE: Range = (1e-6, 1e6)
+"""What an implementation is judged on that declares no ranges: insects to islands in metres, and any two of them."""
+
+UNBOUNDED: Range = (0.0, math.inf)
+
+
+def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE) -> NDArray[np.bool_]:
+    """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
+
+    The least magnitude is one of semi-axes: a coordinate may be as near to 0 as it likes, for a centre close to the
+    axis or to the waist is nothing out of the ordinary.
+    """
+    alpha, gamma, b, d = rows[:, :4].T
+    with np.errstate(over="ignore", under="ignore"):
+        ratios = np.stack([alpha / b, gamma / d], axis=1)
+    inside = ((ratios >= ratio[0]) & (ratios <= ratio[1])).all(axis=1)
+    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (np.abs(rows) <= magnitude[1]).all(axis=1)
+    return np.asarray(inside)
+
+
+@dataclass(frozen=True, slots=True)
+class FixedSizes:
+    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and the spans of x, y, z; None is any, bounds belong."""
+
+    sizes: tuple[float, float, float, float]
+    x: Range | None = None
+    y: Range | None = None
+    z: Range | None = None
+
+    @property
+    def spans(self) -> tuple[Range | None, Range | None, Range | None]:
+        """The spans in order."""
+        return self.x, self.y, self.z
+
+    def holds(self, rows: Rows) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows with these sizes and the centre in the spans."""
+        inside = (rows[:, :4] == self.sizes).all(axis=1)
+        for column, span in zip(rows[:, 4:].T, self.spans, strict=True):
+            if span is not None:
+                inside &= (column >= span[0]) & (column <= span[1])
+        return np.asarray(inside)

@@ -1,0 +1,160 @@
+"""Questions about rows, whatever becomes of them: a fault costs the row that causes it, and the others are answered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import CANNOT_SAY, Rows, invalid
+from hypcheck.implementations.description import Description, allowed
+from hypcheck.implementations.frames import UNWRITTEN
+from hypcheck.implementations.session import FaultError, IntegerAnswers, NoMoreRunsError, Outcome, Runs
+
+ALONE = 4096
+"""Rows that are asked one by one to find one that ends the process; of more, parts of this size are asked first.
+
+So finding it takes two processes besides its own at most, and one for each further such row among them. What ends no
+process is found by halving.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """What became of n rows: `answers` int8 (n,), CANNOT_SAY where there is none; `status` int8 (n,), an Outcome each.
+
+    `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED.
+    """
+
+    answers: NDArray[np.int8]
+    status: NDArray[np.int8]
+    reasons: dict[int, str]
+
+    @classmethod
+    def of(cls, answers: NDArray[np.int8]) -> Answered:
+        """Where every row has an answer."""
+        return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {})
+
+    @property
+    def answered(self) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows that have an answer."""
+        return np.asarray(self.status == Outcome.ANSWERED)
+
+    @property
+    def outcomes(self) -> frozenset[Outcome]:
+        """All ways in which rows ended."""
+        if not self.reasons:
+            return frozenset({Outcome.ANSWERED}) if len(self.status) else frozenset()
+        return frozenset(map(Outcome, np.unique(self.status).tolist()))
+
+    def count(self, outcome: Outcome) -> int:
+        """How many rows ended so."""
+        return int(np.count_nonzero(self.status == outcome))
+
+
+class Vocabulary:
+    """The answers that an implementation may give, by its question and by whether it refuses invalid rows."""
+
+    def __init__(self, description: Description) -> None:
+        self._refuses = description.refuses
+        self.answers = allowed(description.question)
+        self._usable = np.zeros(256, dtype=np.bool_)
+        self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
+
+    def understood(self, answers: IntegerAnswers, rows: Rows) -> NDArray[np.bool_]:
+        """A mask (n,) of the answers that may be given to these rows."""
+        short = answers.astype(np.int8, copy=False)
+        usable = self._usable.take(short.view(np.uint8))
+        if answers.dtype != np.int8:
+            usable &= short == answers
+        if self._refuses:
+            refused = np.flatnonzero(short == REFUSED)
+            usable[refused] &= invalid(rows[refused])
+        return np.asarray(usable)
+
+    def trouble_with(self, answer: int) -> str:
+        """Why an answer that may not be given may not."""
+        if answer == REFUSED and self._refuses:
+            return f"it answered {REFUSED}, which refuses the row, but the row is valid"
+        hint = ", which is what stands where a library writes nothing" if answer == UNWRITTEN else ""
+        return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
+
+
+class Asking:
+    """One call's rows and what became of them so far."""
+
+    def __init__(self, rows: Rows, runs: Runs, vocabulary: Vocabulary, *, by_scene: bool) -> None:
+        n = len(rows)
+        self._rows = rows
+        self._runs = runs
+        self._vocabulary = vocabulary
+        self._by_scene = by_scene
+        self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
+
+    def ask(self, start: int, stop: int) -> None:
+        """Ask rows [start, stop), together if that succeeds; raises OverError where no further process may begin."""
+        try:
+            self._question(start, stop)
+        except FaultError as fault:
+            self._search(start, stop, fault, self._runs.note(fault))
+
+    def leave(self, reason: str) -> None:
+        """Note for the rows of which nothing was found out why that is so."""
+        left = np.flatnonzero(self.result.status == Outcome.NOT_RUN)
+        self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
+
+    def _question(self, start: int, stop: int) -> None:
+        rows = self._rows[start:stop]
+        answers = self._runs.session().classify(rows, by_scene=self._by_scene)
+        self._runs.heard()
+        understood = self._vocabulary.understood(answers, rows)
+        self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
+        self.result.status[start:stop] = Outcome.ANSWERED
+        for index in np.flatnonzero(~understood).tolist():
+            self._mark(start + index, Outcome.PROTOCOL, self._vocabulary.trouble_with(int(answers[index])))
+
+    def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
+        """Find the rows at fault by asking parts, and parts of those that fail.
+
+        Rows at fault are charged, not what it takes to find them, which depends on how many were asked at once.
+        """
+        if stop - start == 1:
+            self._charge(start, fault, reason)
+            return
+        among = f"in a question of {stop - start} rows"
+        found, restarts = False, self._runs.left.restarts
+        size = _part(stop - start, fatal=fault.fatal)
+        for first in range(start, stop, size):
+            last = min(first + size, stop)
+            try:
+                self._question(first, last)
+            except FaultError as part:
+                found = True
+                self._search(first, last, part, self._runs.note(part))
+            except NoMoreRunsError:
+                if not found:
+                    unknown = f"{among}, and it could not be asked further to find which: {reason}"
+                    self._mark(first, fault.outcome, unknown)
+                raise
+        if not found:
+            self._charge(start, fault, f"{among} from this one on, though not in smaller ones: {reason}")
+        elif fault.fatal and self._runs.left.restarts == restarts:  # its parts failed, but ended no process
+            self._runs.charge(fault, reason)
+
+    def _charge(self, index: int, fault: FaultError, reason: str) -> None:
+        self._mark(index, fault.outcome, reason)
+        self._runs.charge(fault, reason)
+
+    def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
+        self.result.answers[index] = CANNOT_SAY
+        self.result.status[index] = outcome
+        self.result.reasons[index] = reason
+
+
+def _part(n: int, *, fatal: bool) -> int:
+    """Rows of the parts in which n that fail are asked: halves; where failing ends a process, few parts, then rows."""
+    if not fatal:
+        return (n + 1) // 2
+    return ALONE if n > ALONE else 1

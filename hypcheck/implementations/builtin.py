@@ -1,0 +1,266 @@
+"""The built-in methods by name: formulas, the fast path, roots, exact methods, other shapes, FCL.
+
+What stands beside the paper's methods when `bench` compares: other precisions, roots, exact ones, other shapes.
+
+The methods this project brings along: each formula in each precision, the fast path, roots, FCL on a mesh.
+
+A built-in method behind the door of all others; ours, so it runs in our process.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import cache, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair, Sizes
+from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.implementations import alternatives
+from hypcheck.implementations.alternatives import dual_positions
+from hypcheck.implementations.description import EVERYWHERE, Description, Domain
+from hypcheck.implementations.frames import LARGEST
+from hypcheck.implementations.meshes import ellipsoid_mesh, point_mesh, sphere_mesh
+from hypcheck.implementations.method import Answers, Method, by_rows
+from hypcheck.implementations.session import IntegerAnswers
+from hypcheck.kernel import integers, numpy_kernel
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.classify import kernel
+from hypcheck.messages import suggestion
+from hypcheck.truth import exact
+from hypcheck.truth.mesh import availability as fcl_trouble
+from hypcheck.version import VERSION
+
+DIGITS = (15, 30, 50, 100)
+"""Decimal digits at which mpmath is asked for roots."""
+
+SLOW_ROWS = 24
+"""Rows of a family that are asked of a method that takes milliseconds for one."""
+
+LONG_DOUBLE = {2.0**-63: "x87", 2.0**-112: "binary128"}.get(float(np.finfo(np.longdouble).eps))
+"""What numpy's long double is on this machine; None where it is no more than float64, or two of them."""
+
+
+def measured_methods() -> list[Method]:
+    """All of them; none loads mpmath or FCL before it is asked."""
+    return [*_other_precisions(), *_root_methods(), *_exact_methods(), *_bounding_methods()]
+
+
+def _other_precisions() -> list[Method]:
+    formats = {"float16": "float16", **({"longdouble": LONG_DOUBLE} if LONG_DOUBLE else {})}
+    listed = FORMULAS["table-2"]
+    return [
+        Method(
+            f"{listed.name}-{format_name}",
+            f"{listed.title}, {format_name}",
+            listed.question,
+            precision,
+            by_rows(listed, format_name),
+            Domain(regimes=listed.regimes),
+            measured=True,
+        )
+        for format_name, precision in formats.items()
+    ]
+
+
+def _root_methods() -> list[Method]:
+    trigonometric = [
+        Method(
+            f"trigonometric-{precision}",
+            f"the roots of g by the trigonometric form, {precision}",
+            "position",
+            precision,
+            alternatives.trigonometric_roots(precision),
+            Domain(),
+            measured=True,
+        )
+        for precision in ("float32", "float64")
+    ]
+    general = Method(
+        "numpy-roots",
+        "the roots of g by numpy.roots, float64",
+        "position",
+        "float64",
+        alternatives.numpy_roots,
+        Domain(),
+        most=400,
+        measured=True,
+    )
+    many_digits = [
+        Method(
+            f"mpmath-roots-{digits}",
+            f"the roots of g by mpmath.polyroots at {digits} digits",
+            "position",
+            "float64",
+            partial(alternatives.mpmath_roots, digits=digits),
+            Domain(),
+            most=SLOW_ROWS,
+            measured=True,
+        )
+        for digits in DIGITS
+    ]
+    return [*trigonometric, general, *many_digits]
+
+
+def _exact_methods() -> list[Method]:
+    named = (
+        ("exact-integers", "the coefficient rule in integers, the fast path's last stage", _integers),
+        ("exact-oracle", "the exact oracle: the sign of g at its local maximum, in integers", _oracle),
+        ("nearest-point", "the nearest point, in double-double and then in exact enclosures", _nearest),
+    )
+    return [
+        Method(name, title, "position", "float64", answer, EVERYWHERE, exact=True, most=400, measured=True)
+        for name, title, answer in named
+    ]
+
+
+def _bounding_methods() -> list[Method]:
+    named = (
+        ("bounding-sphere", "the circumscribed sphere in the spheroid's place, exact", alternatives.bounding_sphere),
+        (
+            "bounding-cylinder",
+            "the circumscribed cylinder in the spheroid's place, float64",
+            alternatives.bounding_cylinder,
+        ),
+    )
+    return [
+        Method(name, title, "position", "float64", answer, Domain(), measured=True) for name, title, answer in named
+    ]
+
+
+def _integers(rows: Rows) -> Answers:
+    return np.array([integers.position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
+
+
+def _oracle(rows: Rows) -> Answers:
+    return np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
+
+
+def _nearest(rows: Rows) -> Answers:
+    from hypcheck.truth.nearest import positions  # noqa: PLC0415 - loads mpmath
+
+    return positions(np.ascontiguousarray(rows)).position
+
+
+PRECISIONS = ("float32", "float64")
+
+FCL_ROWS = 12
+"""Rows of a family that are asked of plain FCL: a mesh is built for each, which takes milliseconds."""
+
+NAIVE_FCL = (
+    ("fcl-ellipsoid-mesh", "FCL's ellipsoid against a plain mesh of 2,000 triangles", ellipsoid_mesh),
+    ("fcl-sphere-mesh", "FCL's unit sphere against a scaled plain mesh of 2,000 triangles", sphere_mesh),
+    ("fcl-point-mesh", "FCL's distance from the centre to a scaled plain mesh of 2,000 triangles", point_mesh),
+)
+
+
+def _formula_method(formula: Formula, precision: str) -> Method:
+    return Method(
+        name=f"{formula.name}-{precision}",
+        title=f"{formula.title}, {precision}",
+        question=formula.question,
+        precision=precision,
+        answer=partial(dual_positions, precision=precision) if formula.name == "dual" else by_rows(formula, precision),
+        domain=Domain(regimes=formula.regimes),
+    )
+
+
+def _fcl_method(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
+    return Method(name, title, "position", "float64", answer, Domain(), most=FCL_ROWS)
+
+
+def fast_positions(rows: Rows) -> Answers:
+    """Positions (n,) of rows (n, 7) by the kernel in use, on one thread."""
+    return kernel().answer_rows(np.ascontiguousarray(rows), "position", 1)[0]
+
+
+def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+    """The same of one spheroid's centres (n,)."""
+    return kernel().answer_scene(sizes, (x, y, z), "position", 1)[0]
+
+
+def _fast_method(name: str, where: str, answer: Callable[[Rows], Answers]) -> Method:
+    title = f"the fast path, {where}: certified floats, integers where they cannot tell"
+    return Method(name, title, "position", "float64", answer, EVERYWHERE, exact=True)
+
+
+@cache
+def methods_without_meshes() -> dict[str, Method]:
+    """Every built-in method that needs no FCL, by its name."""
+    in_use = "the kernel in use" if choice().kernel == "compiled" else "the kernel in use, which is numpy"
+    fast = (
+        _fast_method("fast", in_use, fast_positions),
+        _fast_method("fast-numpy", "in numpy", numpy_kernel.positions),
+    )
+    formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
+    ours = (_formula_method(formula, precision) for precision in PRECISIONS for formula in formulas)
+    methods = [*fast, *ours, *measured_methods()]
+    return {method.name: method for method in methods}
+
+
+@cache
+def builtin_methods() -> dict[str, Method]:
+    """Every built-in method by its name, as `builtin:NAME` has it."""
+    naive = [_fcl_method(*each) for each in NAIVE_FCL] if fcl_trouble() is None else []
+    return methods_without_meshes() | {method.name: method for method in naive}
+
+
+def builtin(name: str) -> Method:
+    """The built-in method of that name; raises InputError naming those that exist."""
+    method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
+    if method is None:
+        raise InputError(f"there is no built-in method {name!r}; {suggestion(name, builtin_methods())}")
+    return method
+
+
+class BuiltinSession:
+    """A method of builtin_methods(). Raises InputError where there is none of that name."""
+
+    longest = LARGEST
+    scene = False
+    evidence = ""
+    stderr: tuple[str, ...] = ()
+
+    def __init__(self, name: str) -> None:
+        self.method = builtin(name)
+        self.most = self.method.most
+        self.description = Description(
+            name=self.method.name,
+            version=VERSION,
+            language="python",
+            precision=self.method.precision,
+            question=self.method.question,
+            domain=self.method.domain,
+            binary=True,
+            time=True,
+        )
+
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - the runner asks who offers it
+        """The method's answers."""
+        return self.method.answer(rows)
+
+    def time(
+        self,
+        rows: Rows,
+        repeat: int,
+        *,
+        by_scene: bool = False,  # noqa: ARG002
+        each: bool = False,
+    ) -> tuple[int, int]:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; `each`: by a call for each row."""
+        parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
+        answers: list[NDArray[np.int8]] = []
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            answers = [self.method.answer(part) for part in parts]
+        return time.perf_counter_ns() - start, sum(int(each.sum(dtype=np.int64)) for each in answers)
+
+    def close(self) -> None:
+        """There is nothing to end."""
+
+    def kill(self) -> None:
+        """There is nothing to end."""

@@ -1,0 +1,347 @@
+"""What an implementation says of itself: name, precision, question, and the domain where it claims to be right.
+
+What an implementation can be asked, how it may answer, and the precisions in which it can compute that.
+
+Checks of foreign values that a description and a domain share: each returns the value or raises InputError.
+
+Where an implementation claims to be right; rows elsewhere are skipped, not judged.
+
+A domain read from a mapping: regimes, ratio, magnitude, and the settings that a kernel for one scene has.
+
+What an implementation says of itself: name, precision, question, domain. A misspelt key is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import CENTER, SIZES, trouble_with
+from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, FixedSizes, Range, Rows, within
+from hypcheck.messages import escaped
+from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
+
+QUESTIONS = ("position", "exterior", "interior", "contact")
+"""The position itself, or whether it is one of the three."""
+
+UNIT_ROUNDOFF = {
+    "float16": Fraction(1, 2**11),
+    "bfloat16": Fraction(1, 2**8),
+    "float32": Fraction(1, 2**24),
+    "float64": Fraction(1, 2**53),
+    "x87": Fraction(1, 2**64),
+    "binary128": Fraction(1, 2**113),
+    "exact": Fraction(0),
+}
+"""The unit u of each precision an implementation can declare: half the distance from 1 to the next number."""
+
+PRECISIONS = tuple(UNIT_ROUNDOFF)
+
+
+def allowed(question: str) -> tuple[int, ...]:
+    """The answers that a question has."""
+    return (-1, 0, 1) if question == "position" else (0, 1)
+
+
+def shown_value(value: object) -> str:
+    """The value as a message shows it."""
+    return escaped(repr(value), 80)
+
+
+def two_numbers(value: object, where: str) -> tuple[float, float]:
+    """The least and the greatest of a range."""
+    if not isinstance(value, (list, tuple)) or len(value) != 2:
+        raise InputError(f"{where} is {shown_value(value)}; it must be two numbers, the least and the greatest")
+    low, high = (checked_number(each, where) for each in value)
+    return low, high
+
+
+def checked_number(value: object, where: str) -> float:
+    """A number of float64; whole numbers are numbers, truth values are none."""
+    try:
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return float(value)
+    except OverflowError:
+        pass
+    raise InputError(f"{where} holds {shown_value(value)}; it must be two numbers of float64")
+
+
+REGIMES = ("a>=1", "c2>=a")
+"""The paper's hypotheses: α/b ≥ 1, and (γ/d)² ≥ α/b."""
+
+NORMAL_RANGE: dict[str, Range] = {
+    "float16": (2.0**-14, 65504.0),
+    "bfloat16": (2.0**-126, (2 - 2.0**-7) * 2.0**127),
+    "float32": (2.0**-126, (2 - 2.0**-23) * 2.0**127),
+    "float64": (2.0**-1022, float(np.finfo(np.float64).max)),
+}
+"""The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
+
+Mask = NDArray[np.bool_]
+
+_CORNERS = np.array([(*sizes, center, center, center) for *sizes, center in product((0, 1), repeat=5)])
+"""Least or greatest, of four sizes and of the centre."""
+
+
+@dataclass(frozen=True, slots=True)
+class Domain:
+    """The rows a method speaks of: every regime named holds, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
+
+    Bounds are inclusive, as ranges.within has them. None is a range that was not declared: the ordinary one, or, where
+    more is asked for, every one. `settings` names the only sizes there are, each with the spans of its centre; no range
+    holds then that was not declared. Raises InputError where a regime is unknown or a range is empty.
+    """
+
+    regimes: tuple[str, ...] = ()
+    ratio: Range | None = None
+    magnitude: Range | None = None
+    settings: tuple[FixedSizes, ...] = ()
+
+    def __post_init__(self) -> None:
+        for regime in self.regimes:
+            if regime not in REGIMES:
+                raise InputError(f"the domain names the regime {regime!r}; it must be one of {', '.join(REGIMES)}")
+        for name, limits in (("ratio", self.ratio), ("magnitude", self.magnitude)):
+            if limits is not None and not 0 <= limits[0] <= limits[1]:
+                told = f"[{limits[0]}, {limits[1]}]"
+                raise InputError(f"the domain's {name} is {told}; it must be two numbers with 0 ≤ low ≤ high")
+
+    def holds(self, rows: Rows, *, extreme: bool = False) -> Mask:
+        """A mask (n,) of the rows inside the domain.
+
+        `extreme`: they are of a family that is asked only when it is asked for, so what was not declared is unbounded.
+        """
+        unbounded = extreme or self.settings
+        ratio, magnitude = (UNBOUNDED, UNBOUNDED) if unbounded else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
+        inside = within(rows, self.ratio or ratio, self.magnitude or magnitude)
+        for regime in self.regimes:
+            inside &= in_regime(rows, regime)
+        if self.settings:
+            inside &= np.logical_or.reduce([setting.holds(rows) for setting in self.settings])
+        return inside
+
+
+EVERYWHERE = Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
+
+
+def in_regime(rows: Rows, regime: str) -> Mask:
+    """A mask (n,) of the rows in a regime of REGIMES, decided exactly."""
+    alpha, gamma, b, d = rows[:, :4].T
+    if regime == "a>=1":
+        return np.asarray(alpha >= b)
+    with np.errstate(all="ignore"):
+        left, right = (gamma / d) ** 2, alpha / b
+        # At most 4 roundings between the two sides, when nothing under- or overflows: outside 16u floats decide.
+        trusted = (left > 2.0**-900) & (left < 2.0**900) & (right > 2.0**-900) & (right < 2.0**900)
+        margin = 1 + 16 * 2.0**-53
+        holds, fails = trusted & (left > margin * right), trusted & (right > margin * left)
+    for index in np.flatnonzero(~(holds | fails)):
+        sizes = [Fraction(value) for value in rows[index, :4].tolist()]
+        holds[index] = (sizes[1] / sizes[3]) ** 2 >= sizes[0] / sizes[2]
+    return np.asarray(holds)
+
+
+def representable(rows: Rows, precision: str) -> Mask:
+    """A mask (n,) of the rows whose every number is zero or normal in the declared precision."""
+    limits = NORMAL_RANGE.get(precision)
+    if limits is None:
+        return np.ones(len(rows), dtype=bool)
+    lengths = np.abs(rows)
+    return np.asarray((((lengths >= limits[0]) & (lengths <= limits[1])) | (rows == 0)).all(axis=1))
+
+
+def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False) -> NDArray[np.intp]:
+    """The places of the rows that lie in the domain and can be written in the declared precision, ascending.
+
+    `extreme` is as in Domain.holds.
+    """
+    with np.errstate(all="ignore"):
+        if not domain.settings:
+            corners = _corners(rows)
+            if (domain.holds(corners, extreme=extreme) & representable(corners, precision)).all():
+                return np.arange(len(rows))
+        return np.flatnonzero(domain.holds(rows, extreme=extreme) & representable(rows, precision))
+
+
+def _corners(rows: Rows) -> Rows:
+    """Rows (32, 7) of the extremes of |rows|: all combinations of sizes, with the least and the greatest centre.
+
+    Each condition of a domain, its settings apart, is monotone in each length, and so is what a precision can write,
+    a zero apart, which it always can: what holds of these rows holds of all.
+    """
+    lengths = np.abs(rows.T)
+    least, greatest = lengths.min(axis=1, initial=np.inf), lengths.max(axis=1, initial=0.0)
+    for index in np.flatnonzero(least == 0):
+        least[index] = lengths[index][lengths[index] > 0].min(initial=greatest[index])
+    return np.asarray(np.stack([least, greatest])[_CORNERS, np.arange(7)])
+
+
+def domain_of(value: object, where: str) -> Domain:
+    """The domain that a mapping describes, or that is one already; raises InputError naming key and value."""
+    if isinstance(value, Domain):
+        return value
+    said = object_of(value, where, tuple(_READERS), required=())
+    return Domain(**{key: _READERS[key](each, f"{where}'s {key}") for key, each in said.items()})
+
+
+def _regimes(value: object, where: str) -> tuple[str, ...]:
+    if not isinstance(value, (list, tuple)) or not all(isinstance(each, str) for each in value):
+        raise InputError(f"{where} is {shown_value(value)}; it must be a list of names")
+    return tuple(value)
+
+
+def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
+    if not isinstance(value, (list, tuple)) or not value:
+        raise InputError(
+            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes and, at will, x, y, z"
+        )
+    return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
+
+
+def _setting(value: object, where: str) -> FixedSizes:
+    said = object_of(value, where, ("sizes", *CENTER), required=("sizes",))
+    sizes = said["sizes"]
+    if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
+        raise InputError(f"{where}'s sizes is {shown_value(sizes)}; it must be four numbers, {', '.join(SIZES)}")
+    alpha, gamma, b, d = (checked_number(each, f"{where}'s sizes") for each in sizes)
+    for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(name, size)
+        if trouble is not None:
+            raise InputError(f"{where}'s sizes: {trouble}")
+    spans = {key: two_numbers(said[key], f"{where}'s {key}") for key in CENTER if key in said}
+    for key, (low, high) in spans.items():
+        if not low <= high:
+            raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
+    return FixedSizes((alpha, gamma, b, d), **spans)
+
+
+_READERS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
+    {"regimes": _regimes, "ratio": two_numbers, "magnitude": two_numbers, "settings": _settings}
+)
+
+
+PROTOCOL = 1
+LONGEST = 1 << 16
+"""Bytes of a description."""
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """An implementation's claims. `refuses`: invalid rows are answered 127; `binary`, `time`: what a command offers."""
+
+    name: str
+    version: str = ""
+    language: str = ""
+    precision: str = "float64"
+    question: str = "position"
+    domain: Domain = Domain()
+    refuses: bool = False
+    binary: bool = False
+    time: bool = False
+
+    def overridden(
+        self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
+    ) -> Description:
+        """The description with what the caller says instead; raises InputError where that is not possible."""
+        return replace(
+            self,
+            precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
+            question=self.question if question is None else _one_of(QUESTIONS)(question, "the question"),
+            domain=domain or self.domain,
+        )
+
+
+def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
+    """The description that a mapping holds, completed from `defaults`; raises InputError naming key and value."""
+    said = object_of(raw, "the description", tuple(_KEYS), required)
+    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in said.items()}
+    values.pop("protocol", None)
+    return replace(defaults, **values)
+
+
+def described_by_json(text: str | bytes, defaults: Description, required: tuple[str, ...] = ()) -> Description:
+    """The description in a JSON text; raises InputError."""
+    return described(_json(text, "the description"), defaults, required)
+
+
+def parse_domain(text: str) -> Domain:
+    """A domain as the command line has it, in JSON; raises InputError."""
+    return domain_of(_json(text, "the domain"), "the domain")
+
+
+def _unbounded(text: str) -> float:
+    """Infinity, which Python and TOML write where a domain has no end; raises ValueError on NaN."""
+    return refused_constant(text) if text == "NaN" else float(text)
+
+
+_STRICT = strict_decoder(constant=_unbounded)
+
+
+def _json(text: str | bytes, where: str) -> object:
+    if len(text) > LONGEST:
+        raise InputError(f"{where} is longer than {LONGEST} bytes")
+    try:
+        return _STRICT.decode(text if isinstance(text, str) else text.decode("utf-8"))
+    except (ValueError, RecursionError) as error:
+        unreadable = isinstance(error, UnicodeError | RecursionError)
+        why = "it cannot be read" if unreadable else escaped(f"{error}", 120)
+        shown = text if isinstance(text, str) else text.decode("utf-8", "replace")
+        raise InputError(f"{where} is '{escaped(shown, 80)}'; it must be JSON ({why})") from None
+
+
+def _text(value: object, where: str) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"{where} is {shown_value(value)}; it must be a text")
+    return escaped(value, 200)
+
+
+def _name(value: object, where: str) -> str:
+    name = _text(value, where)
+    if not name:
+        raise InputError(f"{where} is empty; it must be a name")
+    return name
+
+
+def _truth_value(value: object, where: str) -> bool:
+    if not isinstance(value, bool):
+        raise InputError(f"{where} is {shown_value(value)}; it must be true or false")
+    return value
+
+
+def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
+    def check(value: object, where: str) -> str:
+        if value not in choices:
+            raise InputError(f"{where} is {shown_value(value)}; it must be one of {', '.join(choices)}")
+        return str(value)
+
+    return check
+
+
+def _protocol(value: object, where: str) -> int:
+    if value != PROTOCOL or isinstance(value, bool):
+        raise InputError(f"{where} is {shown_value(value)}; it must be {PROTOCOL}, the only one there is")
+    return PROTOCOL
+
+
+_KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
+    {
+        "protocol": _protocol,
+        "name": _name,
+        "version": _text,
+        "language": _text,
+        "precision": _one_of(PRECISIONS),
+        "question": _one_of(QUESTIONS),
+        "domain": domain_of,
+        "refuses": _truth_value,
+        "binary": _truth_value,
+        "time": _truth_value,
+    }
+)

@@ -1,0 +1,370 @@
+"""Foreign code in the worker, behind one interface: a Python function or, by its C ABI, a shared library.
+
+What the worker holds: foreign code, loaded, behind one interface.
+
+A Python function under test: `function(rows)`, C-contiguous float64 (n, 7) → n integers. Runs in the worker.
+
+A shared library under test, by its C ABI. Runs in the worker.
+
+void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
+
+and optionally
+
+const char *hypcheck_describe(void);
+void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
+                             int8_t *positions);
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import importlib.util
+import json
+import os
+import sys
+import time
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from types import ModuleType
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations.frames import UNWRITTEN
+from hypcheck.implementations.spec import is_file
+from hypcheck.kernel.choice import compiled
+from hypcheck.messages import counted
+
+IntegerAnswers = NDArray[np.signedinteger[Any]]
+
+
+class LoadError(Exception):
+    """Foreign code that cannot be loaded; the text is a sentence about it."""
+
+
+class ContractError(Exception):
+    """Foreign code that was called and did not do what the contract says; the text is a sentence about it."""
+
+
+class ForeignCode(Protocol):
+    """Foreign code that can be asked. Calls raise ContractError, or whatever foreign code raises."""
+
+    description: str
+    """JSON; empty where it says nothing of itself."""
+
+    scene: bool
+    """Whether classify_scene can be called."""
+
+    def classify(self, rows: Rows) -> IntegerAnswers:
+        """Answers to rows."""
+        ...
+
+    def classify_scene(self, rows: Rows) -> IntegerAnswers:
+        """The same, of rows that share their sizes, through the entry for many centres."""
+        ...
+
+    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
+        ...
+
+    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+
+        Of a library no rows stand for a call that does nothing.
+        """
+        ...
+
+
+def description_as_json(description: object) -> str:
+    """A description that code holds, as the text that goes to our process; raises LoadError."""
+    try:
+        return json.dumps(dict(description) if isinstance(description, Mapping) else description)
+    except (TypeError, ValueError, RecursionError):
+        raise LoadError(
+            "its description holds what JSON cannot say; it must be a mapping of texts and numbers"
+        ) from None
+
+
+def bytes_at(shift: int, size: int) -> NDArray[np.uint8]:
+    """Bytes that begin `shift` bytes after a multiple of 64.
+
+    What depends on alignment must not pass because memory happened to be aligned alike each time.
+    """
+    room = np.empty(size + 128, dtype=np.uint8)
+    start = -room.ctypes.data % 64 + shift % 64
+    return room[start : start + size]
+
+
+_INT64 = np.iinfo(np.int64)
+
+_OURS = os.path.dirname(os.path.dirname(__file__)) + os.sep
+_INSTALLED = os.path.dirname(os.path.dirname(np.__file__)) + os.sep
+_NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
+"""Where lines of a traceback lie: this package, installed packages, Python itself."""
+
+
+class PythonFunction:
+    """A function of a file or a module, and the module's optional attribute `hypcheck`, a mapping. Raises LoadError."""
+
+    scene = False
+
+    def __init__(self, target: str, name: str) -> None:
+        try:
+            module = _of_file(target) if is_file(target) else _of_name(target)
+        except LoadError:
+            raise
+        except BaseException as error:  # noqa: BLE001 - foreign code raises anything, SystemExit too
+            traceback.print_exc()
+            raise LoadError(f"importing {target!r} {error_text(error)}") from None
+        function = getattr(module, name, None)
+        if not callable(function):
+            has = "nothing of that name" if function is None else f"a {type(function).__name__}"
+            raise LoadError(f"{target!r} has no function {name!r}; it has {has}")
+        self._function: Callable[[Rows], Any] = function
+        said = getattr(module, "hypcheck", None)  # `import hypcheck` puts a module there
+        self.description = "" if said is None or isinstance(said, ModuleType) else description_as_json(said)
+
+    def classify(self, rows: Rows) -> IntegerAnswers:
+        """Answers to rows; raises ContractError where the function returns something else."""
+        return _integers(self._function(rows), len(rows))
+
+    def classify_scene(self, rows: Rows) -> IntegerAnswers:
+        """Not offered by a Python function; raises ContractError."""
+        raise ContractError(f"a Python function has no entry for scenes, and was asked for one with {len(rows)} rows")
+
+    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
+        if by_scene:
+            self.classify_scene(rows)
+        function, result = self._function, None
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            result = function(rows)
+        took = time.perf_counter_ns() - start
+        return took, int(_integers(result, len(rows)).sum(dtype=np.int64))
+
+    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers."""
+        function, parts = self._function, [rows[place : place + 1] for place in range(len(rows))]
+        results: list[Any] = []
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            results = [function(part) for part in parts]
+        took = time.perf_counter_ns() - start
+        return took, sum(int(_integers(result, 1)[0]) for result in results)
+
+
+def error_text(error: BaseException) -> str:
+    """What was raised, and where, as the end of a sentence."""
+    text = traceback.format_exception_only(type(error), error)[-1].strip()
+    if isinstance(error, SyntaxError):
+        return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
+    files = [(each.filename, each.lineno) for each in traceback.extract_tb(error.__traceback__)]
+    foreign = [
+        (file, line) for file, line in files if not file.startswith(_NOT_UNDER_TEST) or file.startswith(_INSTALLED)
+    ]
+    foreign = [(file, line) for file, line in foreign if not file.startswith(_OURS)]
+    # The last line of theirs, and not of what they call: where numpy raises, its line tells them nothing.
+    written = [each for each in foreign if not each[0].startswith(_INSTALLED)] or foreign[:1]
+    return f"raised {text}" + (f" ({os.path.basename(written[-1][0])}, line {written[-1][1]})" if written else "")
+
+
+def _of_name(name: str) -> ModuleType:
+    sys.path.insert(0, os.getcwd())
+    return importlib.import_module(name)
+
+
+def _of_file(path: str) -> ModuleType:
+    """The file run as a module, with its folder first on the path, as when Python runs it as a script."""
+    if not os.path.isfile(path):
+        raise LoadError(f"there is no file {path!r}")
+    path = os.path.abspath(path)
+    sys.path.insert(0, os.path.dirname(path))
+    name = os.path.basename(path).removesuffix(".py")
+    if name in sys.modules:
+        name = f"_under_test_{name}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise ImportError("it is not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def _integers(result: object, n: int) -> IntegerAnswers:
+    if isinstance(result, np.ma.MaskedArray) and np.any(result.mask):
+        raise ContractError("it returned a masked array with masked answers; it must answer every row")
+    try:
+        array = np.asarray(result)
+    except ValueError:  # of several lengths, or an array that numpy cannot take
+        raise ContractError(f"it returned {_kind(result)} that is no array of one integer a row") from None
+    if array.shape != (n,):
+        raise ContractError(f"it returned {_kind(result)} of shape {array.shape} for {n} rows; it must be ({n},)")
+    if array.dtype.kind not in "iub":
+        raise ContractError(f"it returned {_kind(result)} of {array.dtype}; it must be integers, such as int8")
+    if array.dtype == np.int8:
+        return array
+    if array.dtype.kind == "u":
+        array = np.minimum(array, np.uint64(_INT64.max))
+    wide = array.astype(np.int64)
+    return wide.astype(np.int8) if ((wide >= -128) & (wide <= 127)).all() else wide
+
+
+def _kind(result: object) -> str:
+    return "an array" if isinstance(result, np.ndarray) else f"a {type(result).__name__}"
+
+
+_FENCE = 64
+_HINTS = (
+    (("wrong ELF class", "architecture"), "it is built for another machine"),
+    (("invalid ELF header", "file too short", "not a mach-o", "slice is not valid"), "it is not a shared library"),
+    (("undefined symbol", "symbol not found"), "it needs a symbol that no library it names has"),
+)
+
+
+class Library:
+    """A library and its entries. Raises LoadError."""
+
+    def __init__(self, path: str) -> None:
+        library = _loaded(path)
+        if not _has(library, "hypcheck_classify"):
+            raise LoadError(
+                f"{path!r} has no symbol hypcheck_classify; it must export "
+                'void hypcheck_classify(size_t n, const double *rows, int8_t *positions), in C++ as extern "C"'
+            )
+        self._classify = _entry(library.hypcheck_classify, (ctypes.c_size_t, *[ctypes.c_void_p] * 2))
+        self._address = ctypes.cast(library.hypcheck_classify, ctypes.c_void_p).value
+        self.scene = _has(library, "hypcheck_classify_scene")
+        if self.scene:
+            pointers = [ctypes.c_void_p] * 4
+            self._classify_scene = _entry(
+                library.hypcheck_classify_scene, (ctypes.c_void_p, ctypes.c_size_t, *pointers)
+            )
+        self.description = _description(library, path)
+
+    def classify(self, rows: Rows) -> IntegerAnswers:
+        """Answers to rows; raises ContractError where it writes beside them."""
+        positions = _Positions(rows)
+        self._classify(len(rows), rows.ctypes.data, positions.address)
+        return positions.written()
+
+    def classify_scene(self, rows: Rows) -> IntegerAnswers:
+        """Answers to rows that share their sizes; raises ContractError where it writes beside them."""
+        positions = _Positions(rows)
+        parts = _scene(rows)
+        sizes, *centers = (part.ctypes.data for part in parts)
+        self._classify_scene(sizes, len(rows), *centers, positions.address)
+        return positions.written()
+
+    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
+        positions, n = _Positions(rows), len(rows)
+        if by_scene:
+            parts = _scene(rows)  # held, since the pointers do not hold it
+            sizes, *centers = (part.ctypes.data for part in parts)
+            function, words = self._classify_scene, (sizes, n, *centers, positions.address)
+        else:
+            function, words = self._classify, (n, rows.ctypes.data, positions.address)
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            function(*words)
+        took = time.perf_counter_ns() - start
+        return took, int(positions.written().sum(dtype=np.int64))
+
+    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+
+        The calls are made by the compiled kernel where there is one. No rows stand for a call that does nothing: of a
+        function of ours, or, where calls are made by ctypes, of this library about no rows.
+        """
+        positions = _Positions(rows)
+        try:
+            call_each = compiled().call_each
+        except (ImportError, AttributeError):  # not built at install, or built before there was a call_each
+            return self._seconds_by_ctypes(rows, repeat, positions)
+        address = self._address if len(rows) else 0
+        asked, answers = (rows, positions.room) if len(rows) else (np.zeros((1, 7)), np.zeros(1, dtype=np.int8))
+        start = time.perf_counter_ns()
+        call_each(address, asked, answers, repeat)
+        took = time.perf_counter_ns() - start
+        return took, int(positions.written().sum(dtype=np.int64))
+
+    def _seconds_by_ctypes(self, rows: Rows, repeat: int, positions: _Positions) -> tuple[int, int]:
+        function, begin, room, n = self._classify, rows.ctypes.data, positions.address, len(rows)
+        calls = [(1, begin + 56 * place, room + place) for place in range(n)] or [(0, begin, room)]
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            for words in calls:
+                function(*words)
+        took = time.perf_counter_ns() - start
+        return took, int(positions.written().sum(dtype=np.int64))
+
+
+def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
+    """Sizes, x, y, z, each at an address of its own modulo 64, all of them others when the rows' is another."""
+    parts = []
+    for index, part in enumerate((rows[0, :4], *rows[:, 4:].T)):
+        placed = bytes_at(rows.ctypes.data + 24 * index, part.size * 8).view(np.float64)
+        placed[...] = part
+        parts.append(placed)
+    return parts
+
+
+class _Positions:
+    """Room for answers between two fences; its address modulo 64 is another when the rows' is."""
+
+    def __init__(self, rows: Rows) -> None:
+        self._n = len(rows)
+        self._room = bytes_at(rows.ctypes.data // 8 * 5, self._n + 2 * _FENCE).view(np.int8)
+        self._room.fill(UNWRITTEN)
+        self.address = self._room.ctypes.data + _FENCE
+
+    @property
+    def room(self) -> NDArray[np.int8]:
+        """Where the answers go."""
+        return self._room[_FENCE:-_FENCE]
+
+    def written(self) -> NDArray[np.int8]:
+        if (self._room[:_FENCE] != UNWRITTEN).any() or (self._room[-_FENCE:] != UNWRITTEN).any():
+            raise ContractError(f"it wrote outside of the {counted(self._n, 'position')} that it was given")
+        return self.room
+
+
+def _loaded(path: str) -> ctypes.CDLL:
+    if not os.path.exists(path):
+        raise LoadError(f"there is no file {path!r}")
+    try:
+        return ctypes.CDLL(os.path.abspath(path))  # with a bare name the loader would search elsewhere
+    except (OSError, UnicodeDecodeError) as error:  # the latter where the loader names a path that is no UTF-8
+        said = os.fsdecode(error.object) if isinstance(error, UnicodeDecodeError) else str(error)
+        hints = [hint for signs, hint in _HINTS if any(sign in said for sign in signs)]
+        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], said])}") from None
+
+
+def _entry(function: Any, arguments: Sequence[Any]) -> Callable[..., None]:  # noqa: ANN401 - ctypes' own is private
+    function.argtypes, function.restype = arguments, None
+    entry: Callable[..., None] = function
+    return entry
+
+
+def _has(library: ctypes.CDLL, name: str) -> bool:
+    """Whether it exports this. What the loader says where it does not names the path, which may be no UTF-8."""
+    try:
+        return hasattr(library, name)
+    except UnicodeDecodeError:
+        return False
+
+
+def _description(library: ctypes.CDLL, path: str) -> str:
+    if not _has(library, "hypcheck_describe"):
+        return ""
+    library.hypcheck_describe.argtypes, library.hypcheck_describe.restype = (), ctypes.c_char_p
+    said: bytes | None = library.hypcheck_describe()
+    if said is None:
+        raise LoadError(f"{path!r}: hypcheck_describe returned a null pointer; it must be a JSON text")
+    text = said.decode("utf-8", "replace")
+    return text if text.strip() else json.dumps("")

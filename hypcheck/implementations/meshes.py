@@ -1,0 +1,349 @@
+"""Collision engines on meshes: python-fcl and coal, one mesh for a scene, and the naive use of FCL.
+
+Collision engines that hold a mesh: FCL by python-fcl, and coal, its successor, where it is installed.
+
+An engine makes a mesh into a question: does the body, its centre here, touch it? Both are imported inside the functions
+alone, since neither is everywhere.
+
+A collision engine as a scene has it: one mesh of the whole surface, built once and asked about every body.
+
+The mesh is inscribed, its vertices on the surface, and its grid the best there is of so many triangles: as far off
+across as along. The three pairings are those of fcl_naive.py, with the mesh in the caller's units for the ellipsoid and
+in spheroid radii (Theorem 1 of the paper) for the other two. All answer 0 where the engine reports contact, else
+the sign of F(C) in plain floats, and CANNOT_SAY where it refuses the mesh.
+
+What one would write with FCL (python-fcl) at first: one plain mesh of the surface, and one query.
+
+Three pairings, each a method under test and none a truth. The mesh is inscribed, its vertices on the surface, so it
+lies up to its sagitta off on one side; docs/mesh-oracle.md shows what that costs, and what FCL's own tolerances cost.
+
+- `ellipsoid_mesh`: FCL's ellipsoid collides with the mesh, in the caller's units.
+- `sphere_mesh`: space is scaled first (Theorem 1), the unit sphere collides with the mesh.
+- `point_mesh`: scaled likewise; FCL's distance from the centre to the mesh is compared with 1.
+
+All answer 0 where FCL reports contact, else the sign of F(C) = (x² + y²)/α² − z²/γ² − 1 in plain floats, and
+CANNOT_SAY where a number of the mesh is beyond what FCL computes with safely. All raise UnavailableError without FCL.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import astuple, dataclass
+from math import cos, hypot, isqrt, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.implementations.method import Answers, Sizes
+from hypcheck.truth.mesh import Triangles, Vertices, availability, mesh_object, require_fcl
+
+Touches = Callable[[float, float, float], bool]
+"""Whether the body with this centre touches the mesh."""
+
+PAIRINGS = ("point", "sphere", "ellipsoid")
+"""The distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """`trouble` says why it cannot be used, else None; `question` is given pairing, vertices, triangles, b and d.
+
+    Its answer is None where the engine refuses the mesh.
+    """
+
+    name: str
+    title: str
+    trouble: Callable[[], str | None]
+    question: Callable[[str, Vertices, Triangles, float, float], Touches | None]
+
+
+def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
+    import fcl  # noqa: PLC0415
+
+    mesh = mesh_object(vertices, triangles)
+    if mesh is None:
+        return None
+    shapes = {"point": lambda: fcl.Sphere(0.0), "sphere": lambda: fcl.Sphere(1.0)}
+    body = fcl.CollisionObject(shapes[pairing]() if pairing in shapes else fcl.Ellipsoid(b, b, d))
+    if pairing == "point":
+        near = fcl.DistanceRequest()
+
+        def within(x: float, y: float, z: float) -> bool:
+            body.setTranslation(np.array([x, y, z]))
+            return bool(fcl.distance(body, mesh, near, fcl.DistanceResult()) <= 1.0)
+
+        return within
+    request = fcl.CollisionRequest()
+
+    def collides(x: float, y: float, z: float) -> bool:
+        body.setTranslation(np.array([x, y, z]))
+        return bool(fcl.collide(body, mesh, request, fcl.CollisionResult()) > 0)  # results are not reset between calls
+
+    return collides
+
+
+def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
+    import coal  # noqa: PLC0415
+
+    mesh = coal.BVHModelOBBRSS()
+    mesh.beginModel(len(triangles), len(vertices))
+    mesh.addVertices(vertices)
+    mesh.addTriangles(triangles)
+    if mesh.endModel() != 0:
+        return None
+    shapes = {"point": lambda: coal.Sphere(0.0), "sphere": lambda: coal.Sphere(1.0)}
+    shape = shapes[pairing]() if pairing in shapes else coal.Ellipsoid(b, b, d)
+    here, there = coal.Transform3s(), coal.Transform3s()
+    if pairing == "point":
+        near = coal.DistanceRequest()
+
+        def within(x: float, y: float, z: float) -> bool:
+            here.setTranslation(np.array([x, y, z]))
+            return bool(coal.distance(shape, here, mesh, there, near, coal.DistanceResult()) <= 1.0)
+
+        return within
+    request = coal.CollisionRequest()
+
+    def collides(x: float, y: float, z: float) -> bool:
+        here.setTranslation(np.array([x, y, z]))
+        return bool(coal.collide(shape, here, mesh, there, request, coal.CollisionResult()) > 0)
+
+    return collides
+
+
+def _coal_trouble() -> str | None:
+    try:
+        import coal  # noqa: F401, PLC0415
+    except ImportError as error:
+        return f"coal cannot be imported ({error}); pip install 'hypcheck[peers]' brings it"
+    return None
+
+
+FCL = Engine("fcl", "FCL", availability, _fcl)
+COAL = Engine("coal", "coal", _coal_trouble, _coal)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshGrid:
+    """A mesh of the surface with semi-axes `a`, `a`, `c` up to `height` on both sides of the waist."""
+
+    a: float
+    c: float
+    height: float
+    around: int
+    along: int
+
+    @property
+    def triangles(self) -> int:
+        """How many there are."""
+        return 2 * self.around * self.along
+
+    @property
+    def deviation(self) -> float:
+        """A bound of how far the mesh is from the surface, horizontally, on the side where it is farther.
+
+        A point of a triangle is a mean of vertices within an azimuth of Δθ and a height of Δz. Their radii's mean is at
+        least r(z), which is convex, and exceeds it by r″ Δz²/8 at most, with r″ ≤ a/c²; the mean of their directions
+        has a length of at least cos(Δθ/2).
+        """
+        widest = self.a * hypot(1.0, self.height / self.c)
+        inward = widest * (1 - cos(pi / self.around))
+        outward = self.a / self.c**2 * (2 * self.height / self.along) ** 2 / 8
+        return max(inward, outward)
+
+    def mesh(self) -> tuple[Vertices, Triangles]:
+        """Vertices (n, 3) and triangles (m, 3)."""
+        azimuths = np.linspace(0, 2 * pi, self.around, endpoint=False)
+        heights = np.linspace(-self.height, self.height, self.along + 1)
+        z, azimuth = np.meshgrid(heights, azimuths, indexing="ij")
+        r = self.a * np.hypot(1.0, z / self.c)
+        vertices = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), z], axis=-1).reshape(-1, 3)
+        ring = np.arange(self.around)
+        left = (np.arange(self.along)[:, np.newaxis] * self.around + ring).reshape(-1, 1)
+        right = (np.arange(self.along)[:, np.newaxis] * self.around + (ring + 1) % self.around).reshape(-1, 1)
+        lower = np.hstack([left, right, right + self.around])
+        upper = np.hstack([left, right + self.around, left + self.around])
+        return np.ascontiguousarray(vertices), np.concatenate([lower, upper])
+
+
+def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
+    """The grid of about so many triangles that is as far off across as along."""
+    across = pi * c / height * sqrt(hypot(1.0, height / c))
+    around = max(3, round(sqrt(triangles / 2 * across)))
+    return MeshGrid(a, c, height, around, max(1, round(triangles / 2 / around)))
+
+
+def height_of(sizes: Sizes, rows: Rows) -> float:
+    """Up to where a scene's mesh reaches, in the caller's unit: beyond γ, and beyond every body asked about."""
+    _, gamma, _, d = sizes
+    return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * d)
+
+
+@dataclass(frozen=True, slots=True)
+class SceneMesh:
+    """A mesh in an engine, for one α, γ, b, d; a centre is asked about in the units `unit` of its three coordinates.
+
+    `deviation` bounds how far the mesh is from the surface, in spheroid radii.
+    """
+
+    sizes: Sizes
+    unit: tuple[float, float, float]
+    deviation: float
+    triangles: int
+    touches: Touches | None
+
+    def positions(self, rows: Rows) -> Answers:
+        """Positions (n,) of rows that have these sizes."""
+        if self.touches is None:
+            return np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+        alpha, gamma, _, _ = self.sizes
+        across, aside, up = self.unit
+        return np.array(
+            [
+                0
+                if self.touches(x / across, y / aside, z / up)
+                else (1 if (x * x + y * y) / alpha**2 - (z / gamma) ** 2 > 1 else -1)
+                for x, y, z in rows[:, 4:].tolist()
+            ],
+            dtype=np.int8,
+        )
+
+
+def scene_mesh(engine: Engine, pairing: str, sizes: Sizes, height: float, triangles: int) -> SceneMesh:
+    """The scene's mesh for one of PAIRINGS."""
+    alpha, gamma, b, d = sizes
+    scaled = grid_of(alpha / b, gamma / d, height / d, triangles)
+    whole = pairing == "ellipsoid"
+    grid = MeshGrid(alpha, gamma, height, scaled.around, scaled.along) if whole else scaled
+    touches = engine.question(pairing, *grid.mesh(), b, d)
+    return SceneMesh(sizes, (1.0, 1.0, 1.0) if whole else (b, b, d), scaled.deviation, grid.triangles, touches)
+
+
+def rows_by_sizes(rows: Rows) -> Iterator[tuple[Sizes, NDArray[np.intp]]]:
+    """The sizes that occur, each with the places of its rows."""
+    found, scene_of = np.unique(rows[:, :4], axis=0, return_inverse=True)
+    for index, (alpha, gamma, b, d) in enumerate(found.tolist()):
+        yield (alpha, gamma, b, d), np.flatnonzero(scene_of.reshape(-1) == index)
+
+
+_LARGEST = 1e100
+"""Beyond this a product of three lengths inside FCL may overflow, and it answers anything, in silence."""
+
+_MARGIN = 1.1
+"""The mesh covers this many semi-axes on each side of the body."""
+
+
+@dataclass(frozen=True, slots=True)
+class FclBody:
+    """A pair as FCL is to see it: the surface about the origin, the body turned to azimuth 0, at (rho, 0, z)."""
+
+    alpha: float
+    gamma: float
+    b: float
+    d: float
+    rho: float
+    z: float
+
+
+Query = Callable[[FclBody, object], bool]
+
+
+def ellipsoid_mesh(rows: Rows, triangles: int = 2000) -> Positions:
+    """Positions (n,) of rows (n, 7): fcl.collide of an Ellipsoid and a mesh of about that many triangles."""
+    return _positions(rows, triangles, scaled=False, touches=_ellipsoid_touches)
+
+
+def sphere_mesh(rows: Rows, triangles: int = 2000) -> Positions:
+    """Positions (n,) of rows (n, 7): fcl.collide of a Sphere(1) and a mesh of about that many triangles."""
+    return _positions(rows, triangles, scaled=True, touches=_sphere_touches)
+
+
+def point_mesh(rows: Rows, triangles: int = 2000) -> Positions:
+    """Positions (n,) of rows (n, 7): fcl.distance of the centre and a mesh of about that many triangles, to 1."""
+    return _positions(rows, triangles, scaled=True, touches=_point_touches)
+
+
+def _positions(rows: Rows, triangles: int, *, scaled: bool, touches: Query) -> Positions:
+    require_fcl()
+    with np.errstate(all="ignore"):
+        answers = [_position(_body(row, scaled=scaled), triangles, touches) for row in rows]
+    return np.array(answers, dtype=np.int8)
+
+
+def _position(body: FclBody, triangles: int, touches: Query) -> int:
+    level = (body.rho / body.alpha) ** 2 - (body.z / body.gamma) ** 2 - 1
+    if np.isnan(level):
+        return CANNOT_SAY
+    side = 1 if level > 0 else -1
+    vertices, indices = _mesh(body, triangles)
+    if not len(indices):
+        return side
+    if not max(np.abs(vertices).max(), *np.abs(astuple(body))) < _LARGEST:
+        return CANNOT_SAY
+    mesh = mesh_object(vertices, indices)
+    if mesh is None:
+        return CANNOT_SAY
+    return 0 if touches(body, mesh) else side
+
+
+def _body(row: NDArray[np.float64], *, scaled: bool) -> FclBody:
+    alpha, gamma, b, d, x, y, z = row
+    if scaled:
+        return FclBody(alpha / b, gamma / d, 1.0, 1.0, np.hypot(x, y) / b, z / d)
+    return FclBody(alpha, gamma, b, d, np.hypot(x, y), z)
+
+
+def _mesh(body: FclBody, triangles: int) -> tuple[Vertices, Triangles]:
+    """A square grid of about that many triangles inscribed in the surface near the body; empty if none is there.
+
+    Its heights are the body's, cut off where the surface is beyond the body's farthest point from the axis, its
+    azimuths those that the body covers as seen from the axis.
+    """
+    half_width, half_height = _MARGIN * body.b, _MARGIN * body.d
+    top = body.gamma * np.sqrt(((body.rho + half_width) / body.alpha) ** 2 - 1)  # nan where the waist is beyond reach
+    low, high = np.maximum(body.z - half_height, -top), np.minimum(body.z + half_height, top)
+    if not low < high:
+        return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
+    half_azimuth = np.arcsin(half_width / body.rho) if body.rho > half_width else np.pi
+    cells = max(1, isqrt(triangles // 2))
+    heights, azimuths = np.linspace(low, high, cells + 1), np.linspace(-half_azimuth, half_azimuth, cells + 1)
+    z, azimuth = np.meshgrid(heights, azimuths, indexing="ij")
+    r = body.alpha * np.hypot(1.0, z / body.gamma)
+    vertices = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), z], axis=-1).reshape(-1, 3)
+    row = cells + 1
+    first = (np.arange(cells)[:, np.newaxis] * row + np.arange(cells)).reshape(-1, 1, 1)
+    return vertices, (first + np.array([[0, 1, row + 1], [0, row + 1, row]])).reshape(-1, 3)
+
+
+def _ellipsoid_touches(body: FclBody, mesh: object) -> bool:
+    import fcl  # noqa: PLC0415
+
+    return _collides(fcl.Ellipsoid(body.b, body.b, body.d), body, mesh)
+
+
+def _sphere_touches(body: FclBody, mesh: object) -> bool:
+    import fcl  # noqa: PLC0415
+
+    return _collides(fcl.Sphere(1.0), body, mesh)
+
+
+def _point_touches(body: FclBody, mesh: object) -> bool:
+    import fcl  # noqa: PLC0415
+
+    distance = fcl.distance(_placed(fcl.Sphere(0.0), body), mesh, fcl.DistanceRequest(), fcl.DistanceResult())
+    return bool(distance <= 1.0)
+
+
+def _collides(shape: object, body: FclBody, mesh: object) -> bool:
+    import fcl  # noqa: PLC0415
+
+    # FCL does not reset a result between calls: each needs its own.
+    return bool(fcl.collide(_placed(shape, body), mesh, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
+
+
+def _placed(shape: object, body: FclBody) -> object:
+    import fcl  # noqa: PLC0415
+
+    placed: object = fcl.CollisionObject(shape, fcl.Transform(np.array([body.rho, 0.0, body.z])))
+    return placed

@@ -1,0 +1,151 @@
+"""The paper's procedures for a quadcopter, and ours: whether its body may be there, or at least its four rotors.
+
+Each is asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a asks
+all four rotors; 2.b the bounding spheroid first, and the rotors only where Δ ≤ 0; ours the bounding spheroid by the
+certified path, and the rotors where it is in contact. Their answers differ: 2.a never asks whether the body fits. Both
+procedures of the paper are here as printed and put right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.costs import split
+from hypcheck.derivation.evaluation import Evaluator
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.derivation.program import Program
+from hypcheck.implementations.method import Answers, Floats, in_chunks
+from hypcheck.kernel import numpy_kernel
+
+CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")
+"""What does not change along a flight: the tower, the body, its rotors, and the length of its arms."""
+
+MOVING = ("x", "y", "z", "cosine", "sine")
+
+
+@dataclass(frozen=True)
+class CraftPath:
+    """Positions of a craft and its headings: (n,) each, x, y, z in metres."""
+
+    craft: Mapping[str, float]
+    x: Floats
+    y: Floats
+    z: Floats
+    cosine: Floats
+    sine: Floats
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def part(self, places: slice | NDArray[np.intp]) -> CraftPath:
+        """Some of the positions."""
+        return CraftPath(self.craft, *(getattr(self, name)[places] for name in MOVING))
+
+    @property
+    def columns(self) -> dict[str, Floats]:
+        """What moves, by name."""
+        return {name: getattr(self, name) for name in MOVING}
+
+
+PRINTED, PUT_RIGHT = False, True
+"""Whether a procedure is as printed, or put right (derivation/repaired_formulas.py)."""
+
+
+@cache
+def hull_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
+    """Of Procedure 2.b what is asked of every position, `hull_steps`, before the flight and in it."""
+    formula = REPAIRED["procedure-2b-repaired"] if repaired else FORMULAS["procedure-2b"]
+    return split(formula.program, hull_steps(repaired), CRAFT)
+
+
+def hull_steps(repaired: bool = PRINTED) -> tuple[str, str]:
+    """The steps that tell whether the rotors have to be asked, and the answer where they have not."""
+    return ("unclear" if repaired else "touching"), "inside"
+
+
+@cache
+def rotor_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
+    """Procedure 2.a, before the flight and in it."""
+    formula = REPAIRED["procedure-2a-repaired"] if repaired else FORMULAS["procedure-2a"]
+    fixed = tuple(name for name in CRAFT if name in formula.program.inputs)
+    return split(formula.program, ("valid",), fixed)
+
+
+def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
+    """1 where the procedure calls the movement valid, else 0; int8 (n,)."""
+    rotors = _rotors(flight, repaired)
+    return in_chunks(len(flight), lambda part: rotors(flight.part(part).columns)[0])
+
+
+def procedure_2b(
+    flight: CraftPath, told: Callable[[CraftPath], object] = lambda _: None, repaired: bool = PRINTED
+) -> Answers:
+    """The same by Procedure 2.b; the rotors are asked about those positions alone that need it, and `told` is told."""
+    hull = _loop_body(hull_programs(repaired), hull_steps(repaired), flight)
+    rotors = _rotors(flight, repaired)
+
+    def chunk(part: slice) -> Answers:
+        here = flight.part(part)
+        touching, inside = hull(here.columns)
+        found = np.asarray(inside).astype(np.int8)
+        places = np.flatnonzero(touching)
+        if len(places):
+            told(left := here.part(places))
+            found[places] = rotors(left.columns)[0]
+        return found
+
+    return in_chunks(len(flight), chunk)
+
+
+def certified(flight: CraftPath) -> Answers:
+    """1 where the body is interior, or its four rotors are: exact but for the rotors' centres, which are rounded."""
+    alpha, gamma, b, d, b_s, d_s, l = (flight.craft[name] for name in CRAFT)  # noqa: E741 - the paper's letter
+    found = np.zeros(len(flight), dtype=np.int8)
+    hull = numpy_kernel.positions_of_scene((alpha, gamma, b, d), flight.x, flight.y, flight.z)
+    found[hull == -1] = 1
+    places = np.flatnonzero(hull == 0)
+    left = flight.part(places)
+    fits = np.ones(len(places), dtype=bool)
+    for across, aside in rotors_at(left.cosine, left.sine, l):
+        rotor = numpy_kernel.positions_of_scene((alpha, gamma, b_s, d_s), left.x + across, left.y + aside, left.z)
+        fits &= rotor == -1
+    found[places[fits]] = 1
+    return found
+
+
+def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Floats]]:
+    """From the body's centre to those of its rotors, equation (15): x and y for each of the four."""
+    half = arm * np.sqrt(2.0) / 2.0
+    along, across = half * (cosine - sine), half * (cosine + sine)
+    return [(along, across), (-across, along), (-along, -across), (across, -along)]
+
+
+def _rotors(flight: CraftPath, repaired: bool) -> Evaluator:
+    return _loop_body(rotor_programs(repaired), ("valid",), flight)
+
+
+def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], flight: CraftPath) -> Evaluator:
+    """The second program in float64, with what the first computes of the craft."""
+    first, then = programs
+    names, arithmetic = tuple(step.name for step in first.steps), float_arithmetic("float64")
+    known = Evaluator(first, arithmetic, names)(flight.craft)
+    return Evaluator(then, arithmetic, wanted, {**flight.craft, **dict(zip(names, known, strict=True))})
+
+
+PROCEDURES: Mapping[str, Callable[[CraftPath], Answers]] = MappingProxyType(
+    {
+        "procedure-2a": procedure_2a,
+        "procedure-2b": procedure_2b,
+        "certified": certified,
+        "procedure-2a-repaired": partial(procedure_2a, repaired=PUT_RIGHT),
+        "procedure-2b-repaired": partial(procedure_2b, repaired=PUT_RIGHT),
+    }
+)
+"""By name, in numpy."""

@@ -1,0 +1,322 @@
+"""The time that an implementation is given.
+
+A foreign program in a process group of its own, and its three pipes.
+
+Writing, reading and listening to standard error happen in one loop, so that neither a large question nor a flood on
+standard error can bring both sides to wait for each other. The group is ended as a whole, with what has left it: by us,
+or, should we be killed ourselves, by a guard that notices.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import os
+import select
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+from typing import IO, cast
+
+from hypcheck.errors import limit_reached, system_reason
+from hypcheck.implementations.frames import OutputTail
+from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
+from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
+
+STEP = 0.25
+"""What of a longer time between two looks counts: for the rest of it we were not there."""
+
+
+class Clock:
+    """Counts the seconds for which we have listened, or could have; whoever waits looks at it several times a second.
+
+    It stands still while we are stopped ourselves (Ctrl-Z, a debugger, a machine that sleeps or has no time for us).
+    What came meanwhile could not be read, so that it is no delay of whoever was asked.
+    """
+
+    def __init__(self) -> None:
+        self._counted, self._looked = 0.0, time.monotonic()
+
+    def now(self) -> float:
+        """Seconds since the beginning."""
+        looked = time.monotonic()
+        self._counted += min(looked - self._looked, STEP)
+        self._looked = looked
+        return self._counted
+
+
+ONE_THREAD = dict.fromkeys(
+    (
+        "BLIS_NUM_THREADS",
+        "GOMAXPROCS",
+        "JULIA_NUM_THREADS",
+        "MKL_NUM_THREADS",
+        "NUMBA_NUM_THREADS",
+        "NUMEXPR_NUM_THREADS",
+        "OMP_NUM_THREADS",
+        "OPENBLAS_NUM_THREADS",
+        "RAYON_NUM_THREADS",
+        "VECLIB_MAXIMUM_THREADS",
+    ),
+    "1",
+)
+"""One thread, in the languages of those who start more unasked."""
+
+_TICK = 0.05
+_CHUNK = 1 << 16
+_ROOM = 1 << 18
+"""Bytes that a pipe holds where the system lets it: both sides wait for each other less often than with 64 KiB."""
+_TOGETHER = 1 << 12
+"""Bytes of a question that are written at one go even if they come in several parts."""
+
+_SOON = 1e-4
+"""Seconds in which the answer to so small a question is awaited awake: to fall asleep and be awakened takes as long."""
+
+_GOODBYE = 1.0
+_LAST_WORDS = 0.5
+
+
+class Process:
+    """One run of a program. Raises StartError where the system cannot run it."""
+
+    def __init__(self, words: Sequence[str], limits: Limits) -> None:
+        self._mark = new_environment_mark()
+        try:
+            self._popen = subprocess.Popen(  # noqa: S603 - what the user asked to run
+                words,
+                bufsize=0,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=True,
+                env={**os.environ, **ONE_THREAD, self._mark: "1"},
+            )
+        except OSError as error:
+            raise limit_reached(error) or StartError(_not_run(words[0], error)) from None
+        self._guard = _guard(self._popen.pid, self._mark)
+        self._memory = MemoryWatch(self._popen.pid, self._mark, limits.memory)
+        self._tail = OutputTail()
+        self._outgoing: Iterator[bytes | memoryview] = iter(())
+        self._part = memoryview(b"")
+        self.sending = False
+        """Whether bytes still wait to be read by it."""
+        self.sent = 0
+        """Bytes of the question that have left."""
+        self._soon = 0.0
+        self.now = Clock().now
+        self._ended = False
+        self._closed = False
+        self._listen()
+        self.incoming = bytearray()
+        """What came on standard output and was not taken yet."""
+
+    def _listen(self) -> None:
+        self._pipes = [cast("IO[bytes]", pipe) for pipe in (self._popen.stdin, self._popen.stdout, self._popen.stderr)]
+        self._in, self._out, self._err = (pipe.fileno() for pipe in self._pipes)
+        self._poll = select.poll()
+        for pipe in (self._in, self._out, self._err):
+            os.set_blocking(pipe, False)
+        for pipe in (self._in, self._out):
+            _widen(pipe)
+        for pipe in (self._out, self._err):
+            self._poll.register(pipe, select.POLLIN)
+
+    def send(self, parts: Iterable[bytes | memoryview]) -> None:
+        """Put bytes in line for its standard input; they leave while pump() is called, and are made as they leave.
+
+        So it can work on the first part while the second is made.
+        """
+        self._outgoing = chain(self._outgoing, parts)
+        self.sending = True
+        self._poll.register(self._in, select.POLLOUT)
+
+    def pump(self, until: float) -> bool:
+        """Move bytes once, waiting a moment at most and not beyond `until` of now(); true where `incoming` grew.
+
+        Raises FaultError where the process ended, closed its standard output, or holds too much memory.
+        """
+        if self._ended:
+            raise self._ending()
+        self._memory.look(time.monotonic())
+        grew = False
+        events = self._events(until - self.now())
+        for pipe, _ in events:
+            if pipe == self._in:
+                self._write()
+            elif pipe == self._out:
+                grew = self._read()
+            else:
+                self._hear()
+        if not events and self._popen.poll() is not None:
+            self._ended = True  # though one of its children holds the pipe open
+        return grew
+
+    def _events(self, seconds: float) -> list[tuple[int, int]]:
+        while seconds > 0 and time.monotonic() < self._soon:
+            if events := self._poll.poll(0):
+                return events
+        return self._poll.poll(1000 * min(max(seconds, 0.0), _TICK))
+
+    def _write(self) -> None:
+        try:
+            while self._part or self._next_part():
+                written = os.write(self._in, self._part)
+                self._part = self._part[written:]
+                self.sent += written
+        except BlockingIOError:
+            return
+        except BrokenPipeError:  # it reads no more; whether it ended, or has a last word, the other pipes tell
+            self._outgoing, self._part = iter(()), memoryview(b"")
+        self.sending = False
+        self._soon = time.monotonic() + _SOON if self.sent <= _TOGETHER else 0.0
+        self._poll.unregister(self._in)
+
+    def _next_part(self) -> bool:
+        """Take what is to be written next: what a question begins with in one piece, so that it awakens once."""
+        together = bytearray()
+        for some in self._outgoing:
+            part = memoryview(some)
+            if not together and len(part) >= _TOGETHER:
+                self._part = part
+                return True
+            room = _TOGETHER - len(together)
+            together += part[:room]
+            if len(part) > room:
+                self._outgoing = chain((part[room:],), self._outgoing)
+                break
+        self._part = memoryview(together)
+        return bool(together)
+
+    def _read(self) -> bool:
+        data = os.read(self._out, _CHUNK)
+        if not data:
+            self._poll.unregister(self._out)
+            self._ended = True
+        self.incoming += data
+        return bool(data)
+
+    def _hear(self) -> None:
+        data = os.read(self._err, _CHUNK)
+        if not data:
+            self._poll.unregister(self._err)
+        self._tail.add(data)
+
+    def _ending(self) -> FaultError:
+        try:
+            code = self._popen.wait(_LAST_WORDS)
+        except subprocess.TimeoutExpired:
+            return FaultError(Outcome.PROTOCOL, "it closed its standard output and lives on", fatal=True)
+        return FaultError(Outcome.CRASH, _told_by(code), fatal=True)
+
+    def mark(self) -> None:
+        """From here on `recent` speaks: a question begins."""
+        self._tail.mark()
+        self.sent = 0
+
+    @property
+    def recent(self) -> tuple[str, ...]:
+        """The lines of its standard error since the mark, safe to print; the last ones, where they are many."""
+        return self._tail.recent()
+
+    @property
+    def stderr(self) -> tuple[str, ...]:
+        """The last lines of its standard error, safe to print."""
+        return self._tail.lines()
+
+    def goodbye(self) -> None:
+        """End its input and give it a moment to leave by itself; then as kill()."""
+        if not self._closed:
+            with contextlib.suppress(KeyError):
+                self._poll.unregister(self._in)
+            self._pipes[0].close()
+            until = self.now() + _GOODBYE
+            with contextlib.suppress(FaultError):
+                while self.now() < until:
+                    self.pump(until)
+                    self.incoming.clear()
+        self.kill()
+
+    def kill(self) -> None:
+        """End the whole group now, with what has left it, and leave neither a zombie nor an open pipe.
+
+        Nothing happens the second time.
+        """
+        if self._closed:
+            return
+        self._closed = True
+        with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter is macOS's word for a zombie
+            os.killpg(self._popen.pid, signal.SIGKILL)
+        end_marked(self._mark)
+        if self._guard:
+            _dismiss(self._guard)
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the kernel; it will go when that lets it
+            self._popen.wait(5)
+        self._hear_the_rest()
+        for pipe in self._pipes:
+            pipe.close()
+
+    def _hear_the_rest(self) -> None:
+        for _ in range(64):  # a process that left the group may still be writing
+            try:
+                data = os.read(self._err, _CHUNK)
+            except OSError:
+                return
+            if not data:
+                return
+            self._tail.add(data)
+
+
+def _widen(pipe: int) -> None:
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError):  # a user may have no more room for pipes
+            fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, _ROOM)
+
+
+def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
+    """The guard of a group; None where the system has no shell."""
+    try:
+        return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
+            ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark, str(LOOK), str(int(signal.SIGSTOP))),
+            stdin=subprocess.PIPE,  # it closes the others itself: the null device may be missing
+            start_new_session=True,
+        )
+    except OSError:
+        return None
+
+
+def _dismiss(guard: subprocess.Popen[bytes]) -> None:
+    os.killpg(guard.pid, signal.SIGKILL)  # before its input ends, which it would take for our death
+    guard.communicate()
+
+
+def _not_run(program: str, error: OSError) -> str:
+    if isinstance(error, FileNotFoundError):
+        if shutil.which(program):
+            return f"the interpreter that {program!r} names in its first line was not found"
+        return f"the program {program!r} was not found; it must be on the PATH, or a path from the working directory"
+    if isinstance(error, PermissionError):
+        return f"the program {program!r} is not executable"
+    if error.errno == errno.ENOEXEC:
+        return f"{program!r} is no program for this machine: another architecture, or a script without a #! line"
+    return f"the program {program!r} was not run by the system: {system_reason(error)}"
+
+
+def _told_by(code: int) -> str:
+    """What a return code says of a process's end."""
+    if code < 0:
+        out_of_memory = "; the system does that too when memory runs out" if -code == signal.SIGKILL else ""
+        return f"it was ended by {_signal_name(-code)}{out_of_memory}"
+    by_shell = f", as a shell reports {_signal_name(code - 128)}" if code > 128 and _signal_name(code - 128) else ""
+    return f"it ended by itself with exit status {code}{by_shell}"
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}" if number < 65 else ""

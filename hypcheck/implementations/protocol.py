@@ -1,0 +1,378 @@
+"""The protocol of commands: lines on standard input and output, rows in text or binary, and what is wrong with a reply.
+
+Replies of a command: when one is complete, what it says, and what is wrong with it.
+
+The protocol of commands: lines on standard input and output, rows in text or binary.
+
+← {"protocol":1,"name":"…", …}     the first line, unprompted
+→ classify SEQ N text              then N lines of seven decimals
+→ classify SEQ N binary            then N·56 bytes, little-endian
+← SEQ N                            then N lines of one integer, or N bytes
+→ time SEQ N REPEAT binary         then N·56 bytes
+← SEQ NANOSECONDS CHECKSUM
+← error TEXT                       in place of a reply
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations.description import LONGEST, Description, described_by_json
+from hypcheck.implementations.frames import LARGEST, WIDTH, integers, quoted, row_bytes, stderr_excerpt
+from hypcheck.implementations.process import Process
+from hypcheck.implementations.session import FaultError, IntegerAnswers, Limits, Outcome, StartError
+from hypcheck.messages import escaped
+
+_HEAD = re.compile(rb"(\d{1,19}) (\d{1,19})\r?\n")
+_TIMES = re.compile(rb"(\d{1,19}) (\d{1,18}) ([+-]?\d{1,18})\r?\n")
+_INTEGER = re.compile(rb"[ \t]*([+-]?\d{1,18})[ \t\r]*")
+_USUAL = {b"0": 0, b"1": 1, b"-1": -1, b"2": 2, b"127": 127}
+_LINE = 64
+"""Bytes of a line that holds one integer, with room for blanks."""
+_FIRST_LINE = 4096
+"""Bytes of a reply's first line, which may be an error's text."""
+
+
+def broken(reason: str) -> FaultError:
+    """The protocol was broken in a way after which nothing that follows can be trusted."""
+    return FaultError(Outcome.PROTOCOL, reason, fatal=True)
+
+
+class Reply:
+    """The reply to one question: what is expected of it."""
+
+    def __init__(self, sequence: int) -> None:
+        self.sequence = sequence
+        self.error: str | None = None
+        """The text of `error TEXT`, once the reply is found to be that."""
+
+    def length(self, incoming: bytearray) -> int:
+        """Bytes of the complete reply that `incoming` begins with, 0 while it is incomplete.
+
+        Raises FaultError where no reply to the question begins so.
+        """
+        end = incoming.find(b"\n") + 1
+        if not end:
+            if len(incoming) > _FIRST_LINE:
+                raise broken(f"a line of its reply does not end within {_FIRST_LINE} bytes: {quoted(incoming)}")
+            return 0
+        if incoming.startswith((b"error ", b"error\n", b"error\r")):
+            self.error = escaped(incoming[6:end].decode("utf-8", "replace"), WIDTH) or "(without a text)"
+            return end
+        return self._after(incoming, end)
+
+    def _after(self, incoming: bytearray, end: int) -> int:
+        """The same for what follows the first line, which ends at `end`."""
+        raise NotImplementedError
+
+    def share(self, incoming: bytearray) -> float:  # noqa: ARG002 - of one line none is a share
+        """The part of an incomplete reply's answers that have come, from 0 to 1."""
+        return 0.0
+
+    def progress(self, incoming: bytearray) -> str:
+        """How far an incomplete reply has come."""
+        return f"only {quoted(incoming)} of a reply" if incoming else "no reply"
+
+    def _same_sequence(self, sequence: int) -> None:
+        if sequence < self.sequence:
+            raise broken(f"it replied to question {sequence} again, when {self.sequence} was asked")
+        if sequence > self.sequence:
+            raise broken(f"it replied to question {sequence}, when {self.sequence} had got no reply")
+
+
+class _Answers(Reply):
+    def __init__(self, sequence: int, n: int) -> None:
+        super().__init__(sequence)
+        self._n = n
+
+    def _check_head(self, incoming: bytearray, end: int) -> None:
+        head = _HEAD.fullmatch(incoming, 0, end)
+        if not head:
+            raise broken(f"it wrote {quoted(incoming[:end])} where '{self.sequence} {self._n}' had to come")
+        self._same_sequence(int(head[1]))
+        if int(head[2]) != self._n:
+            raise broken(f"it announced {int(head[2])} answers to {self._n} rows")
+
+    def _so_far(self, incoming: bytearray, end: int) -> int:
+        raise NotImplementedError
+
+    def share(self, incoming: bytearray) -> float:
+        end = incoming.find(b"\n") + 1
+        return self._so_far(incoming, end) / self._n if end and self._n else 0.0
+
+    def progress(self, incoming: bytearray) -> str:
+        end = incoming.find(b"\n") + 1
+        return f"{self._so_far(incoming, end)} of {self._n} answers" if end else super().progress(incoming)
+
+
+class BinaryReply(_Answers):
+    """`SEQ N` and N bytes."""
+
+    def _after(self, incoming: bytearray, end: int) -> int:
+        self._check_head(incoming, end)
+        return end + self._n if len(incoming) >= end + self._n else 0
+
+    def _so_far(self, incoming: bytearray, end: int) -> int:
+        return len(incoming) - end
+
+    def integers(self, reply: bytes) -> IntegerAnswers:
+        """The answers of a complete reply."""
+        return integers(reply[-self._n :], 1)
+
+
+class TextReply(_Answers):
+    """`SEQ N` and N lines of one integer."""
+
+    def _after(self, incoming: bytearray, end: int) -> int:
+        self._check_head(incoming, end)
+        missing = self._n - incoming.count(b"\n", end)
+        if missing > 0:
+            if len(incoming) > end + _LINE * (self._n + 1):
+                raise broken(f"its lines of one integer are longer than {_LINE} bytes: {quoted(incoming[-_LINE:])}")
+            return 0
+        length = len(incoming)
+        for _ in range(1 - missing):
+            length = incoming.rfind(b"\n", 0, length)
+        return length + 1
+
+    def _so_far(self, incoming: bytearray, end: int) -> int:
+        return incoming.count(b"\n", end)
+
+    def integers(self, reply: bytes) -> IntegerAnswers:
+        """The answers of a complete reply; raises FaultError naming the first line that is none."""
+        lines = reply.split(b"\n")[1:-1]
+        values = [_USUAL.get(line) for line in lines]
+        if None in values:
+            values = [self._integer(number, line) for number, line in enumerate(lines, start=1)]
+        return np.array(values, dtype=np.int64)
+
+    def _integer(self, number: int, line: bytes) -> int:
+        match = _INTEGER.fullmatch(line)
+        if not match:
+            raise broken(f"answer {number} of {self._n} is {quoted(line)}; it must be an integer on a line of its own")
+        return int(match[1])
+
+
+class TimeReply(Reply):
+    """`SEQ NANOSECONDS CHECKSUM`."""
+
+    def _after(self, incoming: bytearray, end: int) -> int:
+        match = _TIMES.fullmatch(incoming, 0, end)
+        if not match:
+            raise broken(f"it wrote {quoted(incoming[:end])} where '{self.sequence} NANOSECONDS CHECKSUM' had to come")
+        self._same_sequence(int(match[1]))
+        return end
+
+    def times(self, line: bytes) -> tuple[int, int]:
+        """Nanoseconds and checksum of the complete reply."""
+        _, nanoseconds, checksum = line.split()
+        return int(nanoseconds), int(checksum)
+
+
+LARGEST_TEXT = 4096
+"""Rows of a question in text."""
+
+_DEFAULTS = Description(name="")
+_REQUIRED = ("protocol", "name")
+_ROW = " ".join(["%r"] * len(COLUMNS)) + "\n"
+_LINES = 256
+_STEPS = 16
+"""The clock begins anew whenever another part of so many of the question was read, or of the answers has come: who is
+slow is waited for, and who gives a byte now and then is not for ever."""
+_WIDEST = {"binary": 56, "text": 7 * 25}
+"""Bytes of a row at most."""
+_STALL = 4
+"""After this part of the timeout without a byte, a second question is sent behind the first: where its reply comes, the
+first's was short or missing, and the implementation not slow."""
+
+
+class CommandSession:
+    """A program that speaks the protocol. Raises StartError."""
+
+    most: int | None = None
+    scene = False
+
+    def __init__(self, words: Sequence[str], limits: Limits) -> None:
+        self._limits = limits
+        self._sequence = 0
+        self._known: Rows | None = None
+        """A row that this process has answered, for a question that it is sure to answer again."""
+        self._process = Process(words, limits)
+        try:
+            self.description = self._meet()
+        except BaseException:
+            self._process.kill()
+            raise
+        self.longest = LARGEST if self.description.binary else LARGEST_TEXT
+
+    def _meet(self) -> Description:
+        try:
+            line = self._first_line()
+        except FaultError as fault:
+            self._process.kill()
+            raise StartError(f"{fault.reason}{self.evidence}") from None
+        try:
+            return described_by_json(line, _DEFAULTS, _REQUIRED)
+        except InputError as error:
+            self._process.kill()
+            raise StartError(f"its first line is no description: {error}{self.evidence}") from None
+
+    def _first_line(self) -> bytes:
+        seconds = self._limits.startup_timeout
+        until = self._process.now() + seconds
+        incoming = self._process.incoming
+        while b"\n" not in incoming:
+            if len(incoming) > LONGEST:
+                raise broken(f"its first line does not end within {LONGEST} bytes; it must be the description")
+            if self._process.now() >= until:
+                raise FaultError(Outcome.TIMEOUT, f"no description came within {seconds:g} s", fatal=True)
+            try:
+                self._process.pump(until)
+            except FaultError as fault:
+                raise FaultError(fault.outcome, f"{fault.reason} before it described itself", fatal=True) from None
+        end = incoming.index(b"\n")
+        line = bytes(incoming[:end])
+        del incoming[: end + 1]
+        return line
+
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - the runner asks who offers it
+        """An integer for each row."""
+        n = len(rows)
+        self._sequence += 1
+        question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
+        again = rows[:1] if self._known is None else self._known
+        answers = reply.integers(self._ask(question, self._body(rows), reply, again, n * _WIDEST[self._how]))
+        self._known = rows[-1:].copy()
+        return answers
+
+    def time(
+        self,
+        rows: Rows,
+        repeat: int,
+        *,
+        by_scene: bool = False,  # noqa: ARG002
+        each: bool = False,
+    ) -> tuple[int, int] | None:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where it does not offer that.
+
+        `each`: by a question for each row.
+        """
+        if not self.description.time:
+            return None
+        parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
+        nanoseconds, totals = zip(*(self._time(part, repeat) for part in parts), strict=True)
+        return sum(nanoseconds), sum(totals)
+
+    def _time(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        self._sequence += 1
+        reply = TimeReply(self._sequence)
+        question = f"time {self._sequence} {len(rows)} {repeat} binary"
+        return reply.times(self._ask(question, (row_bytes(rows),), reply))
+
+    def _ask(
+        self, question: str, body: Iterable[bytes | memoryview], reply: Reply, again: Rows | None = None, size: int = 0
+    ) -> bytes:
+        """The reply to a question of `size` bytes; `again` is a row for the question behind it, should it stall."""
+        process = self._process
+        process.mark()
+        process.pump(0)
+        if process.incoming:
+            raise broken(f"it wrote {quoted(process.incoming)} when nothing was asked")
+        process.send(chain((f"{question}\n".encode(),), body))
+        length, second = self._await(reply, again, size)
+        said = bytes(process.incoming[:length])
+        del process.incoming[:length]
+        if second:
+            length, _ = self._await(second)
+            del process.incoming[:length]
+        if process.incoming:
+            raise broken(f"it wrote {quoted(process.incoming)} behind a complete reply")
+        if reply.error is not None:  # if it did not read all rows, it will take the rest for questions
+            raise FaultError(Outcome.ERROR, f"it reported an error: {reply.error}", fatal=process.sending)
+        if process.sending:
+            raise broken("it replied before it had read the rows")
+        return said
+
+    def _await(self, reply: Reply, again: Rows | None = None, size: int = 0) -> tuple[int, Reply | None]:
+        """The length of the reply, once it is complete, and the reply that is still to come behind it."""
+        process, seconds = self._process, self._limits.timeout
+        second: Reply | None = None
+        steps, read, heard = 0, 0.0, process.now()
+        until = heard + seconds
+        while True:
+            length = reply.length(process.incoming)
+            if second:
+                _check_order(process.incoming, length, reply, second)
+            if length:
+                return length, second
+            now = process.now()
+            if now >= until:
+                more = ", and hardly one more" if reply.share(process.incoming) else ""
+                so_far = reply.progress(process.incoming) + more
+                raise FaultError(Outcome.TIMEOUT, f"{so_far} within {seconds:g} s", fatal=True)
+            if again is not None and not second and not process.sending and now >= heard + seconds / _STALL:
+                second = self._ask_behind(again)
+            if process.pump(until):
+                heard = process.now()
+            if size and not second:  # behind whose bytes all of the question's have left
+                read = min(1.0, process.sent / size)
+            come = int(_STEPS * read) + int(_STEPS * reply.share(process.incoming))
+            if come > steps:
+                steps, until = come, process.now() + seconds
+
+    def _ask_behind(self, row: Rows) -> Reply:
+        self._sequence += 1
+        self._process.send(chain((f"classify {self._sequence} 1 {self._how}\n".encode(),), self._body(row)))
+        return self._reply(1)
+
+    @property
+    def _how(self) -> str:
+        return "binary" if self.description.binary else "text"
+
+    def _body(self, rows: Rows) -> Iterable[bytes | memoryview]:
+        return (row_bytes(rows),) if self.description.binary else row_text(rows)
+
+    def _reply(self, n: int) -> BinaryReply | TextReply:
+        return (BinaryReply if self.description.binary else TextReply)(self._sequence, n)
+
+    @property
+    def evidence(self) -> str:
+        """What it said on standard error since the last question, as the end of a sentence."""
+        return stderr_excerpt(self._process.recent)
+
+    @property
+    def stderr(self) -> tuple[str, ...]:
+        """The last lines of its standard error, safe to print."""
+        return self._process.stderr
+
+    def close(self) -> None:
+        """Let it leave: the end of its input is goodbye."""
+        self._process.goodbye()
+
+    def kill(self) -> None:
+        """End it now."""
+        self._process.kill()
+
+
+def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) -> None:
+    """Raise FaultError where the second reply begins before the first, of `length` once it is complete, ends.
+
+    No answer looks like its first line: in text none has a blank in it, in binary none is a digit.
+    """
+    began = re.search(rb"(?<!\d)%d 1\r?\n" % second.sequence, incoming)
+    if began and (not length or began.start() < length):
+        raise broken(f"its reply was short: the next one came after {reply.progress(incoming[: began.start()])}")
+
+
+def row_text(rows: Rows) -> Iterator[bytes]:
+    """Rows as lines of seven decimals, each the shortest that reads back as the same float64; some lines at a time."""
+    for start in range(0, len(rows), _LINES):
+        part = rows[start : start + _LINES]
+        yield (_ROW * len(part) % tuple(part.ravel().tolist())).encode()

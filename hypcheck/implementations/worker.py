@@ -1,0 +1,183 @@
+"""The program of our worker: it loads a Python function or a shared library, and answers questions about rows.
+
+The rounding mode of this thread, which a call must leave as it found it.
+
+libm tells of one unit (on x86 the old one), so the arithmetic in use is asked too, by sums that only rounding decides.
+
+The program of our own worker: loads one Python function or one shared library and answers questions about rows.
+
+Questions and answers go through the pipes that were its standard input and output; whatever the foreign code reads or
+prints goes to nothing and to standard error instead, so that it cannot break the conversation.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import faulthandler
+import os
+import sys
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
+
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations import frames
+from hypcheck.implementations.foreign import (
+    ContractError,
+    ForeignCode,
+    IntegerAnswers,
+    Library,
+    LoadError,
+    PythonFunction,
+    bytes_at,
+    error_text,
+)
+from hypcheck.implementations.frames import WIDTH
+from hypcheck.messages import escaped
+
+_ONE, _TINY = 1.0, 2.0**-60
+
+
+def _libm() -> ctypes.CDLL | None:
+    try:
+        libm = ctypes.CDLL(None)
+        libm.fegetround, libm.fesetround  # noqa: B018 - raises where it has them not
+    except (OSError, TypeError, AttributeError):
+        return None
+    return libm
+
+
+class RoundingMode:
+    """Remembers the rounding mode; restore() puts it back, and complains where it had been changed."""
+
+    def __init__(self) -> None:
+        self._libm = _libm()
+        self._mode = self._by_libm()
+
+    def _by_libm(self) -> int:
+        return int(self._libm.fegetround()) if self._libm else 0
+
+    def restore(self) -> None:
+        """Raise ContractError where the mode is no longer to nearest, or no longer what libm says it was."""
+        found = mode_in_use()
+        if found == "to nearest" and self._by_libm() == self._mode:
+            return
+        if self._libm:
+            self._libm.fesetround(self._mode)
+        where = found if found != "to nearest" else "outside of the unit that computes float64"
+        raise ContractError(f"it left the rounding mode changed: {where}; a call must leave it as it was")
+
+
+def mode_in_use() -> str:
+    """How float64 sums are rounded here and now."""
+    if _ONE + _TINY > _ONE:
+        return "upward"
+    if -_ONE - _TINY < -_ONE:
+        return "downward"
+    return "towards zero" if _ONE - _TINY < _ONE else "to nearest"
+
+
+KINDS: Mapping[str, Callable[..., ForeignCode]] = MappingProxyType({"python": PythonFunction, "library": Library})
+
+
+class WorkerChannel:
+    """Our end of the conversation."""
+
+    def __init__(self) -> None:
+        self._requests, self._replies = os.dup(0), os.dup(1)
+        nothing, end = os.pipe()  # as the null device, which may be missing, it has nothing to read
+        os.close(end)
+        os.dup2(nothing, 0)
+        os.dup2(2, 1)
+        os.close(nothing)
+        sys.stdout = open(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)  # noqa: SIM115
+        self._mark = 0
+        self._room = bytes_at(0, frames.LARGEST * 56 + 56).data
+
+    def request(self, count: int) -> tuple[bytes, int, Rows] | None:
+        """The next question: what is asked, how often, of which rows; None at the end of input.
+
+        The rows' address modulo 64 goes with `count`.
+        """
+        head = bytearray(frames.REQUEST.size)
+        if not self._fill(memoryview(head)):
+            return None
+        asked, n, repeat, self._mark = frames.REQUEST.unpack(head)
+        shift = 8 * (count % 8)
+        body = self._room[shift : shift + n * 56]
+        if not self._fill(body):
+            return None
+        return asked, repeat, np.frombuffer(body, dtype="<f8").reshape(n, 7)
+
+    def _fill(self, room: memoryview) -> bool:
+        while room:
+            got = os.readv(self._requests, [room])
+            if not got:
+                return False
+            room = room[got:]
+        return True
+
+    def reply(self, what: bytes, body: bytes | memoryview, width: int = 1) -> None:
+        """Answer."""
+        head = frames.REPLY.pack(what, width, len(body), self._mark)
+        for part in (memoryview(head), memoryview(body)):
+            rest = part
+            while rest:
+                rest = rest[os.write(self._replies, rest) :]
+
+
+def main(words: Sequence[str]) -> None:
+    """Serve: `words` is where to begin varying addresses, the kind, and what the kind needs."""
+    faulthandler.enable()
+    line = WorkerChannel()
+    count, kind, *rest = words
+    try:
+        subject = KINDS[kind](*rest)
+    except LoadError as error:
+        line.reply(frames.ERROR, _sentence(str(error)))
+        return
+    line.reply(frames.READY, (b"1" if subject.scene else b"0") + subject.description.encode())
+    serve(line, subject, int(count))
+
+
+def serve(line: WorkerChannel, subject: ForeignCode, count: int) -> None:
+    """Answer until the input ends."""
+    rounding = RoundingMode()
+    while request := line.request(count):
+        count += 1
+        reply = _reply(subject, *request)
+        try:
+            rounding.restore()
+        except ContractError as error:
+            reply = frames.PROTOCOL, _sentence(str(error)), 1
+        line.reply(*reply)
+
+
+Reply = tuple[bytes, bytes | memoryview, int]
+
+
+def _reply(subject: ForeignCode, asked: bytes, repeat: int, rows: Rows) -> Reply:
+    try:
+        if asked in {frames.TIME, frames.TIME_SCENE, frames.TIME_EACH}:
+            times = _times(subject, asked, repeat, rows)
+            return frames.TIMED, frames.TIMES.pack(*times), 8
+        classify = subject.classify_scene if asked == frames.CLASSIFY_SCENE else subject.classify
+        answers: IntegerAnswers = np.ascontiguousarray(classify(rows))
+    except ContractError as error:
+        return frames.PROTOCOL, _sentence(str(error)), 1
+    except BaseException as error:  # noqa: BLE001 - foreign code raises anything, SystemExit too
+        traceback.print_exc()
+        return frames.ERROR, _sentence(f"it {error_text(error)}"), 1
+    return frames.ANSWERS, answers.data.cast("B"), answers.itemsize
+
+
+def _times(subject: ForeignCode, asked: bytes, repeat: int, rows: Rows) -> tuple[int, int]:
+    if asked == frames.TIME_EACH:
+        return subject.seconds_each(rows, repeat)
+    return subject.seconds(rows, repeat, by_scene=asked == frames.TIME_SCENE)
+
+
+def _sentence(text: str) -> bytes:
+    return escaped(text, WIDTH).encode()

@@ -1,0 +1,153 @@
+"""Our side of a conversation with our worker, in which a Python function or a shared library runs."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import sys
+from pathlib import Path
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations import frames
+from hypcheck.implementations.description import LONGEST, Description, described_by_json
+from hypcheck.implementations.frames import WIDTH, quoted, stderr_excerpt
+from hypcheck.implementations.process import Process
+from hypcheck.implementations.session import FaultError, IntegerAnswers, Limits, Outcome, StartError
+from hypcheck.implementations.spec import Spec
+from hypcheck.messages import counted, escaped
+
+_PROGRAM = """\
+import sys
+sys.path[:] = [sys.argv[1], *filter(None, sys.path)]
+import hypcheck
+del sys.path[0]
+from hypcheck.implementations.worker import main
+main(sys.argv[2:])
+"""
+"""Python puts the working directory first on the path, where a struct.py of the user's would stand in for Python's; it
+is taken off until our own modules and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
+
+_OURS = (
+    f"{os.sep}hypcheck{os.sep}{Path(__file__).parent.name}{os.sep}",
+    '"<string>"',
+    "Extension modules: ",
+    "(most recent call first)",
+)
+"""What lines hold that speak of the worker and not of what runs in it, when Python tells where it crashed."""
+
+_LANGUAGES = {"python": "python", "library": ""}
+
+
+class WorkerSession:
+    """A Python function or a shared library in a process of its own. `run` counts the runs, to vary what may vary."""
+
+    longest = frames.LARGEST
+    most: int | None = None
+
+    def __init__(self, spec: Spec, limits: Limits, run: int) -> None:
+        self._limits = limits
+        folder = str(Path(__file__).resolve().parents[2])
+        if not sys.executable:
+            raise StartError("this Python does not know its own program, which is to run the worker")
+        self._process = Process((sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words), limits)
+        try:
+            self._meet(spec)
+        except BaseException:
+            self._process.kill()
+            raise
+
+    def _meet(self, spec: Spec) -> None:
+        try:
+            what, _, body = self._reply(self._limits.startup_timeout)
+        except FaultError as fault:
+            reason = fault.reason
+            if fault.outcome is Outcome.TIMEOUT:
+                reason = f"it was not loaded within {self._limits.startup_timeout:g} s"
+            elif fault.outcome is Outcome.CRASH:
+                reason = f"while it was loaded {reason}"
+            self._process.kill()
+            raise StartError(f"{reason}{self.evidence}") from None
+        if what != frames.READY:
+            raise StartError(_text(body))
+        self.scene = body[:1] == b"1"
+        name = os.path.basename(spec.words[0]) + "".join(f":{word}" for word in spec.words[1:])
+        defaults = Description(name=name, language=_LANGUAGES[spec.kind], binary=True, time=True)
+        try:
+            self.description = described_by_json(bytes(body[1:]) or b"{}", defaults)
+        except InputError as error:
+            raise StartError(str(error)) from None
+
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:
+        """An integer for each row."""
+        asked = frames.CLASSIFY_SCENE if by_scene else frames.CLASSIFY
+        width, body = self._ask(asked, rows, 1, frames.ANSWERS)
+        if len(body) != width * len(rows):
+            raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(len(rows), 'row')}")
+        return frames.integers(body, width)
+
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
+        """Nanoseconds for `repeat` times the rows and the sum of the answers; `each`: by a call for each row."""
+        asked = frames.TIME_EACH if each else frames.TIME_SCENE if by_scene else frames.TIME
+        _, body = self._ask(asked, rows, repeat, frames.TIMED)
+        if len(body) != frames.TIMES.size:
+            raise _broken(f"{counted(len(body), 'byte')} of times")
+        nanoseconds, total = frames.TIMES.unpack(body)
+        return nanoseconds, total
+
+    def _ask(self, asked: bytes, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
+        self._process.mark()
+        mark = secrets.randbits(64)
+        self._process.send((frames.REQUEST.pack(asked, len(rows), repeat, mark), frames.row_bytes(rows)))
+        what, width, body = self._reply(self._limits.timeout, mark)
+        if what == expected:
+            return width, body
+        outcome = {frames.ERROR: Outcome.ERROR, frames.PROTOCOL: Outcome.PROTOCOL}.get(what)
+        if outcome is None:
+            raise _broken(quoted(what))
+        raise FaultError(outcome, _text(body), fatal=False)
+
+    def _reply(self, seconds: float, mark: int = 0) -> tuple[bytes, int, bytearray]:
+        until = self._process.now() + seconds
+        self._await(frames.REPLY.size, until, seconds)
+        incoming = self._process.incoming
+        what, width, size, marked = frames.REPLY.unpack_from(incoming)
+        if marked != mark or width not in {1, 8} or size > max(8 * frames.LARGEST, 2 * LONGEST):
+            raise _broken(quoted(incoming))
+        self._await(frames.REPLY.size + size, until, seconds)
+        body = incoming[frames.REPLY.size : frames.REPLY.size + size]
+        del incoming[: frames.REPLY.size + size]
+        return what, width, body
+
+    def _await(self, size: int, until: float, seconds: float) -> None:
+        while len(self._process.incoming) < size:
+            if self._process.now() >= until:
+                raise FaultError(Outcome.TIMEOUT, f"no answer within {seconds:g} s", fatal=True)
+            self._process.pump(until)
+
+    @property
+    def evidence(self) -> str:
+        """What the foreign code printed since the last question, on standard output or standard error."""
+        return stderr_excerpt([line for line in self._process.recent if not any(part in line for part in _OURS)])
+
+    @property
+    def stderr(self) -> tuple[str, ...]:
+        """The last lines of what it printed, safe to print."""
+        return self._process.stderr
+
+    def close(self) -> None:
+        """Let it leave."""
+        self._process.goodbye()
+
+    def kill(self) -> None:
+        """End it now."""
+        self._process.kill()
+
+
+def _text(body: bytes | bytearray) -> str:
+    """What the worker says, which foreign code may have written in its place."""
+    return escaped(body.decode("utf-8", "replace"), WIDTH) or "(without a text)"
+
+
+def _broken(shown: str) -> FaultError:
+    return FaultError(Outcome.PROTOCOL, f"it wrote into our own pipe, which reads {shown}", fatal=True)

@@ -1,0 +1,88 @@
+"""The compiled kernel over numpy arrays: whole columns without a copy, parts of large ones on threads."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import numpy as np
+
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Columns, Positions, Rows
+from hypcheck.kernel.choice import NUMBER_OF, Question, compiled, most_threads
+
+ROWS_A_THREAD = 1 << 20
+"""Fewer rows are not worth a thread: to start one takes as long as some 10⁵ rows."""
+
+BLOCK = 64
+"""Rows that the kernel takes at once: a part has a whole number of them."""
+
+CHUNK = 1 << 16
+"""Rows of a column copied at a time where it is not contiguous."""
+
+
+def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
+    """As classify.Kernel has it."""
+    ask, number = compiled().ask, NUMBER_OF[question]
+    aligned = rows if rows.flags.aligned else rows.copy()
+    answers = np.empty(len(rows), dtype=np.int8)
+
+    def part(start: int, stop: int) -> int:
+        return int(ask(number, aligned[start:stop], answers[start:stop]))
+
+    return answers, in_parts(part, len(rows), threads)
+
+
+def answer_scene(
+    sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
+) -> tuple[Positions, int]:
+    """As classify.Kernel has it."""
+    answers = np.empty(len(columns[0]), dtype=np.int8)
+    return answers, fill_scene(sizes, columns, answers, question, threads)
+
+
+def fill_scene(
+    sizes: Sizes, columns: Columns, answers: Positions, question: Question, threads: int | None = None
+) -> int:
+    """The same into a contiguous array that is there already; returns how many rows are invalid."""
+    ask, number = compiled().ask_scene, NUMBER_OF[question]
+    as_they_are = all(column.flags.c_contiguous and column.flags.aligned for column in columns)
+
+    def part(start: int, stop: int) -> int:
+        if as_they_are:
+            return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop]))
+        refused = 0
+        for low in range(start, stop, CHUNK):
+            high = min(low + CHUNK, stop)
+            copies = (column[low:high].copy() for column in columns)
+            refused += int(ask(number, sizes, *copies, answers[low:high]))
+        return refused
+
+    return in_parts(part, len(answers), threads)
+
+
+def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
+    """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
+
+    What a part raises is raised here, once all have ended.
+    """
+    number = min(most_threads(), count // ROWS_A_THREAD) if threads is None else min(threads, count // BLOCK)
+    number = max(1, number)
+    bounds = [count * k // number // BLOCK * BLOCK for k in range(number)] + [count]
+    results, troubles = [0] * number, list[BaseException]()
+
+    def run(k: int) -> None:
+        try:
+            results[k] = part(bounds[k], bounds[k + 1])
+        except BaseException as trouble:  # noqa: BLE001 - it is raised where the answers are waited for
+            troubles.append(trouble)
+
+    others = [threading.Thread(target=run, args=(k,), name=f"hypcheck-{k}") for k in range(1, number)]
+    for thread in others:
+        thread.start()
+    run(0)
+    for thread in others:
+        thread.join()
+    if troubles:
+        raise troubles[0]
+    return sum(results)

@@ -1,0 +1,312 @@
+"""The functions of a setting: one centre in any language, and many centres at once in C and C++.
+
+A setting's function in any language: the stages of its plan, one after the other, until one answers.
+
+Many centres of one setting at once, in C and C++: the stages as loops without branches, block by block.
+
+The first loop asks the lines, the second, where they leave a centre of the block open, the discriminant; what is open
+after that goes to the setting's function one by one. After an open block the lines are passed over for a while: where
+centres are spread all over a region, nearly every block is open, and along a path hardly any.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from math import isfinite
+
+import numpy as np
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.kernel.emission.dialects import Dialect, Statements
+from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
+from hypcheck.kernel.specialise.first_stages import CENTRE
+from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch
+from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
+from hypcheck.scene.model import Span
+
+INDENT = "    "
+
+
+def answer(position: Position, question: str) -> int:
+    """What a position is answered with: itself, or 1 for yes and 0 for no."""
+    return int(position) if question == "position" else int(position is Position[question.upper()])
+
+
+def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
+    """The function of the setting at this place, from the first line to the last."""
+    parts = list(_Body(plan, stages, place, dialect).lines())
+    read = set(re.findall(r"\w+", "\n".join(parts)))
+    unused = (dialect.say("unused", name=name) for name in "xyz" if name not in read)
+    lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
+    heads = [dialect.say("note", text=line) for line in notes(plan, stages)]
+    indented = [f"{INDENT}{line}" if line else "" for line in (*heads, *lines)]
+    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
+    return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
+
+
+def beyond_height(cut: Span, precision: str, literal: Callable[[float], str]) -> Iterator[str]:
+    """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
+
+    Rounding is monotone: no z within the height is beyond the rounded ends once it is rounded itself.
+    """
+    with np.errstate(over="ignore", under="ignore"):
+        ends = [float(np.dtype(precision).type(end)) for end in (cut.low, cut.high)]
+    for sign, end in zip("<>", ends, strict=True):
+        if isfinite(end):
+            yield f"z {sign} {literal(end)}"
+
+
+def beyond_threshold(position: Position, threshold: str) -> str:
+    """The condition under which R is on this position's side of its threshold."""
+    return f"R {'>' if position is Position.EXTERIOR else '<'} {threshold}"
+
+
+class _Body(Statements):
+    """The statements of one function."""
+
+    def __init__(self, plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> None:
+        super().__init__(plan, stages, dialect)
+        self._place = place
+
+    def lines(self) -> Iterator[str]:
+        stages = self._stages
+        if stages.setting.cut is not None:
+            yield self._note("beyond the modelled height")
+            for beyond in beyond_height(stages.setting.cut, self._precision, self._literal):
+                yield self._say("return if", condition=beyond, value=CANNOT_SAY)
+        if stages.always is not None:
+            yield self._say("return", value=answer(stages.always, self._question))
+        elif stages.thresholds is not None:
+            yield from self._thresholds()
+        else:
+            yield from self._stages_in_turn()
+
+    def _thresholds(self) -> Iterator[str]:
+        asked = thresholds_asked(self._stages, self._question)
+        if asked:
+            yield from self._entry(("R",))
+        for position, threshold in asked:
+            yield self._return_if(beyond_threshold(position, self._literal(threshold)), position)
+        yield self._say("return", value=answer(Position.CONTACT, self._question))
+
+    def _stages_in_turn(self) -> Iterator[str]:
+        stages = self._stages
+        yield from self._entry(("R", "zz", "height") if stages.search is not None else ("R", "zz"))
+        for line in stages.lines:
+            yield ""
+            yield self._note(f"lambda = {float(line.multiplier)!r} proves {line.side.name.lower()} beyond this line")
+            yield from self._constants(line.constants)
+            yield from self._printed(line.program, (line.holds,))
+            yield self._return_if(line.holds, line.side)
+        yield ""
+        yield from self._too_far()
+        if needs_side(stages, self._question):
+            yield ""
+            yield from self._centre()
+        if stages.discriminant is not None:
+            yield ""
+            yield from self._discriminant()
+        if stages.search is not None:
+            yield ""
+            yield self._say("return", value=self._searched())
+
+    def _too_far(self) -> Iterator[str]:
+        last = self._stages.search
+        if last is not None:
+            yield self._note("so far out, or no number, that something overflows")
+            yield self._say("return if", condition=self._say("not", value=f"({self._within(last)})"), value=CANNOT_SAY)
+
+    def _within(self, stage: Discriminant | DualSearch) -> str:
+        widest, highest = self._literal(stage.widest), self._literal(stage.highest)
+        return self._say("and", left=f"R <= {widest}", right=f"zz <= {highest}")
+
+    def _centre(self) -> Iterator[str]:
+        yield self._note("the side of the centre")
+        yield from self._constants(self._stages.centre)
+        yield from self._printed(CENTRE, ("outside",))
+        if self._question in ONE_SIDED:
+            never = "outside" if self._question == "interior" else self._say("not", value="outside")
+            yield self._say("return if", condition=never, value=0)
+
+    def _discriminant(self) -> Iterator[str]:
+        delta = self._stages.discriminant
+        assert delta is not None  # noqa: S101 - the caller has looked
+        yield self._note("the sign of three times the discriminant, where it is certain")
+        yield from self._constants(delta.constants)
+        yield from self._printed(delta.program, ("delta_3",))
+        bound = self._literal(delta.bound)
+        near, below = self._within(delta), f"delta_3 < -{bound}"
+        if not delta.clear_where_positive:
+            yield self._return_if(self._say("and", left=near, right=below), Position.CONTACT)
+            return
+        above = self._say("return if", condition=f"delta_3 > {bound}", value=self._clear())
+        yield self._say("if", condition=near)
+        for part in (self._return_if(below, Position.CONTACT), above):
+            yield from (f"{INDENT}{line}" for line in part.splitlines())
+        yield from filter(None, [self._say("end if")])
+
+    def _clear(self) -> str:
+        """The answer about a clear spheroid, once `outside` is known where it matters."""
+        if self._question == "position":
+            return self._say("select", condition="outside", left="1", right="-1")
+        return "0" if self._question == "contact" else "1"
+
+    def _searched(self) -> str:
+        call = self._say("search", place=self._place)
+        compared = {"exterior": f"{call} > 0", "interior": f"{call} < 0", "contact": f"{call} == 0"}
+        if self._question == "position":
+            return call
+        return self._say("truth", condition=compared[self._question])
+
+    def _return_if(self, condition: str, position: Position) -> str:
+        return self._say("return if", condition=condition, value=answer(position, self._question))
+
+    def _note(self, text: str) -> str:
+        return self._say("note", text=text)
+
+
+BLOCK = 256
+PASSED_OVER = 15
+"""Blocks that go straight to the discriminant after an open one."""
+
+OPEN = 3
+"""The code of a centre that is not decided yet."""
+
+_MANY = """static void many_{place}(size_t n, const double *all_x, const double *all_y, const double *all_z,
+                         int8_t *positions)
+{{
+    int pass_over = 0;
+    for (size_t start = 0; start < n; start += {block}) {{
+        const double *xs = all_x + start, *ys = all_y + start, *zs = all_z + start;
+        const size_t count = n - start < {block} ? n - start : {block};
+        {number} code[{block}];
+        if (pass_over > 0) {{
+            for (size_t i = 0; i < count; i++) code[i] = {open};
+        }} else {{
+            for (size_t i = 0; i < count; i++) {{
+{first}
+            }}
+        }}
+        int left = any_open(code, count);
+{second}        for (size_t i = 0; i < count; i++) positions[start + i] = (int8_t)code[i];
+        if (left) {{
+            for (size_t i = 0; i < count; i++)
+                if (code[i] == {open})
+                    positions[start + i] = (int8_t)position_{place}(({number})xs[i], ({number})ys[i], ({number})zs[i]);
+        }}
+    }}
+}}"""
+
+_SECOND = """        if (left) {{
+            pass_over = pass_over > 0 ? pass_over - 1 : {passed};
+            for (size_t i = 0; i < count; i++) {{
+{body}
+            }}
+            left = any_open(code, count);
+        }}
+"""
+
+
+def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
+    """The function for many centres of the setting at this place."""
+    batch = _Batch(plan, stages, dialect)
+    second = "\n".join(batch.second())
+    words = {"place": place, "block": BLOCK, "number": dialect.number_of(plan.format.name), "open": batch.code(OPEN)}
+    loop = _SECOND.format(body=_indented(second), passed=PASSED_OVER) if second else ""
+    return _MANY.format(**words, first=_indented("\n".join(batch.first())), second=loop)
+
+
+def _indented(text: str) -> str:
+    return "\n".join(f"                {line}" if line else "" for line in text.splitlines())
+
+
+class _Batch(Statements):
+    """The bodies of the two loops of one setting."""
+
+    def code(self, value: int) -> str:
+        """An answer, or OPEN, as a number: comparisons and selections of one type become vectors."""
+        return self._dialect.literal(float(value), self._precision)
+
+    def first(self) -> Iterator[str]:
+        """Everything that costs a few operations; what it leaves is OPEN."""
+        stages, choices, rest = self._stages, self._beyond_height(), OPEN
+        yield from self._centre_read(("x", "y", "z"))
+        if stages.always is not None:
+            rest = answer(stages.always, self._question)
+        elif stages.thresholds is not None:
+            if thresholds_asked(stages, self._question):
+                yield from self._entry(("R",))
+            choices += self._thresholds()
+            rest = answer(Position.CONTACT, self._question)
+        elif stages.lines or self._question in ONE_SIDED:
+            yield from self._entry(("R", "zz"))
+            for line in stages.lines:
+                yield from self._constants(line.constants)
+                yield from self._printed(line.program, (line.holds,))
+                choices.append((line.holds, answer(line.side, self._question)))
+            if self._question in ONE_SIDED:
+                if stages.search is not None:
+                    widest, highest = self._literal(stages.search.widest), self._literal(stages.search.highest)
+                    choices.append((f"!((R <= {widest}) & (zz <= {highest}))", CANNOT_SAY))
+                yield from self._side()
+                choices.append(("outside" if self._question == "interior" else "!outside", 0))
+        yield f"code[i] = {self._chosen(choices, self.code(rest))};"
+
+    def second(self) -> Iterator[str]:
+        """The discriminant, for those that are open."""
+        delta = self._stages.discriminant
+        if delta is None:
+            return
+        yield f"const {self._number} before = code[i];"
+        yield from self._centre_read(("x", "y", "z"))
+        yield from self._entry(("R", "zz"))
+        clear = self.code(0)
+        if self._question != "contact" and delta.clear_where_positive:
+            yield from self._side()
+            sides = (answer(side, self._question) for side in (Position.EXTERIOR, Position.INTERIOR))
+            clear = "(outside ? {} : {})".format(*map(self.code, sides))
+        yield from self._constants(delta.constants)
+        yield from self._printed(delta.program, ("delta_3",))
+        bound, widest, highest = map(self._literal, (delta.bound, delta.widest, delta.highest))
+        yield f"const {self._truth} within = (R <= {widest}) & (zz <= {highest});"
+        yield f"const {self._truth} touching = within & (delta_3 < -{bound});"
+        told = self.code(OPEN)
+        if delta.clear_where_positive:
+            yield f"const {self._truth} clear = within & (delta_3 > {bound});"
+            yield f"const {self._number} told = clear ? {clear} : {told};"
+            told = "told"
+        yield f"const {self._number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {told};"
+        yield f"const {self._number} here = before == {self.code(OPEN)} ? now : before;"
+        yield f"code[i] = {self._chosen(self._beyond_height(), 'here')};"
+
+    @property
+    def _truth(self) -> str:
+        return "bool" if self._dialect.name == "cpp" else "int"
+
+    def _centre_read(self, names: tuple[str, ...]) -> Iterator[str]:
+        for name in names:
+            yield f"const {self._number} {name} = ({self._number}){name}s[i];"
+        yield " ".join(f"(void){name};" for name in names)
+
+    def _beyond_height(self) -> list[tuple[str, int]]:
+        cut = self._stages.setting.cut
+        if cut is None:
+            return []
+        beyond = (f"({each})" for each in beyond_height(cut, self._precision, self._literal))
+        return [(" | ".join(beyond) or "0", CANNOT_SAY)]
+
+    def _thresholds(self) -> Iterator[tuple[str, int]]:
+        for position, threshold in thresholds_asked(self._stages, self._question):
+            yield beyond_threshold(position, self._literal(threshold)), answer(position, self._question)
+
+    def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
+        text = rest
+        for condition, value in reversed(choices):
+            text = f"({condition}) ? {self.code(value)} : ({text})"
+        return text
+
+    def _side(self) -> Iterator[str]:
+        yield from self._constants(self._stages.centre)
+        yield from self._printed(CENTRE, ("outside",))

@@ -1,0 +1,347 @@
+"""A plan in words and numbers: operations, the comment at the head of a kernel, the output of `hypcheck plan`.
+
+What a setting's kernel does before its search, counted from its programs and its own comparisons.
+
+What stands at the head of an emitted kernel: for which scene it is, what it costs, what is proved of it.
+
+A plan in words and numbers: what each setting of a scene needs, what is left out and why, and what that saves.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, replace
+from fractions import Fraction
+from textwrap import wrap
+from typing import Any
+
+from hypcheck.derivation.costs import hoist
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.program import Operations, Step, count, needed
+from hypcheck.geometry.pair import SIZES, Position
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL
+from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
+from hypcheck.kernel.specialise.settings import Setting
+from hypcheck.messages import escaped
+from hypcheck.scene.model import Span
+from hypcheck.version import VERSION
+
+
+def thresholds_asked(stages: Stages, question: str) -> tuple[tuple[Position, float], ...]:
+    """The thresholds that the question needs: exterior above the first one, interior below the other."""
+    found = stages.thresholds
+    if found is None:
+        return ()
+    outer, inner = (Position.EXTERIOR, found.outer), (Position.INTERIOR, found.inner)
+    sides = [outer] if inner[1] is None else [outer, (inner[0], inner[1])]
+    return tuple(side for side in sides if question not in ONE_SIDED or side[0] is Position[question.upper()])
+
+
+def needs_side(stages: Stages, question: str) -> bool:
+    """Whether the side of the centre is asked, before the discriminant or in its place."""
+    delta = stages.discriminant
+    tells_sides = question == "position" and delta is not None and delta.clear_where_positive
+    return bool(stages.centre) and (question in ONE_SIDED or tells_sides)
+
+
+def operations_before(stages: Stages, question: str) -> Operations:
+    """The operations of all stages before the search, each of which a centre may have to pass."""
+    if stages.always is not None:
+        return Operations()
+    asked = thresholds_asked(stages, question)
+    if stages.thresholds is not None:
+        return replace(count(needed(stages.entry, ("R",)) if asked else ()), comparisons=len(asked))
+    steps, comparisons = list(stages.entry.steps), 0
+    for line in stages.lines:
+        steps += line.program.steps
+    if stages.search is not None:
+        comparisons += 2  # neither R nor zz overflows
+    if needs_side(stages, question):
+        steps += CENTRE.steps
+    if stages.discriminant is not None:
+        steps += stages.discriminant.program.steps
+        comparisons += 4 if stages.discriminant.clear_where_positive else 3  # where the bound holds, then the bound
+    found = count(steps)
+    return replace(found, comparisons=found.comparisons + comparisons)
+
+
+def operations_text(operations: Operations) -> str:
+    """The operations in words."""
+    return ", ".join(
+        _many(number, noun)
+        for number, noun in (
+            (operations.additions, "addition"),
+            (operations.multiplications, "multiplication"),
+            (operations.divisions, "division"),
+            (operations.comparisons, "comparison"),
+        )
+    )
+
+
+def _many(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+WIDTH = 110
+LONGEST_NAME = 60
+FEW = 4
+"""Up to so many settings are told in the head; of more each is told at its own function."""
+
+
+def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
+    """The lines of the comment, each after `prefix`."""
+    lines = [line for paragraph in _paragraphs(plan, command) for line in (*_wrapped(paragraph), "")]
+    return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
+
+
+def _wrapped(paragraph: str) -> list[str]:
+    if paragraph.startswith("    "):
+        return [paragraph]
+    return wrap(paragraph, WIDTH - 3, break_long_words=False, break_on_hyphens=False)
+
+
+def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
+    scene = comment_text(plan.scene.name).replace(
+        '"', "'"
+    )  # beside the quotation marks about it, it could end Python's text
+    yield f'Where a spheroid stands in the scene "{scene}": {_question_in_comment(plan.question)}.'
+    yield f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by"
+    yield "    " + comment_text(shlex.join(command))
+    yield (
+        "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
+        f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say. "
+        "What is promised below is promised of centres in the region of their sizes, its border included."
+    )
+    if len(plan.settings) <= FEW:
+        for number, stages in enumerate(plan.settings, start=1):
+            yield f"{number}. {_setting(stages, plan.question)}"
+    else:
+        rounded = [operations_before(stages, plan.question).rounded for stages in plan.settings]
+        yield (
+            f"There are {len(plan.settings)} of these; each has a function, which says at its head where it holds and "
+            f"what it costs: {min(rounded)} to {max(rounded)} operations that round, a search not counted."
+        )
+    yield _bound(plan)
+
+
+def notes(plan: ScenePlan, stages: Stages) -> list[str]:
+    """What stands at the head of a setting's function: lines, none where the head of the kernel has told it."""
+    return [] if len(plan.settings) <= FEW else _wrapped(_setting(stages, plan.question))
+
+
+def comment_text(text: str) -> str:
+    """A foreign text as a comment, a raw string of Python and the source of C can hold it: visible, on one line.
+
+    Broken by a blank is what would end a comment, open one, or be a trigraph; a backslash that ends a word, and so may
+    come to end a line, which C and C++ would join to the next, has a full stop after it.
+    """
+    plain = escaped(text, LONGEST_NAME * 4)
+    for found, broken in (("*/", "* /"), ("/*", "/ *"), ('"""', "'''")):
+        plain = plain.replace(found, broken)
+    plain = re.sub(r"(?<=\?)(?=\?)", " ", plain)
+    return re.sub(r"\\(?=\s|$)", r"\\.", plain)
+
+
+def _question_in_comment(question: str) -> str:
+    if question == "position":
+        return "+1 exterior, 0 contact (tangency included), -1 interior"
+    return f"1 if it is {question if question != 'contact' else 'in contact'}, else 0"
+
+
+def _setting(stages: Stages, question: str) -> str:
+    setting = stages.setting
+    alpha, gamma, b, d = setting.sizes
+    uses = "; ".join(comment_text(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
+    return (
+        f"alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} "
+        f"{outside(stages)} {_cost(stages, question)}"
+    )
+
+
+def region(setting: Setting) -> str:
+    """Where the centre can be, as seen from the hyperboloid's, in a sentence or two."""
+    told = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
+    beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
+    return f"Region: {', '.join(told) or 'everywhere'}.{beyond}"
+
+
+def outside(stages: Stages) -> str:
+    """What an answer about a centre outside the region is worth, in a sentence."""
+    if stages.always is not None:
+        return "Outside it the answer is worth nothing: the centre is not looked at."
+    if stages.thresholds is not None:
+        return "At any other height the answer is worth nothing: z is not looked at."
+    last = stages.search
+    if last is None:
+        raise AssertionError("stages end with all of one answer, thresholds or a search")
+    radial, axial = (float(stages.entry_constants.get(name, 1.0)) for name in (RADIAL, AXIAL))
+    across, up = (last.widest / 2) ** 0.5 / radial, last.highest**0.5 / axial
+    return (
+        f"Outside it the answer is as good, as long as |x| and |y| are below {across:.2g} and |z| below {up:.2g}; "
+        f"farther out, where a line does not decide, it is {CANNOT_SAY}."
+    )
+
+
+def _span(span: Span) -> str:
+    return f"= {span.low!r}" if span.fixed else f"from {span.low!r} to {span.high!r}"
+
+
+def _cost(stages: Stages, question: str) -> str:
+    if stages.always is not None:
+        return "Nothing is computed: all of the region has one answer."
+    shares = ", ".join(f"{name} {share:.1%}" for name, share in stages.shares.items() if share)
+    most = "at most before the search" if stages.search is not None else "in all"
+    operations = operations_text(operations_before(stages, question))
+    return f"{operations} {most}. Decided by: {shares} (of centres spread evenly)."
+
+
+def _bound(plan: ScenePlan) -> str:
+    if plan.bound_u == 0:
+        return "Proved: every answer is right."
+    unit = plan.format.unit
+    return (
+        "Proved (docs/plans.md) for rounding to nearest: "
+        f"an answer is right for inputs each changed by {float(plan.bound_u):g} u at most, "
+        f"u = 2^-{plan.format.bits} = {float(unit):.3g}. So it may be wrong only in a band around contact: where "
+        f"changing every size and coordinate by a share of {float(Fraction(plan.bound_u) * unit):.2g} changes the "
+        "position. There is no wrong answer away from the surface, on the ring of double roots either."
+    )
+
+
+PRINTED = "table-2"
+"""What a plan is compared with: the paper's loop, its constant terms taken out as the paper does."""
+
+Numbered = tuple[int, Stages]
+
+
+def plan_lines(plan: ScenePlan) -> Iterator[str]:
+    """The plan for people, line by line; settings that leave out the same for the same reasons are told together."""
+    yield f"{escaped(plan.scene.name, 60)}: {_question_in_words(plan.question)}, in {plan.format.name}"
+    for group in _alike(plan):
+        yield ""
+        yield from _group_lines(group, plan.question)
+    yield ""
+    yield f"Table 2 as printed: {operations_text(printed_operations())}; {printed_operations().rounded} that round."
+    yield (
+        f"An answer is right for inputs each changed by {float(plan.bound_u):g} u at most, u = 2^-{plan.format.bits}: "
+        "it can be wrong only that near to contact."
+        if plan.bound_u
+        else "Every answer is right."
+    )
+
+
+def plan_as_json(plan: ScenePlan) -> dict[str, Any]:
+    """The plan for programs."""
+    return {
+        "schema": "1.0.0",
+        "scene": plan.scene.name,
+        "question": plan.question,
+        "precision": plan.format.name,
+        "bound_u": float(plan.bound_u),
+        "settings": [_setting_as_json(stages, plan.question) for stages in plan.settings],
+        "printed": {"formula": PRINTED, "operations": asdict(printed_operations())},
+    }
+
+
+def printed_operations() -> Operations:
+    """What Table 2 costs each centre, its constant terms taken out of the loop."""
+    return count(hoist(FORMULAS[PRINTED].program, SIZES).inside)
+
+
+def _question_in_words(question: str) -> str:
+    return {
+        "position": "exterior, in contact or interior",
+        "exterior": "exterior or not",
+        "interior": "interior or not",
+        "contact": "in contact or not",
+    }[question]
+
+
+def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
+    """The settings, with their numbers in the kernel, grouped by what they leave out and what they cost."""
+    groups: dict[object, list[Numbered]] = {}
+    for number, stages in enumerate(plan.settings, start=1):
+        what = tuple((each.what, _reason(each.why, stages)) for each in stages.omitted)
+        groups.setdefault((what, operations_before(stages, plan.question)), []).append((number, stages))
+    yield from groups.values()
+
+
+def _reason(why: str, stages: Stages) -> str:
+    """Why something is left out; where the height is fixed, without telling which it is."""
+    return why if stages.thresholds is None else why.replace(repr(stages.thresholds.height), "fixed")
+
+
+def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
+    _, first = group[0]
+    for number, stages in group:
+        alpha, gamma, b, d = stages.setting.sizes
+        uses = escaped("; ".join(stages.setting.uses), 90)
+        yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}"
+        yield f"   {region(stages.setting)}"
+        yield from (f"   {what}" for what in _steps(stages, question))
+        yield "   decided by, of centres spread evenly: " + ", ".join(
+            f"{name} {share:.2%}" for name, share in stages.shares.items()
+        )
+    yield "   leaves out" if len(group) == 1 else "   each leaves out"
+    for omission in first.omitted:
+        yield f"     {omission.what}: {_reason(omission.why, first) if len(group) > 1 else omission.why}"
+    average = sum(_average(stages, question) for _, stages in group) / len(group)
+    most = " before a search" if first.search is not None else ""
+    yield f"   costs {operations_text(operations_before(first, question))}{most}; {average:.1f} that round on average"
+
+
+def _steps(stages: Stages, question: str) -> Iterator[str]:
+    if stages.always is not None:
+        yield f"asks nothing: the whole region is {stages.always.name.lower()}"
+    for position, threshold in thresholds_asked(stages, question):
+        side = ">" if position is Position.EXTERIOR else "<"
+        yield f"R = x² + y² {side} {threshold:.17g} is {position.name.lower()}"
+    for line in stages.lines:
+        yield f"a line: λ = {float(line.multiplier):g} proves {line.side.name.lower()}"
+    if needs_side(stages, question):
+        why = ": on the other side the answer is no" if question in ONE_SIDED else ", for where it is clear"
+        yield f"the side of the centre{why}"
+    if stages.discriminant is not None:
+        tells = "contact or clear" if stages.discriminant.clear_where_positive else "contact"
+        yield f"the discriminant: beyond ±{stages.discriminant.bound:.3g} its sign is certain and tells {tells}"
+    if stages.search is not None:
+        yield f"the dual function at its maximum, found by {stages.search.steps} halvings"
+
+
+def _average(stages: Stages, question: str) -> float:
+    """Rounded operations a centre of the sample, the search left aside."""
+    if stages.search is None:
+        return operations_before(stages, question).rounded
+    average = float(_of(stages.entry.steps) + sum(_of(line.program.steps) for line in stages.lines))
+    left = 1.0 if question in ONE_SIDED else stages.shares.get("discriminant", 0.0) + stages.shares.get("search", 0.0)
+    if needs_side(stages, question):
+        average += left * _of(CENTRE.steps)
+    if stages.discriminant is not None:
+        average += (stages.shares["discriminant"] + stages.shares["search"]) * _of(stages.discriminant.program.steps)
+    return average
+
+
+def _of(steps: tuple[Step, ...]) -> int:
+    return count(steps).rounded
+
+
+def _setting_as_json(stages: Stages, question: str) -> dict[str, Any]:
+    setting = stages.setting
+    spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
+    return {
+        "sizes": list(setting.sizes),
+        "spans": spans,
+        "uses": list(setting.uses),
+        "always": None if stages.always is None else int(stages.always),
+        "thresholds": None if stages.thresholds is None else asdict(stages.thresholds),
+        "lines": [{"side": int(line.side), "multiplier": str(line.multiplier)} for line in stages.lines],
+        "discriminant": None if stages.discriminant is None else {"bound": stages.discriminant.bound},
+        "search": stages.search is not None,
+        "shares": stages.shares,
+        "omitted": [asdict(omission) for omission in stages.omitted],
+        "operations": asdict(operations_before(stages, question)),
+        "bound_u": float(stages.bound_u),
+    }

@@ -1,0 +1,321 @@
+"""Programs printed in C, C++, Rust, JavaScript and Python.
+
+How languages write the operations of a program, and the one function that writes them down.
+
+A printer fills in a Spelling; `statements` does the rest. Nothing is reordered, merged or folded: what stands in the
+program is what the printed text rounds, and in that order.
+
+C99: a `const` declaration a step, in an order and a form that a compiler may vectorise and must not rearrange.
+
+Compile without -ffast-math. Contraction (FMA) leaves roundings out; where results must be the same to the bit,
+-ffp-contract=off, and a machine that evaluates in the type itself (FLT_EVAL_METHOD 0, as everywhere but on x87).
+
+Truth values are `int`, joined by & and |, so that no step is a branch. gcc 12 makes vectors of such a loop at -O3 with
+-fno-trapping-math -fno-math-errno; for SSE2 alone it asks in addition for an answer selected and stored as a number,
+narrowed in a loop of its own.
+
+C++11 and later: as C99, with `bool` for truth values and the overloads of <cmath>.
+
+Compile without -ffast-math; what printing/c.py says about contraction holds here too.
+
+Rust: a `let` a step. Its arithmetic is that of the type itself on every platform, and nothing is contracted.
+
+JavaScript: a `const` a step. Its numbers are binary64; binary32 is that rounded once more by Math.fround.
+
+Rounding twice is rounding once for + − × ÷ √ of binary32 numbers, since 53 ≥ 2·24 + 2.
+
+Python: an assignment a step, in binary64, the only format its floats have.
+
+Unlike the other languages, Python raises ZeroDivisionError and ValueError where IEEE 754 gives an infinity or a NaN: a
+caller divides by nothing that can be zero, and takes no root of what can be negative.
+"""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+
+from hypcheck.derivation.program import NUMBER, OPERATIONS, Argument, Program, Step, kind_of, needed
+
+INFIX = {
+    "add": "{0} + {1}",
+    "sub": "{0} - {1}",
+    "mul": "{0} * {1}",
+    "div": "{0} / {1}",
+    "neg": "-{0}",
+    "gt": "{0} > {1}",
+    "lt": "{0} < {1}",
+    "ge": "{0} >= {1}",
+    "le": "{0} <= {1}",
+    "eq": "{0} == {1}",
+    "ne": "{0} != {1}",
+}
+"""The operations that the languages of this folder write alike; {0}, {1} and {2} are the arguments."""
+
+BITWISE = {"and": "{0} & {1}", "or": "{0} | {1}"}
+"""Truth values joined without a branch, where a language has that for its type of them."""
+
+
+@dataclass(frozen=True)
+class Spelling:
+    """A language, or a dialect of one.
+
+    `operations` has a template for every operation of derivation/program.py. `number` and `boolean` are the types, and
+    `declaration` is the template of a statement, with {type}, {name} and {value}. `constant` writes an integer as a
+    number of the type. `reserved` are names that a step or an input must not have.
+    """
+
+    operations: Mapping[str, str]
+    number: str
+    boolean: str
+    declaration: str
+    constant: Callable[[int], str]
+    reserved: frozenset[str] = frozenset(keyword.kwlist)
+
+
+def literal(suffix: str = "") -> Callable[[int], str]:
+    """A writer of integers as numbers with a decimal point and the suffix; what is negative stands in parentheses."""
+
+    def constant(value: int) -> str:
+        text = f"{abs(value)}.0{suffix}"
+        return f"(-{text})" if value < 0 else text
+
+    return constant
+
+
+def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) -> tuple[str, ...]:
+    """One declaration for each step that the wanted names depend on, in the program's order.
+
+    The inputs are in scope under their own names. Raises KeyError where a wanted name does not exist, and ValueError
+    for a name that the language reserves or an operation it has no template for.
+    """
+    kinds = dict.fromkeys(program.inputs, NUMBER)
+    lines = []
+    for step in needed(program, wanted):
+        kinds[step.name] = kind_of(step, kinds)
+        reserved = sorted(spelling.reserved.intersection((step.name, *step.reads)))
+        if reserved:
+            raise ValueError(f"program {program.name}: step {step.name}: {reserved[0]} is no name in the language")
+        lines.append(
+            spelling.declaration.format(
+                type=spelling.number if kinds[step.name] == NUMBER else spelling.boolean,
+                name=step.name,
+                value=_value(program, step, spelling),
+            )
+        )
+    return tuple(lines)
+
+
+def _value(program: Program, step: Step, spelling: Spelling) -> str:
+    template = spelling.operations.get(step.operation)
+    if template is None:
+        raise ValueError(f"program {program.name}: step {step.name}: the language has no {step.operation}")
+    return template.format(*(_argument(argument, spelling) for argument in step.arguments))
+
+
+def _argument(argument: Argument, spelling: Spelling) -> str:
+    return argument if isinstance(argument, str) else spelling.constant(argument)
+
+
+C_SUFFIXES = {"double": "", "float": "f", "long double": "l"}
+"""What ends the name of a function of math.h for each type of numbers, and, in upper case, a literal."""
+
+_C_KEYWORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int long register
+restrict return short signed sizeof static struct switch typedef union unsigned void volatile while I NULL
+"""
+
+
+def c_statements(program: Program, wanted: tuple[str, ...], *, number: str = "double") -> tuple[str, ...]:
+    """The needed part of the program as C99: one declaration a step, `const double name = left + right;`.
+
+    The inputs are in scope under their own names, as `number`s ("double", "float" or "long double"); truth values are
+    int. `abs` and `sqrt` need math.h. Raises ValueError for another type and for names that C reserves, and KeyError
+    where a wanted name does not exist.
+    """
+    if number not in C_SUFFIXES:
+        raise ValueError(f"no C type of numbers {number!r}; there are {', '.join(C_SUFFIXES)}")
+    return statements(program, wanted, _c_spelling(number))
+
+
+@cache
+def _c_spelling(number: str) -> Spelling:
+    suffix = C_SUFFIXES[number]
+    return Spelling(
+        operations={
+            **INFIX,
+            **BITWISE,
+            "not": "!{0}",
+            "abs": f"fabs{suffix}({{0}})",
+            "sqrt": f"sqrt{suffix}({{0}})",
+            "select": "{0} ? {1} : {2}",
+        },
+        number=number,
+        boolean="int",
+        declaration="const {type} {name} = {value};",
+        constant=literal(suffix.upper()),
+        reserved=frozenset(_C_KEYWORDS.split()),
+    )
+
+
+CPP_SUFFIXES = {"double": "", "float": "F"}
+"""What ends a literal of each type of numbers."""
+
+_CPP_KEYWORDS = """
+alignas alignof and and_eq asm auto bitand bitor bool break case catch char class compl const constexpr const_cast
+continue decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto if
+inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public register
+reinterpret_cast return short signed sizeof static static_assert static_cast struct switch template this thread_local
+throw true try typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq
+"""
+
+
+def cpp_statements(program: Program, wanted: tuple[str, ...], *, number: str = "double") -> tuple[str, ...]:
+    """The needed part of the program: one declaration a step, `const double name = left + right;`.
+
+    The inputs are in scope under their own names, as `number`s ("double" or "float"); truth values are bool. `abs` and
+    `sqrt` need <cmath>. Raises ValueError for another type and for names that C++ reserves, and KeyError where a wanted
+    name does not exist.
+    """
+    if number not in CPP_SUFFIXES:
+        raise ValueError(f"no C++ type of numbers {number!r}; there are {', '.join(CPP_SUFFIXES)}")
+    return statements(program, wanted, _cpp_spelling(number))
+
+
+@cache
+def _cpp_spelling(number: str) -> Spelling:
+    return Spelling(
+        operations={
+            **INFIX,
+            **BITWISE,
+            "not": "!{0}",
+            "abs": "std::abs({0})",
+            "sqrt": "std::sqrt({0})",
+            "select": "{0} ? {1} : {2}",
+        },
+        number=number,
+        boolean="bool",
+        declaration="const {type} {name} = {value};",
+        constant=literal(CPP_SUFFIXES[number]),
+        reserved=frozenset(_CPP_KEYWORDS.split()),
+    )
+
+
+RUST_NUMBERS = ("f64", "f32")
+
+_RUST_KEYWORDS = """
+Self abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if
+impl in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type
+typeof unsafe unsized use virtual where while yield
+"""
+
+
+def rust_statements(program: Program, wanted: tuple[str, ...], *, number: str = "f64") -> tuple[str, ...]:
+    """The needed part of the program: one `let name: f64 = left + right;` a step.
+
+    The inputs are in scope under their own names, as `number`s ("f64" or "f32"); truth values are bool. A lint that
+    wants snake_case has to allow A, B, P and Q. Raises ValueError for another type and for names that Rust reserves,
+    and KeyError where a wanted name does not exist.
+    """
+    if number not in RUST_NUMBERS:
+        raise ValueError(f"no Rust type of numbers {number!r}; there are {', '.join(RUST_NUMBERS)}")
+    return statements(program, wanted, _rust_spelling(number))
+
+
+@cache
+def _rust_spelling(number: str) -> Spelling:
+    return Spelling(
+        operations={
+            **INFIX,
+            **BITWISE,
+            "not": "!{0}",
+            "neg": "-({0})",
+            "abs": f"{number}::abs({{0}})",
+            "sqrt": f"{number}::sqrt({{0}})",
+            "select": "if {0} {{ {1} }} else {{ {2} }}",
+        },
+        number=number,
+        boolean="bool",
+        declaration="let {name}: {type} = {value};",
+        constant=lambda value: f"{value}.0_{number}",  # parentheses around a negative one would be warned of
+        reserved=frozenset(_RUST_KEYWORDS.split()),
+    )
+
+
+JAVASCRIPT_NUMBERS = ("number", "float32")
+
+_JAVASCRIPT_EXACT = frozenset({"neg", "abs", "select"})
+"""Operations that round nothing, whatever the format."""
+
+_JAVASCRIPT_KEYWORDS = """
+arguments await break case catch class const continue debugger default delete do else enum eval export extends false
+finally for function if implements import in instanceof interface let new null package private protected public return
+static super switch this throw true try typeof undefined var void while with yield Infinity NaN
+"""
+
+
+def javascript_statements(program: Program, wanted: tuple[str, ...], *, number: str = "number") -> tuple[str, ...]:
+    """The needed part of the program: one `const name = left + right;` a step.
+
+    The inputs are in scope under their own names: numbers, and of binary32 where `number` is "float32" rather than
+    "number"; truth values are booleans. Raises ValueError for another type and for names that JavaScript reserves, and
+    KeyError where a wanted name does not exist.
+    """
+    if number not in JAVASCRIPT_NUMBERS:
+        raise ValueError(f"no JavaScript format of numbers {number!r}; there are {', '.join(JAVASCRIPT_NUMBERS)}")
+    return statements(program, wanted, _javascript_spelling(number))
+
+
+@cache
+def _javascript_spelling(number: str) -> Spelling:
+    operations = {
+        **INFIX,
+        "eq": "{0} === {1}",
+        "ne": "{0} !== {1}",
+        "and": "{0} && {1}",
+        "or": "{0} || {1}",
+        "not": "!{0}",
+        "abs": "Math.abs({0})",
+        "sqrt": "Math.sqrt({0})",
+        "select": "{0} ? {1} : {2}",
+    }
+    if number == "float32":
+        for name, operation in OPERATIONS.items():
+            if operation.gives == NUMBER and name not in _JAVASCRIPT_EXACT:
+                operations[name] = f"Math.fround({operations[name]})"
+    return Spelling(
+        operations=operations,
+        number="",
+        boolean="",
+        declaration="const {name} = {value};",
+        constant=literal(),
+        reserved=frozenset(_JAVASCRIPT_KEYWORDS.split()),
+    )
+
+
+_PYTHON_SPELLING = Spelling(
+    operations={
+        **INFIX,
+        "and": "{0} and {1}",
+        "or": "{0} or {1}",
+        "not": "not {0}",
+        "abs": "abs({0})",
+        "sqrt": "math.sqrt({0})",
+        "select": "{1} if {0} else {2}",
+    },
+    number="float",
+    boolean="bool",
+    declaration="{name} = {value}",
+    constant=literal(),
+)
+
+
+def python_statements(program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+    """The needed part of the program: one `name = left + right` a step.
+
+    The inputs are in scope under their own names, as floats; truth values are bool. `sqrt` needs `import math`. Raises
+    ValueError for names that Python reserves, and KeyError where a wanted name does not exist.
+    """
+    return statements(program, wanted, _PYTHON_SPELLING)

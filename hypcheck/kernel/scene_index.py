@@ -1,0 +1,221 @@
+"""The scene index (broad phase): hyperboloids as columns, how far each reaches, and a grid over the plane.
+
+A sum of two floats and what its rounding left out: exact, since float64 sums lose a float64 (Knuth's TwoSum).
+
+The hyperboloids of a scene as columns, and the heights in which they stand.
+
+How far from a hyperboloid's axis a mover can be in contact with it: beyond, it is exterior, and nothing is asked.
+
+A spheroid at height z occupies heights z − d … z + d and reaches b from its centre. The surface is nowhere wider in
+that range than ρ = α √(1 + ((|z| + d)/γ)²), so a centre farther than ρ + b from the axis touches nothing and is
+outside. That is formed in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers
+them, and the rounding of a distance that is compared with it; LEAST covers what underflows.
+
+A grid over the plane, each cell with the hyperboloids that can be touched from within it.
+
+Cells share the places of a table by a hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"):
+what falls into a place from elsewhere is asked in vain, and nothing is left out. What reaches over too many cells, or
+has no end, is kept aside and always asked: one tower among many trees.
+"""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import floor, inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.scene.model import Hyperboloid, Mover, Span
+
+Floats = NDArray[np.float64]
+
+
+def two_sum(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+    """left + right rounded, and the exact rest; NaN where the sum leaves float64."""
+    total = left + right
+    back = total - left
+    return total, (left - (total - back)) + (right - back)
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """α and γ (m, 2), centres (m, 3), and how far from its centre each is modelled, up or down, (m,).
+
+    `heights` (m, 2) are the lowest and the highest float z of the scene that is within the modelled height, exactly.
+    """
+
+    shapes: Floats
+    origins: Floats
+    tall: Floats
+    heights: Floats
+
+
+def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
+    """The columns of these hyperboloids."""
+    table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 7)
+    origins, relative = table[:, 2:5], table[:, 5:]
+    with np.errstate(all="ignore"):
+        ends, lost = two_sum(origins[:, 2:], relative)
+    low = np.where(lost[:, 0] > 0, np.nextafter(ends[:, 0], inf), ends[:, 0])
+    high = np.where(lost[:, 1] < 0, np.nextafter(ends[:, 1], -inf), ends[:, 1])
+    return Bodies(table[:, :2], origins, np.abs(relative).max(axis=1), np.stack([low, high], axis=1))
+
+
+def _numbers(body: Hyperboloid) -> tuple[float, ...]:
+    low, high = (-inf, inf) if body.height is None else (body.height.low, body.height.high)
+    return (body.alpha, body.gamma, *body.center, low, high)
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The heights in which some hyperboloid stands: disjoint spans of z, from the lowest up."""
+
+    starts: list[float]
+    ends: list[float]
+
+    def hold(self, z: float) -> bool:
+        """Whether some hyperboloid is modelled at this height."""
+        place = bisect_right(self.starts, z) - 1
+        return place >= 0 and z <= self.ends[place]
+
+    def hold_each(self, z: Floats) -> NDArray[np.bool_]:
+        """The same of many heights, (n,)."""
+        place = np.searchsorted(np.array(self.starts), z, side="right") - 1
+        return np.asarray((place >= 0) & (z <= np.append(self.ends, -inf)[place]))
+
+
+def levels_of(heights: Floats) -> Levels:
+    """The union of spans (m, 2)."""
+    spans = heights[heights[:, 0] <= heights[:, 1]]
+    spans = spans[np.argsort(spans[:, 0])]
+    top = np.maximum.accumulate(spans[:, 1]) if len(spans) else spans[:, 1]
+    begins = np.append(True, spans[1:, 0] > top[:-1])[: len(spans)]
+    closes = np.append(begins[1:], True)[: len(spans)]
+    return Levels(spans[begins, 0].tolist(), top[closes].tolist())
+
+
+OUTWARD = 1 + 2.0**-40
+LEAST = 2.0**-1000
+
+
+def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
+    """The reach of each hyperboloid for centres in this span of the scene's z, (m,); inf where they have no end."""
+    level = bodies.origins[:, 2]
+    with np.errstate(all="ignore"):
+        most = np.full(len(level), np.inf)
+        if height is not None:
+            most = np.maximum(np.abs(height.low - level), np.abs(height.high - level)) * OUTWARD
+        share = (np.minimum(most, bodies.tall * OUTWARD) + mover.d) / bodies.shapes[:, 1]
+        return np.asarray((bodies.shapes[:, 0] * np.sqrt(1 + share * share) + mover.b) * OUTWARD + LEAST)
+
+
+def in_reach(bodies: Bodies, mover: Mover, centre: tuple[float, float, float]) -> NDArray[np.int64]:
+    """The hyperboloids that a mover at this very place can touch."""
+    x, y, z = centre
+    far = reaches(bodies, mover, Span(z, z))
+    with np.errstate(all="ignore"):
+        distance = np.hypot(x - bodies.origins[:, 0], y - bodies.origins[:, 1])
+    return np.flatnonzero(~(distance > far))
+
+
+Indices = NDArray[np.int64]
+
+MOST_CELLS = 64
+"""Cells that one hyperboloid may stand in; above that it is asked always."""
+
+WIDEST = 2**30
+"""Cells are numbered from −WIDEST to WIDEST on either axis; what is farther out is asked always."""
+
+ROOM = 2
+"""Places of the table for each entry, at least."""
+
+ACROSS, ALONG = 73856093, 19349663
+"""The primes of the hash; a cell's number times one of them is below 2^57."""
+
+
+@dataclass(frozen=True)
+class PlaneGrid:
+    """Place p of the table holds the `members` from `starts[p]` up to `starts[p + 1]`; its size is a power of two.
+
+    `everywhere` are the hyperboloids that every centre is asked about.
+    """
+
+    side: float
+    starts: array[int]
+    members: array[int]
+    everywhere: list[int]
+
+    def near(self, x: float, y: float) -> Sequence[int]:
+        """The hyperboloids that a mover with its centre at (x, y) can touch, and perhaps others."""
+        across, along = x / self.side, y / self.side
+        if not (-WIDEST < across < WIDEST and -WIDEST < along < WIDEST):
+            return self.everywhere
+        place = (floor(across) * ACROSS ^ floor(along) * ALONG) & (len(self.starts) - 2)
+        inside = self.members[self.starts[place] : self.starts[place + 1]]
+        return [*self.everywhere, *inside] if self.everywhere else inside
+
+    def near_each(self, x: Floats, y: Floats) -> tuple[Indices, Indices]:
+        """The same of many centres (n,): pairs of a centre's number and a hyperboloid's, centre by centre."""
+        with np.errstate(over="ignore"):
+            cells = np.floor(np.stack([x, y]) / self.side)
+        inside = (np.abs(cells) < WIDEST).all(axis=0)
+        column, row = np.where(inside, cells, 0.0).astype(np.int64)
+        place = _hashed(column, row, len(self.starts) - 1)
+        starts = np.frombuffer(self.starts, np.intc).astype(np.int64)
+        first, counts = starts[place], np.where(inside, starts[place + 1] - starts[place], 0)
+        query = np.repeat(np.arange(len(x)), counts)
+        step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        member = np.frombuffer(self.members, np.intc).astype(np.int64)[np.repeat(first, counts) + step]
+        always = np.tile(np.array(self.everywhere, np.int64), len(x))
+        return (
+            np.concatenate([query, np.repeat(np.arange(len(x)), len(self.everywhere))]),
+            np.concatenate([member, always]),
+        )
+
+
+def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
+    """The grid of hyperboloids at (x, y) with these reaches, (m,) each; its cells are as wide as most reach."""
+    finite = np.isfinite(reaches)
+    side = float(2 * np.median(reaches[finite])) if finite.any() else 1.0
+    with np.errstate(all="ignore"):
+        low_x, high_x, low_y, high_y = (
+            np.floor((centre + sign * reaches) / side) for centre in (x, y) for sign in (-1.0, 1.0)
+        )
+        few = (high_x - low_x + 1) * (high_y - low_y + 1) <= MOST_CELLS
+        few &= (np.abs(np.stack([low_x, high_x, low_y, high_y])) < WIDEST).all(axis=0)
+    columns, rows, members = _entries(low_x, high_x, low_y, high_y, np.flatnonzero(few))
+    size = 1 << (ROOM * len(members)).bit_length()
+    places = _hashed(columns, rows, size)
+    order = np.lexsort((members, places))
+    places, members = places[order], members[order]
+    again = np.append(False, (np.diff(places) == 0) & (np.diff(members) == 0))[: len(places)]
+    places, members = places[~again], members[~again]
+    starts = np.searchsorted(places, np.arange(size + 1))
+    return PlaneGrid(side, _packed(starts), _packed(members), np.flatnonzero(~few).tolist())
+
+
+def _entries(
+    low_x: Floats, high_x: Floats, low_y: Floats, high_y: Floats, chosen: Indices
+) -> tuple[Indices, Indices, Indices]:
+    """Column, row and hyperboloid for each cell that one of the chosen stands in."""
+    across = (high_x - low_x)[chosen].astype(np.int64) + 1
+    along = (high_y - low_y)[chosen].astype(np.int64) + 1
+    counts = across * along
+    place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    wide = np.repeat(across, counts)
+    column = np.repeat(low_x[chosen].astype(np.int64), counts) + place % wide
+    row = np.repeat(low_y[chosen].astype(np.int64), counts) + place // wide
+    return column, row, np.repeat(chosen, counts)
+
+
+def _hashed(column: Indices, row: Indices, size: int) -> Indices:
+    return np.asarray((column * ACROSS ^ row * ALONG) & (size - 1))
+
+
+def _packed(numbers: Indices) -> array[int]:
+    """The numbers as an array that Python indexes without making numpy's scalars of them."""
+    return array("i", numbers.astype(np.intc).tobytes())

@@ -1,0 +1,284 @@
+"""The first stages of a specialised kernel: lines of fixed λ, the centre's side, thresholds at a fixed height.
+
+The first steps of a specialised kernel: from the centre to R = x² + y² and zz = z², in the kernel's units.
+
+On which side of the hyperboloid the centre lies: all that a clear spheroid, or a one-sided "no", asks for.
+
+The centre is outside where R > α² + (α²/γ²) Z. Each side carries at most 5 factors (1+δ), |δ| ≤ u, so the answer is
+that of inputs changed by 5u at most; a clear spheroid's centre is a whole radius from the surface.
+
+Lines: a fixed λ is a proof of clear for every centre beyond it, at the price of two products and a comparison.
+
+With R = x² + y² and Z = z², for λ in (0, B)
+
+    P/(A+λ) − Q/(B−λ) > 1 + 1/λ   is   R > b² (A+λ)(1 + 1/λ) + (b²/d²) (A+λ)/(B−λ) Z   and proves exterior,
+
+and for μ in (0, A), λ = −μ,
+
+    Q/(B+μ) − P/(A−μ) > 1/μ − 1   is   R < b² (A−μ)(1 − 1/μ) + (b²/d²) (A−μ)/(B+μ) Z   and proves interior
+
+(docs/mathematics.md, "A line is a proof"). The constants are exact rationals, moved by MARGIN to the safe side and
+rounded to that side once.
+
+Why MARGIN covers. Both sides are sums of positive terms (a negative intercept stands on the other side, as a lift).
+x, y and z may carry one rounding each, on entry; the square doubles it and adds one, a sum or product adds one: R and Z
+carry at most 4 and 3 factors (1+δ), |δ| ≤ u, R + lift 5, and intercept + slope·Z at most 5. The sides therefore differ
+from what the constants say by less than (1+u)^5/(1−u)^5 < 1 + 11u; MARGIN is 16u. A coordinate whose square underflows
+changes a side by less than 2^least of the format, which the constants, kept above 2^(least/2), do not notice at 5u.
+An overflow of R alone means far outside, one of slope·Z alone far inside, and both compare false.
+
+Which lines a setting gets: those that decide most centres of its region, and no more than pay for themselves.
+
+At a fixed height two thresholds on R = x² + y² are all there is: exterior beyond one, interior below the other.
+
+The exterior positions are an up-set when R grows, the interior ones when it falls (docs/mathematics.md), so each
+threshold is one real number. It is found by halving an interval of exact decisions until it is narrower than a rounding
+of the format, and rounded to nearest. R carries at most 4 factors (1+δ), |δ| ≤ u (x and y may be rounded on entry), the
+threshold one and what is left of the interval less than one: an answer is right for x and y changed by 3u.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.program import Program, program_of
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.kernel import integers
+from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting, Sizes
+
+RADIAL, AXIAL = "radial_unit", "axial_unit"
+"""Names of the two powers of two, where a kernel has them."""
+
+_ONE = Fraction(1)
+UNSCALED = ScaledSetting(_ONE, _ONE, _ONE, _ONE, _ONE, _ONE)
+"""Some sizes that need no scaling: what is counted of their entry holds for all."""
+
+
+def entry(scaled: ScaledSetting) -> tuple[Program, dict[str, float]]:
+    """The program from x, y, z to R, zz and height = |z|, with the constants it takes besides them."""
+    constants = {
+        name: float(value) for name, value in ((RADIAL, scaled.radial), (AXIAL, scaled.axial)) if value != _ONE
+    }
+    lines = []
+    across, up = ("x", "y"), "z"
+    if RADIAL in constants:
+        lines += [f"x_scaled = x * {RADIAL}", f"y_scaled = y * {RADIAL}"]
+        across = ("x_scaled", "y_scaled")
+    if AXIAL in constants:
+        lines.append(f"z_scaled = z * {AXIAL}")
+        up = "z_scaled"
+    lines += [f"xx = {across[0]} * {across[0]}", f"yy = {across[1]} * {across[1]}", "R = xx + yy"]
+    lines += [f"zz = {up} * {up}", f"height = abs {up}"]
+    return program_of("entry", ("x", "y", "z", *constants), "\n".join(lines)), constants
+
+
+CENTRE = program_of(
+    "centre",
+    ("R", "zz", "waist", "opening"),
+    """
+    spread = opening * zz
+    surface = waist + spread
+    outside = R > surface
+    """,
+)
+
+
+def centre_constants(scaled: ScaledSetting, form: FloatFormat) -> dict[str, float]:
+    """α² and α²/γ² in the kernel's units. Raises OverflowError where one leaves the format."""
+    exact: dict[str, Fraction] = {
+        "waist": scaled.A * scaled.bb,
+        "opening": scaled.A * scaled.bb / (scaled.B * scaled.dd),
+    }
+    return {name: form.rounded(value) for name, value in exact.items()}
+
+
+MARGIN = 16
+"""Units u by which the constants are moved to the safe side."""
+
+
+@dataclass(frozen=True)
+class ProvedLine:
+    """A line of one side. The program's inputs are R, zz and the constants' names; its step `holds` is the proof."""
+
+    side: Position
+    multiplier: Fraction
+    program: Program
+    holds: str
+    constants: dict[str, float]
+
+
+def line_at(multiplier: Fraction, scaled: ScaledSetting, form: FloatFormat, number: int) -> ProvedLine | None:
+    """The line of this λ; None where its constants leave the format, or where no centre is beyond it.
+
+    Raises ValueError for a λ that is not strictly between the poles, or is 0.
+    """
+    if not -scaled.A < multiplier < scaled.B or multiplier == 0:
+        raise ValueError(f"λ = {multiplier} is not in (−A, 0) or (0, B)")
+    side = Position.EXTERIOR if multiplier > 0 else Position.INTERIOR
+    to_a, to_b = scaled.A + multiplier, scaled.B - multiplier
+    intercept = scaled.bb * to_a * (1 + 1 / multiplier)
+    slope = scaled.bb / scaled.dd * to_a / to_b
+    try:
+        constants = _constants(side, intercept, slope, form, number)
+    except OverflowError:
+        return None
+    if not all(2.0 ** (form.least / 2) < value < 2.0 ** (form.greatest / 2) for value in constants.values()):
+        return None
+    holds = f"beyond_line_{number}"
+    inputs = ("R", "zz", *constants)
+    return ProvedLine(side, multiplier, program_of(holds, inputs, _listing(side, constants, number)), holds, constants)
+
+
+def _constants(
+    side: Position, intercept: Fraction, slope: Fraction, form: FloatFormat, number: int
+) -> dict[str, float]:
+    more, less = 1 + MARGIN * form.unit, 1 - MARGIN * form.unit
+    if side is Position.EXTERIOR:
+        values = {"intercept": form.rounded(intercept * more, "up"), "slope": form.rounded(slope * more, "up")}
+    elif intercept > 0:
+        values = {"intercept": form.rounded(intercept * less, "down"), "slope": form.rounded(slope * less, "down")}
+    elif intercept < 0:
+        values = {"lift": form.rounded(-intercept * more, "up"), "slope": form.rounded(slope * less, "down")}
+    else:
+        values = {"slope": form.rounded(slope * less, "down")}
+    return {f"{name}_{number}": value for name, value in values.items()}
+
+
+def _listing(side: Position, constants: dict[str, float], number: int) -> str:
+    lines = [f"rise_{number} = slope_{number} * zz"]
+    right, left = f"rise_{number}", "R"
+    if f"intercept_{number}" in constants:
+        lines.append(f"border_{number} = intercept_{number} + rise_{number}")
+        right = f"border_{number}"
+    if f"lift_{number}" in constants:
+        lines.append(f"lifted_{number} = R + lift_{number}")
+        left = f"lifted_{number}"
+    lines.append(f"beyond_line_{number} = {left} {'>' if side is Position.EXTERIOR else '<'} {right}")
+    return "\n".join(lines)
+
+
+WORTH = 0.05
+"""Share of all centres that a line has to decide, beyond those before it, to be worth its four operations."""
+
+MOST_LINES = 2
+"""Lines a side at most."""
+
+Mask = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+
+
+def lines_for(
+    side: Position, scaled: ScaledSetting, form: FloatFormat, R: Floats, zz: Floats, first_number: int
+) -> tuple[tuple[ProvedLine, ...], Mask]:
+    """The lines of a side for centres with these R and zz, (n,) each, and a mask of the centres they decide."""
+    decided = np.zeros(len(R), dtype=bool)
+    chosen: list[ProvedLine] = []
+    while len(chosen) < MOST_LINES:
+        number = first_number + len(chosen)
+        tried = [(line, beyond(line, form, R, zz)) for line in _candidates(side, scaled, form, number)]
+        if not tried:
+            break
+        line, mask = max(tried, key=lambda pair: int((pair[1] & ~decided).sum()))
+        if (mask & ~decided).sum() < WORTH * len(R):
+            break
+        chosen.append(line)
+        decided |= mask
+    return tuple(chosen), decided
+
+
+def beyond(line: ProvedLine, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+    """Which centres the line decides, computed as the kernel does."""
+    inputs = {"R": R, "zz": zz, **line.constants}
+    (mask,) = outputs(line.program, float_arithmetic(form.name), inputs, (line.holds,))
+    return np.asarray(mask, dtype=bool)
+
+
+def _candidates(side: Position, scaled: ScaledSetting, form: FloatFormat, number: int) -> Iterator[ProvedLine]:
+    """Lines at λ around √A, and as near to the pole as half of it."""
+    sign, pole = (1, scaled.B) if side is Position.EXTERIOR else (-1, scaled.A)
+    root = _few_bits(Fraction(isqrt(int(scaled.A * 2**64)) or 1, 2**32))
+    multipliers = {min(root * Fraction(2) ** power, _few_bits(pole / 2)) for power in range(-6, 7)}
+    for multiplier in sorted(multipliers):
+        line = line_at(sign * multiplier, scaled, form, number)
+        if line is not None:
+            yield line
+
+
+def _few_bits(value: Fraction) -> Fraction:
+    """The value with four significant bits, rounded down: a number that a person can read."""
+    exponent = value.numerator.bit_length() - value.denominator.bit_length() - 3
+    step = Fraction(2) ** exponent
+    return value // step * step
+
+
+BACKWARD_BOUND = Fraction(3)
+
+_Test = Callable[[Fraction], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Thresholds:
+    """Exterior where R > `outer`, interior where R < `inner`; `inner` is None where no centre is interior."""
+
+    height: float
+    outer: float
+    inner: float | None
+
+
+def thresholds(sizes: Sizes, height: float, scaled: ScaledSetting, form: FloatFormat) -> Thresholds:
+    """The thresholds at a height. Raises OverflowError where one leaves the format."""
+
+    def exterior(x: Fraction) -> bool:
+        return _position(sizes, x, height) is Position.EXTERIOR
+
+    def not_interior(x: Fraction) -> bool:
+        return _position(sizes, x, height) is not Position.INTERIOR
+
+    def rounded(x: Fraction) -> float:
+        return form.rounded((x * scaled.radial) ** 2)
+
+    least = Fraction(2) ** (form.least // 2) / scaled.radial
+    outer = rounded(_first(exterior, Fraction(sizes[0]) + Fraction(sizes[2]), least, form))
+    if not_interior(Fraction(0)):
+        return Thresholds(height, outer, None)
+    return Thresholds(height, outer, rounded(_first(not_interior, Fraction(sizes[0]), least, form)))
+
+
+def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) -> Fraction:
+    """About the least x > 0 from which on it holds, within a relative u/4; it does at some x.
+
+    Raises OverflowError where that is below `least`.
+    """
+    high = start
+    while not holds(high):
+        high *= 2
+    low = high / 2
+    while low and holds(low):
+        if low < least:
+            raise OverflowError(f"a border so near to the axis has no square in {form.name}")
+        high, low = low, low / 2
+    while high - low > high * form.unit / 4:
+        middle = (low + high) / 2
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return high
+
+
+def _position(sizes: Sizes, x: Fraction, z: float) -> Position:
+    """The exact position at (x, 0, z)."""
+    alpha, gamma, b, d = map(Fraction, sizes)
+    radial, axial = _integers(alpha, b, x), _integers(gamma, d, Fraction(z))
+    return integers.position(Lengths(radial[0], radial[1], radial[2], 0, *axial))
+
+
+def _integers(*values: Fraction) -> tuple[int, int, int]:
+    unit = max(value.denominator for value in values)  # all are dyadic
+    one, two, three = (int(value * unit) for value in values)
+    return one, two, three

@@ -1,0 +1,298 @@
+"""The last stages of a specialised kernel: the Hessian discriminant with a fixed error bound, and the search on φ.
+
+The Hessian discriminant of a setting with an error bound that is one number: fixed for a box of centres.
+
+With s a power of two near (AB)^⅓ and λ = s μ, the cubic is μ³ + (c2/s) μ² + (c1/s²) μ + c0/s³, whose discriminant is
+Δ/s⁶: the sign stays and the magnitudes come near 1. In R and Z (scale.py) its coefficients are
+
+    c1/s² = V + VR R − VZ Z,  V = (c0 + A − B)/s²,  VR = B/(b² s²),  VZ = A/(d² s²)
+    c2/s  = K − KR R − KZ Z,  K = (A − B + 1)/s,    KR = 1/(b² s),   KZ = 1/(d² s),     c0/s³ = −AB/s³.
+
+Bound. derivation/rounding.py counts k factors for every term of 3Δ/s⁶, the roundings of x, y, z and of the constants
+included, so that |computed − exact| ≤ γ_k M, where M is the sum of the terms' magnitudes. M grows with |x|, |y| and
+|z|: its exact value at the far corner of a box holds in all of it. A computed value beyond that has the sign of Δ.
+
+What the sign says. Δ < 0: contact, whatever the sizes. Δ > 0: clear, where a ≥ 1 and c² ≥ a (the pair of roots below
+the largest can then be nowhere but between the poles: docs/mathematics.md), on the side on which the centre is
+(centre.py). Elsewhere Δ > 0 settles nothing, and the search is asked.
+
+The last stage: the sign of the dual function φ at the λ where it is largest, found by a search that cannot cancel.
+
+F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of
+0 the root lies, its sign half way to the pole whether it is nearer to 0 or to the pole; that distance is the unknown,
+halved first in its exponent, then itself, and the two other distances are sums of it (docs/mathematics.md).
+
+Everything that rounds is one of the programs below; a kernel adds the loop, and which side goes on.
+
+Bound. φ is computed as a sum whose terms P λ/(A+λ), Q λ/(B−λ), 1 and λ carry few factors (1+δ), |δ| ≤ u: with k of them
+on the first and second and j on the others, the computed sign is the sign of φ for P and Q changed by at most (k + j)u
+relative to 1 + λ. A claim of clear is thus right for inputs changed by half of that, wherever λ is. Where φ is not
+positive at the λ found, that λ is the true maximum for P and Q changed by the few u of F's own count; since φ is
+stationary there, the true maximum is larger by the square of that only, far below one u of the terms. So the answer
+"contact" is right for inputs changed by half of (k + j)u too, up to a share of order √u. `backward_bound` counts.
+
+Range. That holds as long as nothing overflows, which `widest` and `highest` see to: with P and Q so bounded that P, Q
+times 1, A or B, 2⁸ P/A and 2⁸ Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and beside the other
+pole, and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B)) < 2 M. Towards a
+pole F's own term may overflow: it is then the larger one. What underflows is the square of a coordinate that is nothing
+beside the semi-axes, or a term that is nothing beside 1 + λ: at most 2^least/A or 2^least/B (`_least_square`).
+
+Beginning. The λ of the maximum can be as near to 0 or to a pole as it likes; the search begins at a distance e > 0 and
+may say e where it is nearer. Next to 0 that is as good where e ≤ 1/(2 + 2 P/A) on the one side and 1/(2 + 2 Q/B) on the
+other: up to there φ ≤ P e/A − 1, or Q e/B + e − 1, is negative, at the maximum too. Next to a pole, λ and with it 1 + λ
+and the other pole's term change by a share of e/A or e/B, which is u/1024, and this pole's term becomes smaller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT
+from hypcheck.derivation.program import Program, cut, program_of
+from hypcheck.derivation.rounding import gamma, relative_error_counts
+from hypcheck.kernel.specialise.first_stages import UNSCALED, entry
+from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting, power_of_two_near
+
+COEFFICIENTS = """
+    V_across = VR * R
+    V_plus = V + V_across
+    V_up = VZ * zz
+    c1 = V_plus - V_up
+    K_across = KR * R
+    K_minus = K - K_across
+    K_up = KZ * zz
+    c2 = K_minus - K_up
+"""
+
+SLACK = 1 + Fraction(1, 2**20)
+"""Covers constants that are up to u away from their exact values where M is formed of them."""
+
+
+@dataclass(frozen=True)
+class Discriminant:
+    """`program` takes R, zz and the constants; beyond ± `bound`, its step delta_3 has the sign of Δ for certain.
+
+    That holds for centres with R ≤ `widest` and zz ≤ `highest`. `clear_where_positive`: the regime lets Δ > 0 mean
+    clear, on the side on which the centre is.
+    """
+
+    program: Program
+    constants: dict[str, float]
+    bound: float
+    widest: float
+    highest: float
+    clear_where_positive: bool
+
+
+def discriminant(
+    scaled: ScaledSetting,
+    form: FloatFormat,
+    entry: Program,
+    entry_constants: dict[str, float],
+    corner: tuple[Fraction, Fraction],
+) -> Discriminant | None:
+    """The stage for centres with |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
+
+    None where a constant or a magnitude leaves the format.
+    """
+    try:
+        _, exact = exact_constants(scaled)
+        constants = {name: form.rounded(value) for name, value in exact.items()}
+        program = program_of("discriminant", ("R", "zz", *constants), COEFFICIENTS, HESSIAN_DISCRIMINANT)
+        fixed = {name: Fraction(value) for name, value in (*entry_constants.items(), *constants.items())}
+        bound = form.rounded(
+            _bound(program, entry, {**fixed, "x": corner[0], "y": corner[0], "z": corner[1]}, form), "up"
+        )
+        far_radial, far_axial = corner[0] * scaled.radial, corner[1] * scaled.axial
+        widest, highest = form.rounded(2 * far_radial**2, "down"), form.rounded(far_axial**2, "down")
+    except OverflowError:
+        return None
+    clear = scaled.A >= 1 and scaled.B**2 >= scaled.A
+    return Discriminant(program, constants, bound, widest, highest, clear)
+
+
+def exact_constants(scaled: ScaledSetting) -> tuple[Fraction, dict[str, Fraction]]:
+    """The power of two s, and the constants before they are rounded."""
+    A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    s = power_of_two_near(A * B)
+    s = Fraction(2) ** round((s.numerator.bit_length() - s.denominator.bit_length()) / 3)
+    return s, {
+        "V": (A - B - A * B) / s**2,
+        "VR": B / (bb * s**2),
+        "VZ": A / (dd * s**2),
+        "K": (A - B + 1) / s,
+        "KR": 1 / (bb * s),
+        "KZ": 1 / (dd * s),
+        "c0": -A * B / s**3,
+    }
+
+
+def _bound(program: Program, entry: Program, corner: Mapping[str, Fraction], form: FloatFormat) -> Fraction:
+    """γ_k M at the corner; raises OverflowError where an intermediate could overflow."""
+    whole = Program("stage", _inputs(program, entry), (*entry.steps, *program.steps))
+    names = tuple(step.name for step in whole.steps)
+    counts = relative_error_counts(whole, names, frozenset(), input_roundings=1)
+    values = evaluate(counts.program, EXACT, corner)
+    if any(value >= Fraction(2) ** form.greatest for value in values.values()):
+        raise OverflowError("an intermediate can overflow")
+    magnitude = Fraction(values[str(counts.magnitudes["delta_3"])])
+    return gamma(counts.counts["delta_3"], form.unit) * magnitude * SLACK**8
+
+
+def _inputs(program: Program, entry: Program) -> tuple[str, ...]:
+    made = {step.name for step in entry.steps}
+    return tuple(dict.fromkeys((*entry.inputs, *(name for name in program.inputs if name not in made))))
+
+
+GEOMETRIC_STEPS = 15
+"""Halvings of the exponent: the 2040 octaves that a search in float64 can begin with become a tenth of one."""
+
+SPARE = 10
+"""Bits beyond the format's from which on a distance to a pole changes nothing."""
+
+START = program_of(
+    "start",
+    ("R", "zz", "height", "PR", "QZ", "AR", "CZ"),
+    """
+    P = PR * R
+    Q = QZ * zz
+    r = sqrt R
+    ar = AR * r
+    cz = CZ * height
+    """,
+)
+
+HALF = program_of("half", ("pole",), "half = pole / 2")
+
+
+def falls(end: str = "") -> Program:
+    """Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ. `end` ends the names."""
+    return program_of(
+        f"falls{end}",
+        ("ar", "cz", f"to_a{end}", f"to_b{end}"),
+        f"""
+        across{end} = ar / to_a{end}
+        along{end} = cz / to_b{end}
+        across_squared{end} = across{end} * across{end}
+        along_squared{end} = along{end} * along{end}
+        along_side{end} = along_squared{end} + 1
+        past{end} = across_squared{end} <= along_side{end}
+        """,
+    )
+
+
+GEOMETRIC = program_of(
+    "geometric", ("low", "high"), "root_low = sqrt low\n root_high = sqrt high\n middle = root_low * root_high"
+)
+ARITHMETIC = program_of("arithmetic", ("low", "high"), "sum_of_both = low + high\n middle = sum_of_both / 2")
+
+PLACE = program_of(
+    "place",
+    ("pole", "other", "distance", "near_zero", "inside"),
+    """
+    is_near_zero = near_zero > 0
+    is_inside = inside > 0
+    complement = pole - distance
+    to_pole = is_near_zero ? complement : distance
+    from_zero = is_near_zero ? distance : complement
+    to_other = other + from_zero
+    to_a = is_inside ? to_pole : to_other
+    to_b = is_inside ? to_other : to_pole
+    minus_from_zero = - from_zero
+    lambda_ = is_inside ? minus_from_zero : from_zero
+    """,
+)
+"""From the distance to 0 (near_zero = 1) or to the pole (0) to λ, A + λ and B − λ."""
+
+
+PHI = cut(FORMULAS["dual"].program, ("P", "Q", "lambda_", "A_plus_lambda", "B_minus_lambda"), ("above_zero",))
+"""The dual form from P, Q and the three distances on: the formula's own steps."""
+
+
+@dataclass(frozen=True)
+class DualSearch:
+    """The constants of a setting: A and B, products that lead to P, Q, a r and c z, and where the search begins.
+
+    It answers where R ≤ `widest` and zz ≤ `highest`; beyond, something overflows.
+    """
+
+    constants: dict[str, float]
+    steps: int
+    widest: float
+    highest: float
+
+
+def search(scaled: ScaledSetting, form: FloatFormat, corner: tuple[Fraction, Fraction]) -> DualSearch:
+    """The stage for a setting whose centres have |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
+
+    Raises OverflowError where a constant leaves the format, or what is computed of such a centre.
+    """
+    A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    if min(A, B) < _least_square(form):
+        raise OverflowError(f"a spheroid so much larger than the hyperboloid loses its terms in {form.name}")
+    widest, highest = _farthest(scaled, form)
+    if 2 * (corner[0] * scaled.radial) ** 2 > widest or (corner[1] * scaled.axial) ** 2 > highest:
+        raise OverflowError(f"products of the lengths in the region leave {form.name}")
+    exact = {
+        "A": A,
+        "B": B,
+        "PR": 1 / bb,
+        "QZ": 1 / dd,
+    }
+    constants = {name: form.rounded(value) for name, value in exact.items()}
+    constants["low_a"] = form.rounded(_begin(A, highest / dd / B, form), "down")
+    constants["low_b"] = form.rounded(_begin(B, widest / bb / A, form), "down")
+    # a r = (α/b²) √R and c z = (γ/d²) |z|: square roots of A/b² and B/d², rounded to nearest.
+    constants["AR"], constants["CZ"] = _root(A / bb, form), _root(B / dd, form)
+    ends = (form.rounded(widest, "down"), form.rounded(highest, "down"))
+    return DualSearch(constants, GEOMETRIC_STEPS + form.bits + 3, *ends)
+
+
+def _begin(pole: Fraction, steepest: Fraction, form: FloatFormat) -> Fraction:
+    """The distance to 0 or to a pole at which the search begins; `steepest` is the largest P/A or Q/B (Beginning)."""
+    beside_pole: Fraction = pole / Fraction(2) ** (form.bits + SPARE)
+    return min(beside_pole, 1 / (2 * (1 + steepest)))
+
+
+def _least_square(form: FloatFormat) -> Fraction:
+    """What A and B must not be below: 2^least beside it is far below u, and a search's first distance is normal."""
+    return Fraction(2) ** (form.least + form.bits + SPARE + 1)
+
+
+def _farthest(scaled: ScaledSetting, form: FloatFormat) -> tuple[Fraction, Fraction]:
+    """The greatest R and zz of which nothing overflows in a search."""
+    A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
+    most = Fraction(2) ** (form.greatest - 2)
+    P, Q = (most / max(Fraction(1), A, B, 2**8 / own) for own in (A, B))
+    return min(most, P * bb), min(most, Q * dd)
+
+
+def _root(value: Fraction, form: FloatFormat) -> float:
+    """√value within one u or so: of 2 bits + 8 more than the format has."""
+    shift = 2 * (form.bits + 64)
+    exponent = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 * 2 + shift
+    whole = isqrt(int(value * Fraction(2) ** exponent))
+    return form.rounded(Fraction(whole) / Fraction(2) ** (exponent // 2))
+
+
+def backward_bound() -> Fraction:
+    """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ.
+
+    Products by the units of scale.py are by powers of two and round nothing, so the unscaled entry is what is counted.
+    """
+    first, _ = entry(UNSCALED)
+    steps = (*first.steps, *(step for step in START.steps if step.name in {"P", "Q"}), *PHI.steps)
+    inputs = (*first.inputs, "PR", "QZ", "lambda_", "A_plus_lambda", "B_minus_lambda")
+    whole = Program("bound", inputs, tuple(step for step in steps if step.name != "above_zero"))
+    positive = frozenset({"PR", "QZ", "A_plus_lambda", "B_minus_lambda"})
+    counts = relative_error_counts(whole, ("P_term", "Q_term", "one_plus_lambda"), positive, input_roundings=1).counts
+    sums = 2  # P_term − Q_term and the last subtraction
+    distances = 1  # λ and a distance to a pole carry three roundings together at most; two are counted as inputs
+    on_terms = max(counts["P_term"], counts["Q_term"]) + distances + sums
+    on_others = counts["one_plus_lambda"] + 1
+    return Fraction(on_terms + on_others, 2)

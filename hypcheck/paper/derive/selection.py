@@ -1,0 +1,230 @@
+"""What `hypcheck derive` is asked for, and what its formats share: the same words, lines of 100 columns.
+
+What `hypcheck derive` is asked for: whole parts, or one claim of the paper with all that its verdict rests on.
+
+What every format says in the same words and in the same order.
+
+Lines of text in 100 columns: what stands where, whatever the letters are made of.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+
+from hypcheck.derivation.chain_book import chains
+from hypcheck.derivation.costs import Cost, costs
+from hypcheck.derivation.links import Chain
+from hypcheck.derivation.walk import walk
+from hypcheck.errors import InputError
+from hypcheck.paper.ledger import entries
+from hypcheck.paper.ledger.entry import LedgerEntry
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What is to be shown: parts by name, or where `claim` is given the entries and chains of that claim, in full.
+
+    A part is worked out when it is first looked at, so that what comes first can be read while the rest is derived.
+    """
+
+    parts: tuple[str, ...]
+    claim: str | None = None
+
+    @cached_property
+    def sections(self) -> tuple[Chain, ...]:
+        """Those of the derivation."""
+        return tuple(walk()) if "derivation" in self.parts else ()
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """The propositions, or those that a claim rests on."""
+        if self.claim is not None:
+            named = {
+                name for entry in self.entries for evidence in entry.evidence for name in _with_needs(evidence.chain)
+            }
+            return tuple(chain for name, chain in chains().items() if name in named)
+        return tuple(chains().values()) if "propositions" in self.parts else ()
+
+    @cached_property
+    def entries(self) -> tuple[LedgerEntry, ...]:
+        """The ledger, or the entries of a claim. Raises InputError where there is no such claim."""
+        if self.claim is not None:
+            return entries_of(self.claim)
+        return entries() if "ledger" in self.parts else ()
+
+    @cached_property
+    def costs(self) -> tuple[Cost, ...]:
+        """Of every way to the answer."""
+        return costs() if "costs" in self.parts else ()
+
+    @property
+    def failing(self) -> tuple[str, ...]:
+        """The names of all that is shown and does not hold, or whose verdict is not borne out."""
+        shown = (chain.name for chain in (*self.sections, *self.chains) if not chain.holds)
+        return (*shown, *(entry.number for entry in self.entries if not entry.confirmed))
+
+
+def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
+    """The entries of one number; "Proposition 3" has several. Raises InputError where there is none."""
+    asked = _plain(claim)
+    found = tuple(entry for entry in entries() if _is_of(_plain(entry.number), asked))
+    if not found:
+        raise InputError(f"there is no claim {claim!r} in the ledger; {_advice(asked)}")
+    return found
+
+
+def _with_needs(name: str) -> tuple[str, ...]:
+    """A chain's name, where there is one, and the names of those that it needs."""
+    return (name, *(each for needed in chains()[name].needs for each in _with_needs(needed))) if name else ()
+
+
+def _plain(number: str) -> str:
+    """A claim's number without what people leave out or write otherwise: "(12)", "eq. 12" and "12" are one."""
+    bare = re.sub(r"[()§]", " ", number.lower()).strip()
+    bare = re.sub(r"^(equation|eq\.?|appendix)\s*(?=[\da])", "", bare)
+    bare = re.sub(r"^prop(\.|\s)\s*", "proposition ", bare)
+    return " ".join(bare.split())
+
+
+def _is_of(number: str, asked: str) -> bool:
+    """Whether a number is the one asked for or one of its parts: "proposition 3" has "proposition 3.1"."""
+    return number == asked or bool(asked and re.match(re.escape(asked) + r"[.,:]\s?", number))
+
+
+def _advice(asked: str) -> str:
+    numbers = {_plain(entry.number): entry.number for entry in entries()}
+    near = get_close_matches(asked, numbers, n=1)
+    if near:
+        return f"did you mean {numbers[near[0]]!r}?"
+    return "give an equation's number such as 12, or Proposition 3, Remark 4, Table 2, A.2b"
+
+
+CHECKED, FAILS = "checked", "FAILS"
+
+SCENE_COLUMNS = ("+ −", "×", "÷", "√")
+QUERY_COLUMNS = ("+ −", "×", "÷", "√", "cos", "<", "rounded")
+COST_COLUMNS = (*SCENE_COLUMNS, *QUERY_COLUMNS)
+
+COSTS_EXPLAINED = (
+    "Once for a scene: what depends on the sizes alone. A position: the rest, for each new centre; “rounded” are those "
+    "of them that round (+ − × ÷ √ and cosines), “<” comparisons. ÷ in brackets: of these, by a number that the sizes "
+    "fix."
+)
+
+
+def verdict(entry: LedgerEntry) -> str:
+    """The verdict, and that it fails where the evidence does not bear it out."""
+    return entry.verdict if entry.confirmed else f"{FAILS}: {entry.verdict}"
+
+
+def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[str, str]]:
+    """Why, what was found, what is right instead, where it is harmless, and what follows, each with its title.
+
+    `in_full`: a formula as it is printed too, and not what was found, which follows with its proof.
+    """
+    if in_full and entry.printed:
+        yield "printed", entry.printed
+    yield "why", entry.why
+    if entry.proved_by:
+        yield "by", ", ".join(entry.proved_by)
+    for evidence in entry.evidence:
+        if not evidence.holds:
+            yield FAILS, evidence.text
+        elif evidence.witnesses and not in_full:
+            yield "found", evidence.text
+    if entry.correction:
+        yield "right", entry.correction
+    if entry.harmless:
+        yield "harmless", entry.harmless
+    yield "so", entry.follows
+
+
+def cost_cells(cost: Cost) -> list[str]:
+    """The numbers of a formula under COST_COLUMNS."""
+    scene, query = cost.scene, cost.query
+    divisions = f"{query.divisions}({cost.by_fixed})" if cost.by_fixed else str(query.divisions)
+    numbers = (
+        *(scene.additions, scene.multiplications, scene.divisions, scene.square_roots),
+        *(query.additions, query.multiplications, divisions, query.square_roots, query.functions, query.comparisons),
+        query.rounded,
+    )
+    return list(map(str, numbers))
+
+
+WIDTH = 100
+
+
+def columns(text: str) -> int:
+    """How many columns the text takes: marks that are set over a letter, as in H̄, take none."""
+    return sum(not unicodedata.combining(character) for character in text)
+
+
+def padded(text: str, width: int) -> str:
+    """The text with spaces up to a width."""
+    return text + " " * (width - columns(text))
+
+
+def paragraph(text: str, indent: int = 0, first: str = "") -> Iterator[str]:
+    """The text in lines, no comparison parted from its sides; `first` stands in the indent of the first line."""
+    glued = re.sub(r"(?<=\S) ([=<>≤≥≠]) (?=\S)", "\u00a0\\1\u00a0", text)
+    glued = re.sub(r"(?<=\d), (?=[\d−]\S*\)|\d+, )", ",\u00a0", glued)  # a point's coordinates stay together
+    lines = textwrap.wrap(glued, WIDTH - indent, break_long_words=False, break_on_hyphens=False)
+    for number, line in enumerate(lines or [""]):
+        yield (padded(first if number == 0 else "", indent) + line.replace("\u00a0", " ")).rstrip()
+
+
+def formula(text: str, indent: int, remark: str) -> Iterator[str]:
+    """A formula with a remark at the right edge; one that is too long is broken (see `broken`)."""
+    first, *others = broken(text, WIDTH - indent - len(remark) - 2)
+    lines = [first, *(f"    {line}" for line in others)]
+    for line in lines[:-1]:
+        yield " " * indent + line
+    yield padded(" " * indent + lines[-1], WIDTH - len(remark)) + remark
+
+
+def broken(text: str, room: int, depth: int = 0) -> list[str]:
+    """The formula in lines of at most `room` columns, broken before signs that join terms, the outermost ones first."""
+    lines = [""]
+    for piece in _terms(text, depth):
+        if columns(lines[-1] + piece) <= room or not lines[-1]:
+            lines[-1] += piece
+        else:
+            lines.append(piece.lstrip())
+    deeper = [broken(line, room, depth + 1) if columns(line) > room and depth < _DEEPEST else [line] for line in lines]
+    return [line for parts in deeper for line in parts]
+
+
+_DEEPEST = 4
+"""No formula here nests further."""
+
+
+def _terms(text: str, depth: int) -> Iterator[str]:
+    """The text cut before each spaced sign, and after each comma, that stands in at most `depth` brackets."""
+    start = level = 0
+    for place, character in enumerate(text):
+        level += (character in "([") - (character in ")]")
+        joins = text[place : place + 3] in {" + ", " − ", " ⟺ ", " = "} and place > 0
+        if level <= depth and (joins or text[place - 1 : place] == ","):
+            yield text[start:place]
+            start = place
+    yield text[start:]
+
+
+def matrix(text: str, indent: int, remark: str) -> Iterator[str]:
+    """The matrix that "H = [a, b; c, d]" says, a row a line; the remark stands at the last."""
+    name, _, inside = text.partition(" = ")
+    rows = [row.split(", ") for row in inside.strip("[]").split("; ")]
+    widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
+    last = len(rows) - 1
+    for number, row in enumerate(rows):
+        left, right = ("⎡", "⎤") if number == 0 else ("⎣", "⎦") if number == last else ("⎢", "⎥")
+        cells = "  ".join(padded(cell, width) for cell, width in zip(row, widths, strict=True))
+        title = f"{name} = " if number == last // 2 else " " * (columns(name) + 3)
+        line = f"{' ' * indent}{title}{left} {cells} {right}"
+        yield line if number < last else padded(line, WIDTH - len(remark)) + remark

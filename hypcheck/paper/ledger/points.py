@@ -1,0 +1,313 @@
+"""Small rational points, what is true of each, and the search for counterexamples and examples among them.
+
+Exact pairs with small numbers, and what a statement about pairs may speak of: Δ, the coefficients, the position.
+
+Where statements about pairs are tried: small rational points, everywhere and on thin sets.
+
+On a thin set some sign that a statement asks for is 0, and there statements fail. Each is a stratum: its points come
+from the derivation's polynomials, solved for the number that puts them there, and are kept where that number is
+rational. The space is finite and has an order, the simplest point first, so a search that finds a counterexample finds
+the least one, and one that finds none has tried every point.
+
+Searching the space of small points for counterexamples and examples, and proving what was found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise, product
+from math import gcd, isqrt, lcm
+
+import sympy
+
+from hypcheck.derivation import pencil
+from hypcheck.derivation.links import GENERIC_CUBIC
+from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.prove import prove
+
+Rational = Callable[..., Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """The unit sphere about (r, 0, z) and the hyperboloid of semi-axes a and c: by Theorem 1 every pair is one."""
+
+    a: Fraction
+    c: Fraction
+    r: Fraction
+    z: Fraction
+
+    @property
+    def cost(self) -> tuple[Fraction | int, ...]:
+        """What is less for smaller numbers: the sum of all numerators and denominators, the largest, the numbers."""
+        numbers = (self.a, self.c, self.r, self.z)
+        sizes = [abs(number.numerator) + number.denominator for number in numbers]
+        return (sum(sizes), max(sizes), *numbers)
+
+    @property
+    def pair(self) -> Pair:
+        """The same in whole numbers, which float64 holds: radial and axial lengths have a unit each."""
+        b, d = lcm(self.a.denominator, self.r.denominator), lcm(self.c.denominator, self.z.denominator)
+        return Pair(*map(float, (self.a * b, self.c * d, b, d, self.r * b, 0, self.z * d)))
+
+
+@dataclass(frozen=True, slots=True)
+class PointFacts:
+    """What is true of one point. `position` is the exact oracle's, all else from the derivation's polynomials."""
+
+    point: Point
+    A: Fraction
+    B: Fraction
+    Q: Fraction
+    c0: Fraction
+    c1: Fraction
+    c2: Fraction
+    delta: Fraction
+    slope_at_B: Fraction
+    slope_at_minus_A: Fraction
+    position: Position
+
+    @property
+    def negative_roots(self) -> int:
+        """How many real roots of g are below 0, by multiplicity.
+
+        By Descartes' rule, which is exact where all roots are real; where Δ < 0 the one real root is at least B.
+        """
+        if self.delta < 0:
+            return 0
+        signs = [number > 0 for number in (Fraction(-1), self.c2, -self.c1, self.c0) if number]
+        return sum(one != other for one, other in pairwise(signs))
+
+
+@dataclass(frozen=True, slots=True)
+class SquaredRatios:
+    """A = (α/b)², B = (γ/d)², P and Q of a pair, whose lengths may be irrational; made of texts like "12/5"."""
+
+    A: Fraction
+    B: Fraction
+    P: Fraction
+    Q: Fraction
+
+    def __init__(self, *texts: str) -> None:
+        for name, text in zip(("A", "B", "P", "Q"), texts, strict=True):
+            object.__setattr__(self, name, Fraction(text))
+
+    def __str__(self) -> str:
+        return f"A = {self.A}, B = {self.B}, P = {self.P}, Q = {self.Q}"
+
+
+def coefficients(pair: SquaredRatios) -> tuple[Fraction, Fraction, Fraction]:
+    """c2, c1 and c0 of a pair's g, by the derivation's polynomials."""
+    c2, c1, c0 = (_polynomials()[name](pair.A, pair.B, pair.P, pair.Q) for name in ("c2", "c1", "c0"))
+    return c2, c1, c0
+
+
+def discriminant(pair: SquaredRatios) -> Fraction:
+    """Δ of a pair's g."""
+    return _polynomials()["delta"](*coefficients(pair))
+
+
+def facts(point: Point) -> PointFacts:
+    """The facts of a point."""
+    A, B, P, Q = point.a**2, point.c**2, point.r**2, point.z**2
+    c0, c1, c2 = (_polynomials()[name](A, B, P, Q) for name in ("c0", "c1", "c2"))
+    return _of_coefficients(point, c0, c1, c2, exact.position(point.pair.lengths))
+
+
+def with_c2(facts: PointFacts, c2: Fraction) -> PointFacts:
+    """What the facts would be if c2 were another; the position stays what it is."""
+    return _of_coefficients(facts.point, facts.c0, facts.c1, c2, facts.position)
+
+
+def _of_coefficients(point: Point, c0: Fraction, c1: Fraction, c2: Fraction, position: Position) -> PointFacts:
+    A, B, evaluate = point.a**2, point.c**2, _polynomials()
+    delta = evaluate["delta"](c2, c1, c0)
+    at_B, at_minus_A = evaluate["slope"](c2, c1, B), evaluate["slope"](c2, c1, -A)
+    return PointFacts(point, A, B, point.z**2, c0, c1, c2, delta, at_B, at_minus_A, position)
+
+
+@cache
+def _polynomials() -> dict[str, Rational]:
+    derived = pencil.cubic()
+    coefficients = tuple(sympy.symbols("c2 c1 c0", real=True))
+    polynomials = {
+        name: rational((pencil.A, pencil.B, pencil.P, pencil.Q), getattr(derived, name)) for name in ("c0", "c1", "c2")
+    }
+    polynomials["delta"] = rational(coefficients, pencil.discriminant_of_cubic())
+    polynomials["slope"] = rational((*coefficients[:2], LAMBDA), GENERIC_CUBIC.diff(LAMBDA))
+    return polynomials
+
+
+def rational(letters: tuple[sympy.Symbol, ...], expression: sympy.Expr) -> Rational:
+    """A function of rationals for an expression with whole coefficients; sums and products of Fractions are exact.
+
+    Raises ValueError for other coefficients, which would be written as floats.
+    """
+    if any(not number.is_Integer for number in expression.atoms(sympy.Number)):
+        raise ValueError(f"{expression} has a coefficient that is no whole number")
+    return sympy.lambdify(letters, expression, modules=[{}])  # type: ignore[no-any-return]
+
+
+ZERO = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class PointStratum:
+    """A set of points with a name that says what is special about them."""
+
+    name: str
+    points: Callable[[], Iterable[Point]]
+
+
+def numbers(height: int) -> tuple[Fraction, ...]:
+    """The positive rationals in lowest terms whose numerator and denominator are at most `height`."""
+    sizes = range(1, height + 1)
+    return tuple(Fraction(top, bottom) for top, bottom in product(sizes, sizes) if gcd(top, bottom) == 1)
+
+
+def strata() -> tuple[PointStratum, ...]:
+    """All of them."""
+    return (
+        PointStratum("anywhere", lambda: _grid(numbers(3), numbers(3), _with_0(3), _with_0(3))),
+        PointStratum("the waist, z = 0", lambda: _grid(numbers(4), numbers(4), _with_0(6), (ZERO,))),
+        PointStratum("the axis, r = 0", lambda: _grid(numbers(4), numbers(4), (ZERO,), _with_0(6))),
+        PointStratum("a = 1", lambda: _grid((Fraction(1),), numbers(4), _with_0(4), _with_0(4))),
+        PointStratum(
+            "c² = a", lambda: (Point(c**2, c, r, z) for c, r, z in product(numbers(4), _with_0(4), _with_0(4)))
+        ),
+        PointStratum(
+            "a narrow throat, a and c at most 1/4", lambda: _grid(_parts(8), _parts(10), _with_0(4), _with_0(2))
+        ),
+        PointStratum("c1 = 0", lambda: _solved(pencil.cubic().c1)),
+        PointStratum("c2 = 0", lambda: _solved(pencil.cubic().c2)),
+        PointStratum("g'(B) = 0 at the waist", lambda: _solved(_slope().subs(LAMBDA, B), 12, (ZERO,))),
+        PointStratum("g'(−A) = 0", lambda: _solved(_slope().subs(LAMBDA, -A))),
+        PointStratum("double roots", _double_roots),
+    )
+
+
+@cache
+def space() -> tuple[Point, ...]:
+    """The points of all strata, each once, the simplest first."""
+    return tuple(sorted({point for stratum in strata() for point in stratum.points()}, key=lambda point: point.cost))
+
+
+def facts_in_order() -> Iterator[PointFacts]:
+    """The facts of every point of the space, the simplest first; each is found once in a process."""
+    for place, point in enumerate(space()):
+        if place == len(_FOUND):
+            _FOUND.append(facts(point))
+        yield _FOUND[place]
+
+
+_FOUND: list[PointFacts] = []
+
+
+def _slope() -> sympy.Expr:
+    return pencil.cubic().g.diff(LAMBDA)
+
+
+def _with_0(height: int) -> tuple[Fraction, ...]:
+    return (ZERO, *numbers(height))
+
+
+def _parts(most: int) -> tuple[Fraction, ...]:
+    """1/4, 1/5, … down to one part in `most`."""
+    return tuple(Fraction(1, parts) for parts in range(4, most + 1))
+
+
+def _grid(*values: Iterable[Fraction]) -> Iterator[Point]:
+    return (Point(*point) for point in product(*values))
+
+
+def _solved(condition: sympy.Expr, height: int = 4, heights: Iterable[Fraction] = ()) -> Iterator[Point]:
+    """The points where the expression in A, B, P and Q vanishes; it is linear in P."""
+    (solution,) = sympy.solve(condition, P)
+    value = rational((A, B, Q), solution)
+    for a, c, z in product(numbers(height), numbers(height), heights or _with_0(height)):
+        radius = root(value(a**2, c**2, z**2))
+        if radius is not None:
+            yield Point(a, c, radius, z)
+
+
+def _double_roots() -> Iterator[Point]:
+    """Pairs whose g has the double root m: g(m) = g'(m) = 0 is linear in P and Q."""
+    g = pencil.cubic().g
+    solution = sympy.solve([g, g.diff(LAMBDA)], [P, Q], dict=True)[0]
+    radius, height = (rational((A, B, LAMBDA), solution[letter]) for letter in (P, Q))
+    poles = [sign * number for number in numbers(4) for sign in (1, -1)]
+    for a, c, m in product(numbers(3), numbers(3), poles):
+        if m in (-(a**2), c**2):
+            continue
+        r, z = root(radius(a**2, c**2, m)), root(height(a**2, c**2, m))
+        if r is not None and z is not None:
+            yield Point(a, c, r, z)
+
+
+def root(value: Fraction) -> Fraction | None:
+    """The root of a rational, where that is a rational."""
+    if value < 0:
+        return None
+    found = Fraction(isqrt(value.numerator), isqrt(value.denominator))
+    return found if found * found == value else None
+
+
+Condition = Callable[[PointFacts], bool]
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A claim about every pair for which `where` holds: that `says` holds. `text` is the claim in words."""
+
+    text: str
+    where: Condition
+    says: Condition
+
+
+@dataclass(frozen=True, slots=True)
+class PointWitness:
+    """One point, with a certificate of its position; `shows` says in words what it shows."""
+
+    facts: PointFacts
+    certificate: Certificate
+    shows: str
+
+    @property
+    def holds(self) -> bool:
+        """Whether the certificate proves the position that the facts name, by rational arithmetic of its own."""
+        claimed = self.certificate.position is self.facts.position
+        return claimed and check_certificate(self.facts.point.pair, self.certificate)
+
+
+@dataclass(frozen=True, slots=True)
+class PointSearch:
+    """What came of a search: how many points of the regime were tried, and the first that was looked for, if any."""
+
+    tried: int
+    found: PointFacts | None
+
+
+def counterexample(statement: Statement) -> PointSearch:
+    """The simplest point of the space at which the statement is false."""
+    return first_point(lambda facts: statement.where(facts) and not statement.says(facts), statement.where)
+
+
+def first_point(wanted: Condition, where: Condition = lambda _: True) -> PointSearch:
+    """The simplest point that is wanted; `tried` counts the points up to there for which `where` holds."""
+    tried = 0
+    for facts in facts_in_order():
+        tried += where(facts)
+        if wanted(facts):
+            return PointSearch(tried, facts)
+    return PointSearch(tried, None)
+
+
+def witness(facts: PointFacts, shows: str) -> PointWitness:
+    """The point with a certificate of its position."""
+    return PointWitness(facts, prove(facts.point.pair), shows)

@@ -1,0 +1,348 @@
+"""Which method to use when: rules over what a benchmark measured, and the section that states them.
+
+Which method to use when: rules over what a benchmark measured, and nothing that somebody knows better.
+
+A method is *reliable above* a flip distance on a workload when at most 1 in 1000 of its answers beyond that distance is
+wrong. Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless said otherwise.
+Methods whose intervals overlap with the fastest's, or which the run's noise does not tell from it, are named with it.
+
+Which method to use when, as a benchmark's figures say it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from hypcheck.record import Record
+from hypcheck.record.measurements import SpeedLine
+from hypcheck.report.document import (
+    Block,
+    Code,
+    Column,
+    Paragraph,
+    Section,
+    TableCell,
+    Text,
+    bullets,
+    joined,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.messages import figure, listed, with_interval
+from hypcheck.report.model import BATCH, SINGLE, MeasuredMethod, measured_methods, noise_floor, reference, workloads
+
+DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
+"""Flip distances below which errors may not matter: a metre's 1e-12 is an atom's width, its 1e-3 a millimetre."""
+
+BEYOND = "reliable beyond"
+"""How a need begins that is about a distance."""
+
+NEARLY = 8.0
+"""Three octaves, as wide as a point of the curves: a method that is ten times as slow is not advised for less."""
+
+IN_FLOATS = ("paper", "algebraic", "roots", "foreign")
+"""Kinds that promise no more than their floats allow."""
+
+EVERYWHERE, EVERYDAY = "all workloads", "everyday scenes"
+"""Where a need is: on every workload, or on those that were timed; the others are there because methods err on them."""
+
+POSITION, CLEAR = "position", "clear or not"
+"""What is asked: one of three positions, or whether the two are apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What is needed, where, and what is asked; errors nearer to contact than `distance` do not matter."""
+
+    what: str
+    where: str = EVERYWHERE
+    asked: str = POSITION
+    distance: float = 0.0
+    mode: str = BATCH
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """For a need the fastest method that fills it, those that are not told from it, and where it errs nevertheless.
+
+    `errs` are workloads on which it is not reliable above the need's distance.
+    """
+
+    need: Need
+    use: MeasuredMethod
+    alike: tuple[MeasuredMethod, ...]
+    workload: str
+    errs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Recommendations:
+    """The advice of a record: for each need, what fills it; `unmet` are needs that nothing measured fills."""
+
+    advice: tuple[Advice, ...]
+    unmet: tuple[Need, ...]
+
+
+def recommendations(record: Record) -> Recommendations:
+    """What the record advises; nothing where it has no times. Of needs that lead to the same the strictest is told."""
+    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
+    advice: list[Advice] = []
+    unmet: list[Need] = []
+    if not timed:
+        return Recommendations((), ())
+    for need, candidates in _needs(measured_methods(record), timed):
+        found = _fastest(record, candidates, timed[0], need.mode)
+        if not found:
+            unmet.append(need)
+            continue
+        errs = [name for name, line in found[0].accuracy.items() if float(line.reliable_above) > need.distance]
+        new = Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs))
+        if not any(_covers(old, new) for old in advice):
+            advice.append(new)
+    return Recommendations(tuple(advice), tuple(unmet))
+
+
+def _covers(old: Advice, new: Advice) -> bool:
+    """Whether the same method was advised for a stricter need, so that the new one goes without saying."""
+    asked, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
+    stricter = old.need.distance <= new.need.distance and asked in _COVERED and where in _COVERED
+    wider = not old.errs or (old.errs, *where) == (new.errs, EVERYDAY, EVERYDAY)
+    return old.use is new.use and old.need.mode == new.need.mode and stricter and wider
+
+
+_COVERED = (
+    *((each, each) for each in (EVERYWHERE, EVERYDAY, POSITION, CLEAR)),
+    (EVERYWHERE, EVERYDAY),
+    (POSITION, CLEAR),
+)
+"""Who is advised for the first needs no advice for the second."""
+
+
+def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
+    position = [each for each in found if each.line.question == "position"]
+    clear = [each for each in found if each.line.question in ("position", "exterior")]
+    exact = [each for each in position if each.never_wrong]
+    yield Need("never a wrong answer"), exact
+    yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
+    row_by_row = [each for each in exact if each.tier == "python"]
+    if row_by_row:  # by their batches: a single call may take no longer than the empty one that is taken off
+        yield Need("never a wrong answer, a call a row from Python"), row_by_row
+    floats = [each for each in position if not each.exact and each.line.kind in IN_FLOATS]
+    for precision in ("float64", "float32"):
+        yield from _nearest(f"plain {precision}", [each for each in floats if each.line.precision == precision])
+    for words, distance in DISTANCES.items():
+        what = f"{BEYOND} {words}"
+        yield Need(what, distance=distance), _reliable(position, distance)
+        yield Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)
+        yield Need(what, EVERYDAY, CLEAR, distance), _reliable(clear, distance, timed)
+    words, distance = next(iter(DISTANCES.items()))
+    what = f"{BEYOND} {words}, in numpy"
+    for need, fitting in (
+        (Need("never a wrong answer, in numpy"), exact),
+        (Need(what, distance=distance), _reliable(position, distance)),
+        (Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)),
+    ):
+        if any(each.tier == "numpy" for each in fitting):
+            yield need, [each for each in fitting if each.tier == "numpy"]
+    yield from _nearest("a mesh, because an engine has one", [each for each in found if each.line.kind == "mesh"])
+
+
+def _nearest(what: str, found: Sequence[MeasuredMethod]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
+    """Those of the found that are reliable nearest to contact, or not NEARLY times as far from it."""
+    best = min((each.reliable_above for each in found), default=math.inf)
+    if best < math.inf:
+        distance = NEARLY * best
+        need = Need(f"{what}; errors end by {figure(distance)}" if best else f"{what}; none wrong", distance=distance)
+        yield need, [each for each in found if each.reliable_above <= distance]
+
+
+def _reliable(
+    found: Iterable[MeasuredMethod], distance: float, names: Sequence[str] | None = None
+) -> list[MeasuredMethod]:
+    """Those that are reliable above the distance on all workloads, or on the named ones."""
+
+    def holds(each: MeasuredMethod) -> bool:
+        lines = [line for name, line in each.accuracy.items() if names is None or name in names]
+        return bool(lines) and all(float(line.reliable_above) <= distance for line in lines)
+
+    return [each for each in found if each.line.kind != "bounding" and holds(each)]
+
+
+def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
+    """The fastest, and behind it those that are not told from it, by their ratios."""
+    ranked = sorted(
+        ((ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None),
+        key=lambda pair: pair[0],
+    )
+    if not ranked:
+        return []
+    least, best = ranked[0]
+    floor = noise_floor(record, workload, mode) or 0.0
+    high = _interval(best, workload, mode)[1]
+    return [
+        each
+        for ratio, each in ranked
+        if each is best or ratio <= least * (1 + floor) or _interval(each, workload, mode)[0] <= high
+    ]
+
+
+def _interval(each: MeasuredMethod, workload: str, mode: str) -> tuple[float, float]:
+    line = each.speed[workload, mode]
+    ratio = line.ratio or 0.0
+    return line.ratio_ci95 or (ratio, ratio)
+
+
+@dataclass(frozen=True, slots=True)
+class ExactnessPrice:
+    """The fastest method that was never wrong, the fastest that was, and the ratios of their times by workload."""
+
+    never: MeasuredMethod
+    fastest: MeasuredMethod
+    ratios: tuple[tuple[str, float], ...]
+
+
+def exactness_price(record: Record) -> ExactnessPrice | None:
+    """What it costs never to be wrong in a batch, the fastest being those of the first timed workload.
+
+    None where not both were timed there.
+    """
+    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
+    ranked = sorted(
+        (
+            (ratio, each)
+            for each in measured_methods(record)
+            for name in timed[:1]
+            if (ratio := each.ratio(name)) is not None
+        ),
+        key=lambda pair: pair[0],
+    )
+    never = next((pair for pair in ranked if pair[1].never_wrong), None)
+    fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line.kind != "bounding"), None)
+    if never is None or fastest is None:
+        return None
+    pairs = [(name, never[1].ratio(name), fastest[1].ratio(name)) for name in timed]
+    return ExactnessPrice(
+        never[1], fastest[1], tuple((name, mine / other) for name, mine, other in pairs if mine and other)
+    )
+
+
+def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
+    """Methods with one of the same tier and question that is faster beyond doubt and reliable at least as near."""
+    found = [each for each in measured_methods(record) if each.line.kind != "bounding"]
+    timed = [name for name in workloads(record) if any((name, BATCH) in each.speed for each in found)]
+    if not timed:
+        return []
+    pairs = []
+    for each in found:
+        faster = [other for other in found if _beats(other, each, timed)]
+        if faster:
+            pairs.append((each, min(faster, key=_by_ratio(timed[0]))))
+    return pairs
+
+
+def _reach(each: MeasuredMethod, workload: str) -> float:
+    return float(each.accuracy[workload].reliable_above)
+
+
+def _by_ratio(workload: str) -> Callable[[MeasuredMethod], float]:
+    return lambda each: each.ratio(workload) or math.inf
+
+
+def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) -> bool:
+    if (other.tier, other.line.question) != (each.tier, each.line.question):
+        return False
+    if (each.exact and not other.exact) or each.accuracy.keys() != other.accuracy.keys():
+        return False
+    if any(_reach(other, name) > _reach(each, name) for name in each.accuracy):
+        return False
+    shared = [name for name in timed if each.ratio(name) is not None and other.ratio(name) is not None]
+    return bool(shared) and all(_interval(other, name, BATCH)[1] < _interval(each, name, BATCH)[0] for name in shared)
+
+
+_HOW = prose(
+    "The fastest method that fills the need, by its ratio to the run's reference; nanoseconds are this machine's. Those"
+    " that the intervals or the noise of the run do not tell from it are named behind it. *Reliable above* a flip"
+    " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that is spoken of. A need without a"
+    " line of its own is filled by a stricter one's. What was not measured is not spoken of either: gate a method on"
+    " your own scene before you rely on it."
+)
+
+
+def advice_sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing was timed."""
+    chosen = recommendations(record)
+    if not chosen.advice:
+        return
+    known = workloads(record)
+    timed = [line for name, line in known.items() if any(each.workload == name for each in record.of(SpeedLine))]
+    scenes = listed([str(line.title) for line in timed])
+    against = reference(record)
+    said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
+    if against is not None:
+        said.append(("The reference, of ratio 1, is ", Code(against), "."))
+    said += [(f"Nothing measured fills this: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
+    worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in dominated_methods(record)]
+    if worse:
+        lead = "Beaten by a method of the same tier that is faster beyond doubt and errs no farther from contact: "
+        said.append((lead, joined(worse), "."))
+    blocks: tuple[Block, ...] = (Paragraph(_HOW), _advice_table(chosen.advice), bullets(said))
+    yield Section("Which method to use when", blocks)
+
+
+def _price_sentences(record: Record) -> Iterator[Text]:
+    """What it costs never to be wrong."""
+    found = exactness_price(record)
+    if found is not None:
+        known, distance = workloads(record), found.fastest.reliable_above
+        errs = (
+            f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
+        )
+        times = listed([f"{figure(ratio)} times ({known[name].title})" for name, ratio in found.ratios])
+        fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
+        lead = "What it costs never to be wrong: in a batch "
+        yield (lead, Code(found.never.name), f" takes {times} as long as ", fastest, ".")
+
+
+def advised_method_sections(record: Record) -> Iterator[Section]:
+    """What the methods are that are advised, in a section."""
+    found = {each.use.name: each.use for each in recommendations(record).advice}
+    if found:
+        items: list[Text] = [
+            (
+                Code(name),
+                f", {each.tier}: {each.line.title}",
+                f"; {note}" if (note := each.line.note) else "",
+                ".",
+            )
+            for name, each in found.items()
+        ]
+        yield Section("What these methods are", (bullets(items),), level=3)
+
+
+def _advice_table(advice: tuple[Advice, ...]) -> Block:
+    numbers = (number("time ratio"), number("ns a query"), number("judged"))
+    columns: tuple[Column | str, ...] = (
+        *("you need", "use", "in", "asked"),
+        *numbers,
+        *("not told from it", "not reliable on"),
+    )
+    return table("which method to use when", columns, [_advice_row(each) for each in advice])
+
+
+def _advice_row(each: Advice) -> tuple[TableCell, ...]:
+    line = each.use.speed[each.workload, each.need.mode]
+    ratio = line.ratio or 0.0
+    return (
+        TableCell(each.need.what),
+        TableCell(Code(each.use.name)),
+        TableCell(each.need.where),
+        TableCell(each.need.asked),
+        TableCell(with_interval(ratio, line.ratio_ci95), ratio),
+        TableCell(figure(line.median_ns), line.median_ns),
+        TableCell(f"{each.use.asked:,}", each.use.asked),
+        TableCell(joined([Code(other.name) for other in each.alike])),
+        TableCell(", ".join(each.errs)),
+    )

@@ -1,0 +1,224 @@
+"""A whole report: title, verdict and sections in reading order; and the short one, the overview.
+
+The run itself: when, on what machine, with what versions and options.
+
+What failed the run: every failure with its case and the command that shows it.
+
+What a benchmark compared: its methods, its workloads, and what was not there.
+
+A whole report: its title, its verdict, and its sections in the order in which they are read.
+
+One page about a run for whoever reads no other: what it shows, what to use when, and its pictures.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+
+from hypcheck.record import Record
+from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
+from hypcheck.report import advice, changes
+from hypcheck.report.document import (
+    Block,
+    Bullets,
+    Code,
+    Column,
+    Either,
+    Section,
+    Strong,
+    TableBlock,
+    TableCell,
+    Text,
+    bullets,
+    table,
+)
+from hypcheck.report.messages import counted, figure, settings_facts
+from hypcheck.report.model import measured_methods
+from hypcheck.report.sections import accuracy, times, verification
+from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
+from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
+from hypcheck.report.verdict import Failure, Verdict, failures, verdict
+
+
+def settings_sections(record: Record) -> Iterator[Section]:
+    """The settings file of the run and what weakens its gate; none where every option is as strict as its default."""
+    found = list(settings_facts(record.header.settings))
+    if found:
+        items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in found]
+        yield Section("Settings", (bullets(items),))
+
+
+def run_sections(record: Record) -> Iterator[Section]:
+    """The section; every record has it."""
+    header, machine = record.header, record.header.machine
+    versions = {"hypcheck": header.hypcheck, "Python": header.python, **header.versions}
+    seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
+    processor = f"{machine.processor}, {machine.architecture}, {machine.system}"
+    cores = counted(machine.cores, "core") if machine.cores else "cores unknown"
+    items = (
+        f"Started {header.started}{seconds}.",
+        f"Machine: {processor}, {cores}.",
+        f"Versions: {', '.join(f'{name} {version}' for name, version in versions.items())}.",
+        ("Options: ", Code(json.dumps(header.options, ensure_ascii=False)), "."),
+        "A case id, family/version/seed/index, names a generated case for ever.",
+    )
+    yield Section("The run", (bullets(items),))
+
+
+LISTED = 50
+"""Failures that a text shows one by one."""
+
+IN_TABLE = 1000
+"""Failures in the page's table; junit.xml and summary.json have all."""
+
+
+def failure_sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing failed."""
+    found = failures(record)
+    if found:
+        yield Section("What failed", (Either(page=_failure_table(found), text=_failure_list(found)),))
+
+
+def _failure_list(found: list[Failure]) -> Bullets:
+    items: list[Text] = []
+    for failure in found[:LISTED]:
+        place: Text = (" (", Code(failure.place), ")") if failure.place else ""
+        case: Text = (" Case ", Code(failure.case), place, ": ", Code(failure.replay or "")) if failure.case else ""
+        items.append((Strong((failure.subject, ", ", failure.group)), ": ", failure.message, ".", case))
+    return bullets([*items, *_omitted_failures(len(found) - LISTED)])
+
+
+def _failure_table(found: list[Failure]) -> TableBlock:
+    """With the commands that show them, where there are any."""
+    columns, replays = ("which", "where", "what happened"), any(failure.replay for failure in found)
+    rows = [
+        (*_failure_row(failure), *([Code(failure.replay or "")] if replays else [])) for failure in found[:IN_TABLE]
+    ]
+    rest = [("", "", text, *([""] if replays else [])) for text in _omitted_failures(len(found) - IN_TABLE)]
+    return table("failures", (*columns, *(["look at it with"] if replays else [])), [*rows, *rest])
+
+
+def _failure_row(failure: Failure) -> tuple[Text, ...]:
+    place: Text = (" (", Code(failure.place), ")") if failure.place else ""
+    return Code(failure.name), failure.group, (failure.message, place)
+
+
+def _omitted_failures(left_out: int) -> list[Text]:
+    if left_out <= 0:
+        return []
+    files = (Code("junit.xml"), " and ", Code("summary.json"))
+    return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]
+
+
+def compared_sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing was measured."""
+    found = measured_methods(record)
+    if not found:
+        return
+    columns: tuple[Column | str, ...] = ("method", "what it is", "tier", "precision", "question", "exact", "remarks")
+    rows = [
+        (
+            TableCell(Code(each.name)),
+            TableCell(each.line.title),
+            TableCell(each.tier),
+            TableCell(each.line.precision),
+            TableCell(each.line.question),
+            TableCell("yes" if each.exact else ""),
+            TableCell("; ".join(_remarks(each.line))),
+        )
+        for each in found
+    ]
+    items = [
+        (Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
+        for line in record.of(WorkloadLine)
+    ]
+    missing = [f"Not there: {line.what}: {line.reason}." for line in record.of(AbsentLine)]
+    compiled = [
+        f"Compiled with {line.program} {line.version}: {' '.join(line.flags)}." for line in record.of(CompilerLine)
+    ]
+    blocks: list[Block] = [table("methods", columns, rows), bullets([*items, *compiled, *missing])]
+    yield Section("What was compared", tuple(blocks))
+
+
+def _remarks(line: MethodLine) -> Iterator[str]:
+    if line.amortised:
+        yield f"its mesh is {line.amortised}".replace("is build", "is built")
+    if line.accuracy_only:
+        yield "not timed"
+    if line.note:
+        yield str(line.note)
+
+
+PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
+    failure_sections,
+    settings_sections,
+    times.baseline_sections,
+    advice.advice_sections,
+    accuracy.error_sections,
+    accuracy.peer_sections,
+    times.speed_sections,
+    times.target_sections,
+    times.scene_sections,
+    compared_sections,
+    verification.oracle_sections,
+    verification.paper_sections,
+    verification.gated_sections,
+    verification.method_sections,
+    accuracy.family_sections,
+    verification.map_sections,
+    verification.timing_sections,
+    run_sections,
+)
+"""What failed comes first, what was run last; each part has nothing to say where the record has none of its lines."""
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What every report for people shows."""
+
+    title: str
+    verdict: Verdict
+    sections: tuple[Section, ...]
+
+
+def content(record: Record, against: Record | None = None) -> Content:
+    """The content of a record's report; with another record, what changed against it stands behind what failed."""
+    sections = [section for part in PARTS for section in part(record)]
+    if against is not None:
+        failing = sum(1 for _ in failure_sections(record))
+        sections[failing:failing] = changes.change_sections(record, against)
+    return Content(report_title(record), verdict(record), tuple(sections))
+
+
+def report_title(record: Record) -> str:
+    """The command that made the record."""
+    return f"hypcheck {record.header.options.get('command', 'verify')}"
+
+
+_OTHER_REPORTS = (
+    "All reports of this run, with every table, plot and measurement, are made from its record by ",
+    Code("hypcheck report record.jsonl --out FOLDER"),
+    ".",
+)
+
+
+def overview(record: Record, beside: Collection[str]) -> Content:
+    """The content of the page; `beside` are the names of the files beside it, whose pictures it shows."""
+    parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
+    shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
+    pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
+    sections = [
+        *failure_sections(record),
+        *settings_sections(record),
+        *advice.advice_sections(record),
+        *advice.advised_method_sections(record),
+        *([Section("Pictures", pictures[:1])] if pictures else []),
+        *([Section("What it shows", (shows,))] if shows.items else []),
+        *times.claim_sections(record),
+        *([Section("More pictures", pictures[1:])] if pictures[1:] else []),
+        *run_sections(record),
+        Section("The rest", (bullets([_OTHER_REPORTS]),)),
+    ]
+    return Content(report_title(record), verdict(record), tuple(sections))

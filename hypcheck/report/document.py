@@ -1,0 +1,195 @@
+"""A report as values that know no format: sections of paragraphs, lists, tables and figures.
+
+Text is foreign unless it went through `prose`: whoever renders it makes it harmless.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Union
+
+LONGEST = 2000
+"""Characters of one foreign text that a report shows; a name of a megabyte would bury everything else."""
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """Text that is typed somewhere: a name, an id, a command."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Strong:
+    """What must not be overlooked."""
+
+    text: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Emphasis:
+    """A term where it is explained."""
+
+    text: Text
+
+
+Text = Union[str, Code, Strong, Emphasis, "tuple[Text, ...]"]
+"""Running text: a string means itself, a tuple its parts one after the other."""
+
+_MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
+
+
+def prose(words: str) -> Text:
+    """Our own words, in which `code`, **strong** and *emphasised* are marked; never for what others say."""
+    parts: list[Text] = []
+    end = 0
+    for found in _MARKS.finditer(words):
+        code, strong, emphasis = found.groups()
+        parts.append(words[end : found.start()])
+        parts.append(Code(code) if code else Strong(strong) if strong else Emphasis(emphasis))
+        end = found.end()
+    return tuple(part for part in (*parts, words[end:]) if part)
+
+
+def bounded(foreign: str) -> str:
+    """The text, cut where it is endless, with a word about how long it is."""
+    return foreign if len(foreign) <= LONGEST else f"{foreign[:LONGEST]}… ({len(foreign):,} characters)"
+
+
+def joined(texts: Sequence[Text], separator: str = ", ") -> Text:
+    """The texts with a separator between them."""
+    parts: list[Text] = []
+    for text in texts:
+        parts += [separator, text] if parts else [text]
+    return tuple(parts)
+
+
+def plain(text: Text) -> str:
+    """The text without its marks."""
+    if isinstance(text, str):
+        return text
+    if isinstance(text, Code):
+        return text.text
+    if isinstance(text, (Strong, Emphasis)):
+        return plain(text.text)
+    return "".join(plain(part) for part in text)
+
+
+@dataclass(frozen=True, slots=True)
+class TableCell:
+    """A table's cell: its text, the number it is sorted by, and whether it is good or bad news ("good", "bad")."""
+
+    text: Text
+    value: float | None = None
+    tone: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A table's column; numbers are set to the right. `hint` explains the title."""
+
+    title: Text
+    number: bool = False
+    hint: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class TableBlock:
+    """A table; `name` says what it holds, for those who do not see the heading above it."""
+
+    name: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[TableCell, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """A paragraph."""
+
+    text: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """An item of a list, with items of its own below it."""
+
+    text: Text
+    below: tuple[Text, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Bullets:
+    """A list; one without items is not shown."""
+
+    items: tuple[Item, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """The plots of that name, where they can be drawn and shown; `file` is that of a report beside this one.
+
+    `small` ones stand many in a row; `legend` says what the roles of their colours mean.
+    """
+
+    name: str
+    alt: str = ""
+    file: str | None = None
+    small: bool = False
+    legend: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Details:
+    """What only the page has, folded away under a title."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Either:
+    """The same thing twice: for the page, which sorts and filters, and for a text, which is read from top to bottom."""
+
+    page: Block
+    text: Block
+
+
+Block = Paragraph | Bullets | TableBlock | Figures | Details | Either
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of a report under a heading; `level` 2 is a part of the whole, 3 a part of the section before it.
+
+    `page` says that the page alone has it, and a text has not.
+    """
+
+    title: Text
+    blocks: tuple[Block, ...]
+    level: int = 2
+    page: bool = False
+
+
+def table(name: str, columns: Iterable[Column | str], rows: Iterable[Iterable[TableCell | Text]]) -> TableBlock:
+    """A table of columns (a string is a column of text) and cells (a text is a cell without a value)."""
+    heads = tuple(Column(each) if isinstance(each, str) else each for each in columns)
+    cells = tuple(tuple(each if isinstance(each, TableCell) else TableCell(each) for each in row) for row in rows)
+    return TableBlock(name, heads, cells)
+
+
+def bullets(items: Sequence[Text | Item]) -> Bullets:
+    """A list of texts or items."""
+    return Bullets(tuple(each if isinstance(each, Item) else Item(each) for each in items))
+
+
+def count(number: int, *, bad: bool = False) -> TableCell:
+    """A count; with `bad` one that should be zero stands out."""
+    shown = f"{number:,}"
+    return TableCell(Strong(shown), number, "bad") if bad and number else TableCell(shown, number)
+
+
+def number(title: Text, hint: str = "") -> Column:
+    """A column of numbers."""
+    return Column(title, number=True, hint=hint)

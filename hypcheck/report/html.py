@@ -1,0 +1,158 @@
+"""report.html: one file that needs no other and no network, for any screen, keyboard, paper or colours.
+
+Its content security policy lets no style and no script run but its own, which it names by their hashes; templates
+escape whatever is put into them.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from hypcheck.errors import UnavailableError
+from hypcheck.messages import escaped
+from hypcheck.record import Record
+from hypcheck.report.contents import content
+from hypcheck.report.document import (
+    Block,
+    Bullets,
+    Code,
+    Details,
+    Either,
+    Emphasis,
+    Figures,
+    Paragraph,
+    Section,
+    Strong,
+    TableBlock,
+    Text,
+    bounded,
+    plain,
+)
+from hypcheck.report.plots.pictures import Drawings, drawn_plots
+from hypcheck.version import VERSION
+
+if TYPE_CHECKING:
+    import jinja2
+    import markupsafe
+
+    from hypcheck.report.write import ReportContext
+
+
+_TAGS = {Strong: "strong", Emphasis: "em"}
+
+
+def html_text(words: Text) -> markupsafe.Markup:
+    """Running text as an element's content: foreign text is escaped, made visible, and cut where it is endless."""
+    import markupsafe  # noqa: PLC0415
+
+    if isinstance(words, str):
+        edges = (" " * words[:1].isspace(), " " * words[-1:].isspace())
+        return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
+    if isinstance(words, Code):
+        shown = escaped(bounded(words.text))
+        return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
+    if isinstance(words, (Strong, Emphasis)):
+        tag = _TAGS[type(words)]
+        return markupsafe.Markup(f"<{tag}>") + html_text(words.text) + markupsafe.Markup(f"</{tag}>")  # noqa: S704
+    return markupsafe.Markup().join(map(html_text, words))
+
+
+_KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", TableBlock: "table"}
+
+
+@dataclass(frozen=True, slots=True)
+class _TemplateBlock:
+    """A block as the templates take it: its kind, and for those that hold others or plots what is in them."""
+
+    kind: str
+    value: Any
+    blocks: tuple[_TemplateBlock, ...] = ()
+    plots: tuple[dict[str, Any], ...] = ()
+    missing: str = ""
+
+
+def render(record: Record, around: ReportContext | None = None) -> bytes:
+    """The page in UTF-8. Raises UnavailableError where jinja2 is missing; without matplotlib it has no plots."""
+    environment = _environment()
+    from hypcheck.report.plots.svg import css  # noqa: PLC0415
+
+    whole = content(record, around.against if around else None)
+    style, script = css() + _template("style.css"), _template("script.js")
+    page: str = environment.get_template("page.html").render(
+        title=whole.title,
+        verdict=whole.verdict,
+        sections=list(_sections(whole.sections, record, around.drawings if around else {})),
+        version=VERSION,
+        style=_trusted(style),
+        script=_trusted(script),
+        style_hash=_hash(style),
+        script_hash=_hash(script),
+    )
+    return (page + "\n").encode("utf-8", "replace")
+
+
+def _template(name: str) -> str:
+    return resources.files("hypcheck.report").joinpath("templates", name).read_text(encoding="utf-8").strip()
+
+
+def _hash(text: str) -> str:
+    """As a content security policy names a text."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
+
+
+def _trusted(text: str) -> Any:  # noqa: ANN401 - Markup, whose module is an extra
+    """Our own text, or what svg.py made of foreign text, which needs no escaping."""
+    from markupsafe import Markup  # noqa: PLC0415
+
+    return Markup(text)  # noqa: S704
+
+
+def _environment() -> jinja2.Environment:
+    try:
+        import jinja2  # noqa: PLC0415
+    except ImportError as error:
+        reason = f"jinja2 cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
+        raise UnavailableError(reason) from None
+    environment = jinja2.Environment(
+        loader=jinja2.FunctionLoader(_template),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"text": html_text, "plain": plain}
+    return environment
+
+
+def _sections(sections: tuple[Section, ...], record: Record, drawings: Drawings) -> Iterator[dict[str, Any]]:
+    for number, section in enumerate(sections):
+        words = re.sub(r"[^a-z0-9]+", "-", plain(section.title).lower())[:40].strip("-")
+        blocks = [_template_block(block, record, drawings) for block in section.blocks]
+        anchor = f"s{number}-{words}"
+        yield {"title": section.title, "level": section.level, "anchor": anchor, "blocks": blocks}
+
+
+def _template_block(block: Block, record: Record, drawings: Drawings) -> _TemplateBlock:
+    if isinstance(block, Either):
+        return _template_block(block.page, record, drawings)
+    if isinstance(block, Details):
+        return _TemplateBlock("details", block, tuple(_template_block(each, record, drawings) for each in block.blocks))
+    if isinstance(block, Figures):
+        return _figures(block, record, drawings)
+    return _TemplateBlock(_KINDS[type(block)], block)
+
+
+def _figures(block: Figures, record: Record, drawings: Drawings) -> _TemplateBlock:
+    try:
+        plots = tuple(
+            {"title": plot.title, "svg": _trusted(plot.svg)} for plot in drawn_plots(block.name, record, drawings)
+        )
+    except UnavailableError as error:
+        return _TemplateBlock("figures", block, missing=f"The plots are missing: {error}")
+    return _TemplateBlock("figures", block, plots=plots)

@@ -1,0 +1,188 @@
+"""Numbers, rows, declarations and commands as every report words them.
+
+Numbers, lists and rows as a person reads them.
+
+What a gated implementation says of itself, and as what it was judged, in the words of every report.
+
+And what the settings of a run say that weakens its gate.
+
+The recorded cases again: the number that each has in its record, and the command that shows it.
+"""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from msgspec import UnsetType
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.implementations.session import Limits
+from hypcheck.messages import counted
+from hypcheck.record import Record
+from hypcheck.record.lines import (
+    DescriptionPart,
+    DomainPart,
+    FaultPart,
+    GroupLine,
+    ImplementationLine,
+    NotStartedLine,
+    SettingsPart,
+    WrongAnswer,
+)
+from hypcheck.record.reader import recorded_cases
+from hypcheck.runs.judge import DEFAULT_TOLERANCE
+
+__all__ = ["classify_command", "counted", "figure", "from_hex", "listed", "short_row", "with_interval"]
+
+
+def listed(items: Sequence[str], last: str = "and") -> str:
+    """The items as a sentence has them: "a, b and c"."""
+    return f" {last} ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
+
+
+def figure(value: float) -> str:
+    """A measured value to three digits: 0, 0.8, 12.3, 4,820, 3.1e7, ∞."""
+    if math.isinf(value):
+        return "∞"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 999.5:
+        return f"{value:.3g}"
+    if 999.5 <= abs(value) < 1e6:
+        return f"{float(f'{value:.3g}'):,.0f}"
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def with_interval(value: float, interval: Sequence[float] | None) -> str:
+    """A value with the ends of its interval, where it has one: "1.2 (1.1 to 1.3)"."""
+    return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
+
+
+def from_hex(row: Sequence[str]) -> tuple[float, ...]:
+    """The seven numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
+    try:
+        return tuple(float.fromhex(value) for value in row)
+    except OverflowError:
+        raise InputError(f"the record has a number that is too large for float64 in the row {', '.join(row)}") from None
+
+
+def short_row(row: Sequence[float]) -> str:
+    """A row to six digits, enough to see what is meant: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)"."""
+    sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
+    return f"{sizes}, centre ({', '.join(f'{value:.6g}' for value in row[4:])})"
+
+
+def classify_command(row: Sequence[float]) -> str:
+    """The command that decides a row exactly and proves it; the decimals read back as the same float64."""
+    sizes = " ".join(f"--{name} {value!r}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
+    return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:]))}"
+
+
+def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
+    """One sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
+
+    None where there is no settings file and every option that decides is as strict as its default.
+    """
+    if not settings:
+        return
+    parts = [f"settings are those of {settings.file}"] if settings.file else []
+    weakened = settings.weakened
+    if weakened:
+        named = (f"{each.option} {each.value}, not {each.default} ({each.source})" for each in weakened)
+        parts.append(f"weaker than the default: {'; '.join(named)}")
+    yield "; ".join(parts)
+
+
+def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator[str]:
+    """Sentences without a full stop from the record's line about an implementation; none of one that did not start."""
+    if isinstance(line, NotStartedLine):
+        return
+    declared, used = line.declared, line.used
+    changed = [name for name in ("question", "precision", "domain") if getattr(declared, name) != getattr(used, name)]
+    yield f"declares {description_text(declared)}"
+    if changed:
+        yield f"judged as {listed([_declared_value(used, name) for name in changed])}, as the options say"
+    again, restarts = line.again, line.restarts
+    other = again.within + again.beyond
+    asked = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
+    beyond = f" ({again.beyond:,} beyond the tolerance)"
+    repeated = f"{asked}{beyond}" if again.asked else "nothing to ask again: no answer was judged"
+    yield f"{repeated}; {counted(restarts, 'restart')}"
+
+
+def description_text(description: DescriptionPart) -> str:
+    """Question, precision, domain and the rest of a description: what it answers, and where it claims to be right."""
+    parts = [_declared_value(description, name) for name in ("question", "precision", "domain")]
+    parts += [text for text in (description.language, description.version) if text]
+    if description.refuses:
+        parts.append("refuses invalid rows")
+    return ", ".join(parts)
+
+
+def _declared_value(description: DescriptionPart, name: str) -> str:
+    return domain_text(description.domain) if name == "domain" else str(getattr(description, name))
+
+
+def domain_text(value: DomainPart) -> str:
+    """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
+    regimes = listed(value.regimes) if value.regimes else "every regime"
+    ranges = [f"ratios {_range(value.ratio)}", f"magnitudes {_range(value.magnitude)}"]
+    settings = value.settings or ()
+    sizes = [f"({', '.join(f'{size:.6g}' for size in each.sizes)})" for each in settings]
+    only = [f"only α, γ, b, d = {listed(sizes, 'or')}"] if sizes else []
+    return ", ".join([regimes, *only, *ranges])
+
+
+def _range(limits: tuple[float, float] | None) -> str:
+    return "not declared" if limits is None else " to ".join(figure(limit) for limit in limits)
+
+
+_LIMITS = ("startup_timeout", "timeout", "memory")
+
+
+@dataclass(frozen=True)
+class Replays:
+    """The cases of one record: `numbers` by the identity of a case, `options` that judge as the run did."""
+
+    numbers: Mapping[int, int]
+    options: tuple[str, ...]
+
+    @classmethod
+    def of(cls, record: Record) -> Replays:
+        """Those of a record."""
+        numbers = {id(each.case): each.number for each in recorded_cases(record)}
+        return cls(numbers, tuple(_options(record.header.options)))
+
+    def place(self, case: WrongAnswer | FaultPart) -> str:
+        """Where the case stands, as `hypcheck replay` reads it beside the record: record.jsonl:7."""
+        return f"record.jsonl:{self.numbers[id(case)]}"
+
+    def command(self, group: GroupLine, case: WrongAnswer | FaultPart) -> str:
+        """The command that replays a case of a gated implementation, or decides and proves one of our own methods'."""
+        if not group.tested:
+            return classify_command(from_hex(case.row))
+        return shlex.join(["hypcheck", "replay", str(case.case), str(group.spec), *self.options])
+
+
+def tolerance_of(options: Mapping[str, Any]) -> float | None:
+    """The tolerance of a run in units u, None where its options, of which the schema says nothing, have no number."""
+    tolerance = options.get("tolerance")
+    return float(tolerance) if isinstance(tolerance, (int, float)) else None
+
+
+def _options(options: Mapping[str, Any]) -> list[str]:
+    """Options of the run that are not the usual ones and change what a replay shows."""
+    said = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
+    tolerance = tolerance_of(options)
+    if tolerance is not None and tolerance != DEFAULT_TOLERANCE:
+        said.append(f"--tolerance={tolerance:g}")
+    limits, usual = options.get("limits"), Limits()
+    limits = limits if isinstance(limits, dict) else {}
+    unusual = [name for name in _LIMITS if name in limits and limits[name] != getattr(usual, name)]
+    return said + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual]

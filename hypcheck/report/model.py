@@ -1,0 +1,363 @@
+"""The totals of a record: each oracle, each implementation, each measured method. Every report starts here.
+
+What the lines of a record come to: totals for each oracle and each implementation. Every report starts here.
+
+What a benchmark's lines come to: each method with its errors, times and memory by workload.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from hypcheck.record import Record
+from hypcheck.record.lines import (
+    FindingLine,
+    GroupLine,
+    NotStartedLine,
+    OracleLine,
+    TimingLine,
+    UnavailableLine,
+    WrongAnswer,
+)
+from hypcheck.record.lines import ImplementationLine as Tested
+from hypcheck.record.measurements import AccuracyLine, MemoryLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
+from hypcheck.runs.judge import Status
+
+EXACT_ORACLE = "exact"
+"""The oracle the others are compared with; what can go wrong with it is a certificate that its check refuses."""
+
+REFUSED = "certificate refused"
+"""The stage of such an answer; the record counts it among the undecided and among the disagreeing, here it is one."""
+
+SubjectKey = tuple[str, "str | None"]
+"""A name and a SPEC: two implementations may call themselves alike."""
+
+REFERENCE = "plain numpy formula"
+"""The contender whose time every other is divided by."""
+
+
+@dataclass(frozen=True, slots=True)
+class OracleTotal:
+    """What came of asking one oracle about all families.
+
+    asked = agreed + undecided + disagreements. `stages` counts its answers by the part of it that gave them, `seconds`
+    is the time it took over all processes. `unavailable` says why it could not be asked, where it could not.
+    """
+
+    name: str
+    asked: int
+    agreed: int
+    undecided: int
+    disagreements: int
+    stages: dict[str, int]
+    seconds: float
+    unavailable: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ImplementationTotal:
+    """One implementation under test and the record's group lines about it, a line for each family."""
+
+    name: str
+    spec: str
+    title: str
+    question: str
+    precision: str
+    exact: bool
+    groups: tuple[GroupLine, ...]
+
+    @property
+    def gated(self) -> bool:
+        """Whether it is under test in its own right, so that its wrong answers fail the run."""
+        return self.groups[0].tested
+
+    @property
+    def asked(self) -> int:
+        """The cases it was asked; skipped ones are not among them."""
+        return sum(group.asked for group in self.groups)
+
+    @property
+    def statuses(self) -> dict[str, int]:
+        """How its cases ended, skipped ones included, in the order of judge.Status."""
+        return in_order(sum((Counter(group.counts) for group in self.groups), Counter()))
+
+    @property
+    def mistakes(self) -> dict[str, int]:
+        """What its wrong and tolerated answers mean to whoever relies on them."""
+        total: Counter[str] = sum((Counter(group.mistakes) for group in self.groups), Counter())
+        return dict(sorted(total.items()))
+
+    @property
+    def worst(self) -> WrongAnswer | None:
+        """The recorded case with the greatest backward error; the first of equals."""
+        return worst_case([case for group in self.groups for case in group.worst])
+
+
+@dataclass(frozen=True, slots=True)
+class UnderTest:
+    """A gated implementation as a whole: its name in reports and the record's implementation line about it.
+
+    `groups` are the lines about its families, none where it could not be started.
+    """
+
+    name: str
+    line: Tested | NotStartedLine
+    groups: tuple[GroupLine, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TimingTotal:
+    """Nanoseconds a row: the median of the rounds, the least and the greatest.
+
+    `ratio` is the median over the rounds of its time by the reference's in the same round, `ratio_range` the least and
+    the greatest; None without a reference.
+    """
+
+    name: str
+    title: str
+    workload: str
+    rows: int
+    median_ns: float
+    least_ns: float
+    greatest_ns: float
+    ratio: float | None
+    ratio_range: tuple[float, float] | None
+
+
+def in_order(counts: Counter[str]) -> dict[str, int]:
+    """Counts by status in the order of judge.Status, those of later versions last."""
+    order = [status.value for status in Status]
+    names = sorted(counts, key=lambda name: (order.index(name) if name in order else len(order), name))
+    return {name: counts[name] for name in names if counts[name]}
+
+
+def oracle_totals(record: Record) -> list[OracleTotal]:
+    """A total for each oracle: those that were asked, then those that could not be."""
+    by_name: dict[str, list[OracleLine]] = {}
+    for line in record.of(OracleLine):
+        by_name.setdefault(line.oracle, []).append(line)
+    names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line.asked for line in by_name[name])))
+    asked = [_oracle_total(name, by_name[name]) for name in names]
+    missing = [OracleTotal(line.oracle, 0, 0, 0, 0, {}, 0.0, str(line.reason)) for line in record.of(UnavailableLine)]
+    return asked + missing
+
+
+def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
+    stages: Counter[str] = sum((Counter(line.stages) for line in lines), Counter())
+    asked, disagreements = sum(line.asked for line in lines), sum(line.disagreeing for line in lines)
+    undecided = sum(line.undecided for line in lines) - stages[REFUSED]
+    agreed = asked - undecided - disagreements
+    seconds = sum(line.seconds for line in lines)
+    return OracleTotal(name, asked, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
+
+
+def unlisted(finding: FindingLine) -> bool:
+    """Whether a formula errs where it claims to be right and the known findings do not say why."""
+    return bool(finding.inside) and finding.reason is None
+
+
+def explanation(finding: FindingLine) -> str:
+    """Why a formula errs, as far as it is known."""
+    if finding.reason is not None:
+        return str(finding.reason)
+    cause = f"cause: {finding.cause}"
+    return f"not a known finding; {cause}" if unlisted(finding) else f"it claims nothing here; {cause}"
+
+
+def implementations(record: Record) -> list[ImplementationTotal]:
+    """Every implementation in the order of the record, exact ones first."""
+    names = names_in(record)
+    by_subject: dict[SubjectKey, list[GroupLine]] = {}
+    for line in record.of(GroupLine):
+        by_subject.setdefault(subject_of(line), []).append(line)
+    found = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
+    return sorted(found, key=lambda each: not each.exact)
+
+
+def under_test(record: Record) -> list[UnderTest]:
+    """Every gated implementation in the order of the record, those that could not be started included."""
+    names, groups = names_in(record), record.of(GroupLine)
+    return [
+        UnderTest(
+            names[subject_of(line)], line, tuple(group for group in groups if subject_of(group) == subject_of(line))
+        )
+        for line in _tested(record)
+    ]
+
+
+def _tested(record: Record) -> list[Tested | NotStartedLine]:
+    return [line for line in record.lines if isinstance(line, (Tested, NotStartedLine))]
+
+
+def subject_of(line: GroupLine | Tested | NotStartedLine) -> SubjectKey:
+    """Whom a line of a group or of an implementation is about: the name it gives itself, and its spec if it has one."""
+    name = line.method if isinstance(line, GroupLine) else line.name
+    return name, line.spec or None
+
+
+def names_in(record: Record) -> dict[SubjectKey, str]:
+    """The name of everyone that lines are about: its own, with the spec behind it where others have the same."""
+    subjects = dict.fromkeys(map(subject_of, [*record.of(GroupLine), *_tested(record)]))
+    alike = Counter(name for name, _ in subjects)
+    return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
+
+
+def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
+    first = lines[0]
+    return ImplementationTotal(
+        name=name,
+        spec=first.spec or f"builtin:{name}",  # a line without a spec is about what the project brings along
+        title=first.title,
+        question=first.question,
+        precision=first.precision,
+        exact=first.exact,
+        groups=tuple(lines),
+    )
+
+
+def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
+    """The case with the greatest backward error; the first of equals, None of none."""
+    return max(cases, key=lambda case: float(case.backward_error_u), default=None)
+
+
+def worst_error_u(case: WrongAnswer | None) -> float:
+    """The backward error of worst_case in units u; 0 where no answer was wrong."""
+    return 0.0 if case is None else float(case.backward_error_u)
+
+
+def timing_totals(record: Record) -> list[TimingTotal]:
+    """Every contender in the order of the record."""
+    lines = record.of(TimingLine)
+    references = {line.workload: line.samples_ns for line in lines if line.name == REFERENCE}
+    return [_timing_total(line, references.get(line.workload)) for line in lines]
+
+
+def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTotal:
+    samples: list[float] = line.samples_ns
+    pairs: Any = zip(samples, reference or (), strict=False)
+    ratios = [sample / other for sample, other in pairs if other > 0]
+    return TimingTotal(
+        name=line.name,
+        title=line.title,
+        workload=line.workload,
+        rows=line.rows,
+        median_ns=line.median_ns,
+        least_ns=min(samples),
+        greatest_ns=max(samples),
+        ratio=statistics.median(ratios) if ratios else None,
+        ratio_range=(min(ratios), max(ratios)) if ratios else None,
+    )
+
+
+BATCH, SINGLE, BUILD = "batch", "single", "build"
+
+PRINCIPAL = "near-contact"
+"""The workload that has cases at every distance."""
+
+LEAST_NS = 0.01
+"""What a benchmark writes for a time of which nothing was left when the empty call was taken off: it is not known."""
+
+NEAREST = 2.0**-75
+"""What a benchmark writes for "reliable above" of a method that is wrong at exact tangencies alone."""
+
+TIERS = ("C", "numpy", "python", "FCL", "foreign")
+"""What methods are written in, the fastest first; only those of one tier compare as algorithms."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeasuredMethod:
+    """A method and its lines: of its errors by workload, of its times by workload and mode, of its memory."""
+
+    name: str
+    line: MethodLine
+    accuracy: Mapping[str, AccuracyLine]
+    speed: Mapping[tuple[str, str], SpeedLine]
+    memory: MemoryLine | None
+
+    @property
+    def tier(self) -> str:
+        """What it is written in."""
+        return str(self.line.tier)
+
+    @property
+    def exact(self) -> bool:
+        """Whether it promises never to be wrong."""
+        return bool(self.line.exact)
+
+    @property
+    def asked(self) -> int:
+        """The answers that were judged, on all workloads."""
+        return sum(line.asked for line in self.accuracy.values())
+
+    @property
+    def wrong(self) -> int:
+        """Those that were wrong."""
+        return sum(line.wrong for line in self.accuracy.values())
+
+    @property
+    def never_wrong(self) -> bool:
+        """Whether it promises that, and kept it on every row it was asked about."""
+        return self.exact and self.asked > 0 and self.reliable_above == 0
+
+    @property
+    def reliable_above(self) -> float:
+        """The flip distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
+        return max((float(line.reliable_above) for line in self.accuracy.values()), default=math.inf)
+
+    def ratio(self, workload: str, mode: str = BATCH) -> float | None:
+        """Its time by that of the reference method; None where it was not timed or not compared."""
+        line = self.speed.get((workload, mode))
+        return None if line is None or line.ratio is None or lost(line) else float(line.ratio)
+
+
+def lost(line: SpeedLine) -> bool:
+    """Whether a line of kind speed has no time: the call itself took as long as an empty one."""
+    return float(line.median_ns) <= LEAST_NS
+
+
+def measured_methods(record: Record) -> list[MeasuredMethod]:
+    """Every method of a benchmark in the order of the record."""
+    accuracy: dict[str, dict[str, AccuracyLine]] = {}
+    speed: dict[str, dict[tuple[str, str], SpeedLine]] = {}
+    for line in record.of(AccuracyLine):
+        accuracy.setdefault(line.method, {})[line.workload] = line
+    for time in record.of(SpeedLine):
+        speed.setdefault(time.method, {})[time.workload, time.mode] = time
+    memory = {line.method: line for line in record.of(MemoryLine)}
+    return [
+        MeasuredMethod(name, line, accuracy.get(name, {}), speed.get(name, {}), memory.get(name))
+        for line in record.of(MethodLine)
+        for name in (line.method,)
+    ]
+
+
+def workloads(record: Record) -> dict[str, WorkloadLine]:
+    """The workloads by name, in the order of the record; also those that are measured and not described."""
+    found = {line.workload: line for line in record.of(WorkloadLine)}
+    judged, timed = record.of(AccuracyLine), record.of(SpeedLine)
+    for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
+        found.setdefault(name, WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
+    return found
+
+
+def principal(record: Record) -> str:
+    """The workload that has cases at every distance from contact; the first where it was not measured."""
+    known = workloads(record)
+    return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
+
+
+def reference(record: Record) -> str | None:
+    """The method by whose time every other's is divided, where the record says which."""
+    named = record.header.options.get("reference")
+    return None if named is None else str(named)
+
+
+def noise_floor(record: Record, workload: str, mode: str) -> float | None:
+    """The relative difference below which two times of this run are not told apart."""
+    floors = [line.floor for line in record.of(NoiseLine) if (line.workload, line.mode) == (workload, mode)]
+    return float(floors[0]) if floors else None

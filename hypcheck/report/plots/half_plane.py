@@ -1,0 +1,255 @@
+"""Pictures of the half plane (r, z): where methods are wrong, and the exact positions of a scene.
+
+Pictures of a half plane, a dot a grid point, which lie under a plot's axes: r across, z up.
+
+Where each judged method of a verification errs in the half plane, in semi-axes of the hyperboloid: r/α and |z|/γ.
+
+Where each method of a benchmark is wrong in the half plane of a scene, and in the ring.
+
+Exact positions over the half plane (r, z) of a scene, and where a method is wrong, in a run of verify.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from msgspec.structs import asdict
+
+from hypcheck.messages import escaped
+from hypcheck.record import Record
+from hypcheck.record.lines import MapLine
+from hypcheck.record.measurements import PlacesLine
+from hypcheck.report.messages import listed
+from hypcheck.report.model import ImplementationTotal, implementations
+from hypcheck.report.plots import heat
+from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure
+from hypcheck.report.plots.svg import Plot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+Interval = tuple[float, float]
+
+FAINT = "#8a94a066"
+"""Where nothing is wrong: seen on light ground and on dark."""
+
+
+def paint_letters(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
+    """Paint the letters, the first text lowest. A grid point is a cell's middle; a letter without a colour is empty."""
+    import numpy as np  # noqa: PLC0415
+    from matplotlib.colors import to_rgba  # noqa: PLC0415
+
+    grid = np.array([list(text) for text in letters])
+    image = np.zeros((*grid.shape, 4))
+    for letter, name in colours.items():
+        image[grid == letter] = to_rgba(name)
+    extent = picture_limits(r, z, grid.shape)
+    axes.imshow(image, extent=extent, origin="lower", interpolation="nearest", aspect="auto")
+    axes.set(xlim=extent[:2], ylim=extent[2:])
+    axes.grid(visible=False)
+    axes.ticklabel_format(useOffset=False)
+
+
+def picture_limits(r: Interval, z: Interval, shape: tuple[int, ...]) -> Any:  # noqa: ANN401 - what matplotlib takes
+    """The limits of the picture: half a cell beyond the first and the last grid points."""
+    up, across = shape
+    half_r, half_z = ((high - low) / max(1, count - 1) / 2 or 0.5 for (low, high), count in ((r, across), (z, up)))
+    return (r[0] - half_r, r[1] + half_r, z[0] - half_z, z[1] + half_z)
+
+
+def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
+    """Draw the grid points of these letters again as dots, which are seen where a cell is too small."""
+    import numpy as np  # noqa: PLC0415
+
+    grid = np.array([list(text) for text in letters])
+    rs, zs = np.linspace(*r, grid.shape[1]), np.linspace(*z, grid.shape[0])
+    for letter, name in colours.items():
+        across, up = np.nonzero((grid == letter).T)
+        if len(across):
+            axes.scatter(rs[across], zs[up], s=3, marker="s", color=name, linewidths=0, rasterized=True, zorder=3)
+
+
+def draw_surface(axes: Axes, sizes: tuple[float, float], r: Interval, z: Interval, line: str) -> None:
+    """The hyperboloid's meridian r = α √(1 + z²/γ²), where the picture shows it, in a colour."""
+    alpha, gamma = sizes
+    heights = [z[0] + (z[1] - z[0]) * step / 200 for step in range(201)]
+    radii = [alpha * math.hypot(1, height / gamma) for height in heights]
+    if min(radii) <= r[1] and max(radii) >= r[0]:
+        axes.plot(radii, heights, color=line, linewidth=0.9, zorder=2)
+
+
+CELLS, PER_UNIT = 64, 8
+"""Cells of the record in each direction, and in one semi-axis; the last of each stands for all that lies beyond."""
+
+
+def field_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method that erred."""
+    for number, each in enumerate(implementations(record)):
+        found = heat.cells(row for group in each.groups for row in group.place_bins)
+        if any(wrong for _, wrong in found.values()):
+            yield _field_plot(f"fields-{number}", each, found)
+
+
+def _field_plot(name: str, each: ImplementationTotal, found: heat.Cells) -> Plot:
+    import numpy as np  # noqa: PLC0415
+    from matplotlib.colors import to_rgba  # noqa: PLC0415
+
+    drawn = new_figure(SMALL, 170)
+    axes = drawn.subplots()
+    image = np.zeros((CELLS, CELLS, 4))
+    steps: Counter[str] = Counter()
+    for (across, up), (asked, wrong) in found.items():
+        role = heat.step(asked, wrong)
+        steps[role] += 1
+        image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else colour(role))
+    end = CELLS / PER_UNIT
+    axes.imshow(image, extent=(0, end, 0, end), origin="lower", interpolation="nearest", aspect="auto")
+    axes.grid(visible=False)
+    axes.set(xlabel="r/α", ylabel="|z|/γ")
+    axes.set_xticks(range(0, 9, 2))
+    axes.set_yticks(range(0, 9, 2))
+    asked, wrong = (sum(counts[k] for counts in found.values()) for k in (0, 1))
+    some = sum(number for role, number in steps.items() if role != "share-0")
+    said = (
+        f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {asked:,} wrong, in {some:,} of {len(found):,} cells."
+    )
+    return Plot(name, each.name, said, drawn)
+
+
+MISTAKES = {"c": ("false clear", "clear"), "w": ("false contact", "contact"), "s": ("wrong side", "side")}
+"""The letters of wrong answers: what they are called, and the role of their colour."""
+
+
+def place_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method, scene and region in which it is wrong."""
+    for number, line in enumerate(record.of(PlacesLine)):
+        if any(set(text) & set(MISTAKES) for text in line.wrong):
+            yield _place_plot(f"places-{number}", line)
+
+
+def never_wrong_at_places(record: Record) -> list[str]:
+    """The methods that are wrong nowhere in all that was looked at."""
+    wrong = {line.method for line in record.of(PlacesLine) if any(set(text) & set(MISTAKES) for text in line.wrong)}
+    return [name for name in dict.fromkeys(line.method for line in record.of(PlacesLine)) if name not in wrong]
+
+
+def _place_plot(name: str, line: PlacesLine) -> Plot:
+    drawn = new_figure(SMALL, 185)
+    axes = drawn.subplots()
+    r, z = (line.r[0], line.r[1]), (line.z[0], line.z[1])
+    colours = {letter: colour(role) for letter, (_, role) in MISTAKES.items()}
+    paint_letters(axes, line.wrong, {".": FAINT, **colours}, r, z)
+    draw_surface(axes, (line.scene.alpha, line.scene.gamma), r, z, colour("ink"))
+    mark_grid_points(axes, line.wrong, colours, r, z)
+    axes.set(xlabel="r (m)", ylabel="z (m)")
+    axes.locator_params(nbins=4)
+    counts = Counter(letter for text in line.wrong for letter in text)
+    found = [f"{counts[letter]:,} {what}" for letter, (what, _) in MISTAKES.items() if counts[letter]]
+    where = "near the ring" if line.region == "ring" else "around the scene"
+    scene = ", ".join(f"{size} {value:g}" for size, value in asdict(line.scene).items())
+    said = f"Wrong answers {where} ({scene}) at {sum(counts.values()):,} grid points: {listed(found)}."
+    return Plot(name, f"{line.method}, {where}", said, drawn)
+
+
+REGIONS = {"e": ("exterior", "#d7e9f7"), "c": ("contact", "#737373"), "i": ("interior", "#ecc767")}
+"""The letters of a map line, their names and colours: told apart by lightness alone, so also without colour."""
+
+WRONG = "#b3001b"
+_LONGEST_NAME = 24
+"""Characters of a name that a legend shows, and half of those that a title does."""
+
+ON_MAP = "#1a1a1a"
+"""Lines and words on the map itself, whose ground is light in both schemes."""
+
+
+def map_plots(record: Record) -> Iterator[Plot]:
+    """A plot for each map."""
+    for number, line in enumerate(record.of(MapLine)):
+        title = f"{line.name}: {line.method}"
+        yield Plot(f"map-{number}", title, f"{_scene(line)}. {_counts(line)}.", draw_maps([line], WIDTH, 400))
+
+
+def maps_together(record: Record) -> Plot:
+    """The maps side by side, with what a reader needs who sees no more than the picture."""
+    lines = record.of(MapLine)
+    drawn = draw_maps(lines, 390 * len(lines), 470)
+    drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
+    said = " ".join(f"{escaped(line.name)}: {_counts(line)}." for line in lines)
+    return Plot("map", "Exact positions, and the wrong answers of a method", said, drawn)
+
+
+def draw_maps(lines: Sequence[MapLine], width: float, height: float) -> Figure:
+    """A panel for each map line, side by side, over one legend."""
+    drawn = new_figure(width, height)
+    panels = drawn.subplots(1, len(lines), squeeze=False)[0]
+    for axes, line in zip(panels, lines, strict=True):
+        _panel(axes, line)
+    _point_out(panels, lines)
+    methods = escaped(", ".join(dict.fromkeys(line.method for line in lines)), _LONGEST_NAME)
+    handles = _legend(methods, lines)
+    columns = len(handles) if len(lines) > 1 else 2
+    drawn.legend(handles=handles, loc="outside lower center", ncols=columns)
+    return drawn
+
+
+def _panel(axes: Axes, line: MapLine) -> None:
+    colours = {letter: both[1] for letter, both in REGIONS.items()}
+    wrong = {letter.upper(): WRONG for letter in REGIONS}
+    paint_letters(axes, line.lines, {**colours, **wrong}, line.r, line.z)
+    draw_surface(axes, line.sizes[:2], line.r, line.z, ON_MAP)
+    mark_grid_points(axes, line.lines, wrong, line.r, line.z)
+    axes.set_aspect("equal")
+    axes.set(xlabel="r, distance from the axis (m)", ylabel="z, height (m)")
+    axes.set_title(f"{escaped(line.name, 2 * _LONGEST_NAME)}\n{_counts(line)}", fontsize=10)
+
+
+def _counts(line: MapLine) -> str:
+    truths = {letter.lower() for text in line.lines for letter in text if letter.isupper()}
+    names = listed([name for letter, (name, _) in REGIONS.items() if letter in truths], "or")
+    where = f", in truth {names}" if names else ""
+    return f"{line.wrong:,} of {line.points:,} grid points wrong{where}"
+
+
+def _scene(line: MapLine) -> str:
+    alpha, gamma, b, d = line.sizes
+    return f"hyperboloid α = {alpha:g} m, γ = {gamma:g} m; spheroid b = {b:g} m, d = {d:g} m, centred at (r, z)"
+
+
+def _point_out(panels: Sequence[Axes], lines: Sequence[MapLine]) -> None:
+    """Show in a large panel where a small one that lies inside it is."""
+    for axes, line in zip(panels, lines, strict=True):
+        for small in lines:
+            if small is not line and _within(small, line):
+                centre = (sum(small.r) / 2, sum(small.z) / 2)
+                ring: dict[str, Any] = {"marker": "o", "markersize": 9, "markerfacecolor": "none"}
+                axes.plot(*centre, **ring, markeredgecolor=ON_MAP, zorder=4)
+                axes.annotate(
+                    f"“{escaped(small.name, _LONGEST_NAME)}”, see the other panel",
+                    centre,
+                    xytext=(0, 12),
+                    textcoords="offset points",
+                    color=ON_MAP,
+                    horizontalalignment="right" if centre[0] > sum(line.r) / 2 else "left",
+                )
+
+
+def _within(small: MapLine, large: MapLine) -> bool:
+    return all(
+        outer[0] <= inner[0] and inner[1] <= outer[1] for inner, outer in ((small.r, large.r), (small.z, large.z))
+    )
+
+
+def _legend(methods: str, lines: Sequence[MapLine]) -> list[Any]:
+    from matplotlib.lines import Line2D  # noqa: PLC0415
+    from matplotlib.patches import Patch  # noqa: PLC0415
+
+    seen = {letter.lower() for line in lines for text in line.lines for letter in text}
+    regions = [Patch(facecolor=shade, label=name) for letter, (name, shade) in REGIONS.items() if letter in seen]
+    meridian = Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid")
+    wrong = Line2D([], [], color=WRONG, marker="s", linestyle="none", label=f"wrong answer of {methods}")
+    return [*regions, meridian, wrong]

@@ -1,0 +1,208 @@
+"""Pictures of `simulate tower`: the paper's Figure 4 redrawn, and its Table 5 over the step v·t.
+
+The paper's Figure 4 redrawn: flights in the tower in space and from above, and Δ along them.
+
+Pictures of `simulate tower`: the paper's Figure 4 redrawn, and its Table 5 over the step v·t.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from hypcheck.report.plots.style import (
+    CurveStyle,
+    colour,
+    curve_style,
+    in_space,
+    mark_contacts,
+    new_figure,
+    power_of_ten,
+)
+from hypcheck.report.plots.svg import Plot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import SubFigure
+
+
+_RINGED: dict[str, Any] = {
+    "linestyle": "none",
+    "marker": "o",
+    "markerfacecolor": "none",
+    "markeredgecolor": colour("ink"),
+    "markeredgewidth": 1.1,
+}
+"""The mark of a position where Δ ≤ 0, about the flight's own."""
+
+_ROUND = [2 * math.pi * step / 96 for step in range(97)]
+
+
+def flights(result: dict[str, Any]) -> Plot:
+    """The flights of a result."""
+    told, flown = result["assumptions"], result["flights"]
+    figure = new_figure(760, 580)
+    halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.1])
+    left, right = halves
+    above, along = right.subplots(2, 1, height_ratios=[1.35, 1], gridspec_kw={"hspace": 0.08})
+    solid = _solid(left, told, flown["paths"])
+    _above(above, told, flown["paths"])
+    _discriminants(along, flown["paths"])
+    mark_contacts([solid, above], flown["ways"])
+    handles = [handle for axes in (above, along) for handle in axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    said = (
+        f"Inside a hyperboloid with α = {told['alpha']:g} m and γ = {told['gamma']:g} m, {len(flown['paths'])} "
+        f"random flights with steps of {flown['step']:g} m, from the side and from above, and the discriminant Δ "
+        "of the body's cubic at each position: at one height it falls towards the wall, across heights it does not "
+        "tell how near the wall is, and where it is not above 0 the rotors are asked."
+    )
+    return Plot("tower-flights", "Flights inside a cooling tower, and Δ along them", said, figure)
+
+
+def _solid(figure: SubFigure, told: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
+    import numpy as np  # noqa: PLC0415
+    from matplotlib.ticker import MaxNLocator  # noqa: PLC0415
+
+    axes: Any = figure.add_axes((-0.33, 0.0, 1.6, 1.0), projection="3d")  # a square, wider than what is drawn in it
+    axes.patch.set_visible(False)
+    low, high = _heights(told, paths)
+    height, angle = np.meshgrid(np.linspace(low, high, 15), np.linspace(0, 2 * np.pi, 25), indexing="ij")
+    radius = told["alpha"] * np.hypot(1, height / told["gamma"])
+    axes.plot_wireframe(
+        radius * np.cos(angle), radius * np.sin(angle), height, color=colour("soft"), linewidth=0.4, alpha=0.55
+    )
+    for place, path in enumerate(paths):
+        style = curve_style(place)
+        columns = zip(*path["positions"], strict=True)
+        axes.plot(*columns, color=style.colour, linestyle=style.dashes, marker=style.marker, markersize=3, zorder=3)
+        axes.plot(*_columns(_touching(path), 3), **_RINGED, markersize=7, zorder=4)
+    axes.set_box_aspect((1, 1, 2.2), zoom=0.84)
+    axes.view_init(elev=20, azim=-60)
+    axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
+    in_space(axes)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(3))
+    figure.text(0.44, 0.975, "in space (z drawn shorter)", ha="center", va="top")
+    return axes
+
+
+def _heights(told: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[float, float]:
+    """The part of the tower that is drawn: what is modelled, or what the flights use of it."""
+    if told["height"] is not None:
+        return float(told["height"][0]), float(told["height"][1])
+    heights = [position[2] for path in paths for position in path["positions"]]
+    return min(heights) - 1, max(heights) + 1
+
+
+def _touching(path: dict[str, Any]) -> list[list[float]]:
+    """The positions with Δ ≤ 0."""
+    return [at for at, value in zip(path["positions"], path["discriminant"], strict=True) if value <= 0]
+
+
+def _columns(points: list[list[float]], number: int) -> list[list[float]]:
+    """The first coordinates of points, each as a list; empty ones where there is no point."""
+    return [[point[place] for point in points] for place in range(number)]
+
+
+def _above(axes: Axes, told: dict[str, Any], paths: list[dict[str, Any]]) -> None:
+    widest = max(math.hypot(1, height / told["gamma"]) for height in _heights(told, paths))
+    end = "end of what is drawn" if told["height"] is None else "the tower's end"
+    circles: tuple[tuple[float, Any, str], ...] = ((1.0, "-", "waist"), (widest, (0, (1, 1.2)), end))
+    for factor, dashes, label in circles:
+        radius = told["alpha"] * factor
+        circle = [(radius * math.cos(angle), radius * math.sin(angle)) for angle in _ROUND]
+        across, along = zip(*circle, strict=True)
+        axes.plot(across, along, color=colour("soft"), linestyle=dashes, linewidth=1, label=label)
+    for place, path in enumerate(paths):
+        style = curve_style(place)
+        x, y, _ = zip(*path["positions"], strict=True)
+        axes.plot(x, y, color=style.colour, linestyle=style.dashes, marker=style.marker, markersize=3.5)
+        axes.plot(*_columns(_touching(path), 2), **_RINGED, markersize=8)
+    axes.set_aspect("equal")
+    axes.set(xlabel="x (m)", ylabel="y (m)")
+    axes.set_title("from above")
+
+
+def _discriminants(axes: Axes, paths: list[dict[str, Any]]) -> None:
+    values = [value for path in paths for value in path["discriminant"]]
+    exponent = math.floor(math.log10(max(map(abs, values)) or 1.0))
+    for place, path in enumerate(paths):
+        style = curve_style(place)
+        scaled = [value / 10.0**exponent for value in path["discriminant"]]
+        axes.plot(
+            range(1, len(scaled) + 1),
+            scaled,
+            color=style.colour,
+            linestyle=style.dashes,
+            marker=style.marker,
+            markersize=3.5,
+            label=f"flight {place + 1}",
+        )
+    axes.axhline(0, color=colour("ink"), linewidth=0.8)
+    ringed = [
+        (place, value / 10.0**exponent)
+        for path in paths
+        for place, value in enumerate(path["discriminant"], start=1)
+        if value <= 0
+    ]
+    axes.plot(*_columns([list(each) for each in ringed], 2), **_RINGED, markersize=8, label="Δ ≤ 0: rotors asked")
+    axes.set(xlabel="position", ylabel=f"Δ ({power_of_ten(exponent)})" if exponent else "Δ")
+    axes.set_title("Δ along the way")
+
+
+def plots(result: dict[str, Any]) -> Iterator[Plot]:
+    """The flights, and the table where there is one."""
+    yield flights(result)
+    if result["table_5"] is not None:
+        yield _table(result["table_5"])
+
+
+def _table(table: dict[str, Any]) -> Plot:
+    figure = new_figure(620, 400)
+    axes = figure.subplots()
+    other = table["second_row_read_as_0.25"]
+    ours = [
+        (time * speed, percent, error or 0.0)
+        for time, percents, errors in (
+            *zip(table["t"], table["percent"], table["standard_error"], strict=True),
+            (other["t"], other["percent"], other["standard_error"]),
+        )
+        for speed, percent, error in zip(table["v"], percents, errors, strict=True)
+    ]
+    across, percents, errors = zip(*sorted(ours), strict=True)
+    axes.plot(across, percents, color=colour("soft"), linewidth=0.6, zorder=1)
+    axes.errorbar(
+        across,
+        percents,
+        yerr=[2 * error for error in errors],
+        fmt="none",
+        color=colour("soft"),
+        capsize=2.5,
+        linewidth=1.2,
+        label="simulated, ± 2 standard errors",
+    )
+    for place, (time, printed) in enumerate(zip(table["t"], table["printed"], strict=True)):
+        style = curve_style(place)
+        steps = [time * speed for speed in table["v"]]
+        axes.plot(
+            steps, printed, linestyle="none", marker=style.marker, color=style.colour, label=f"printed, t = {time:g} s"
+        )
+    told = "printed, t = 0.2 s read as 0.25 s"
+    _printed(axes, table["v"], other["t"], table["printed"][1], curve_style(1), told, markerfacecolor="none")
+    axes.set(xlabel="step v·t (m)", ylabel="executions with Δ ≤ 0 (%)")
+    axes.legend(frameon=True, facecolor=colour("surface"), edgecolor="none", framealpha=1)
+    said = (
+        f"The printed figures of Table 5 and simulated ones of {table['runs']:,} runs over the step v·t. "
+        f"Root mean square difference {table['root_mean_square_difference']:.2f} as printed, "
+        f"{other['root_mean_square_difference']:.2f} with the second row read as 0.25 s. {table['statement']}"
+    )
+    return Plot("tower-table-5", "The paper's Table 5, printed and simulated", said, figure)
+
+
+def _printed(
+    axes: Axes, speeds: list[float], time: float, figures: list[float], style: CurveStyle, told: str, **paint: str
+) -> None:
+    steps = [time * speed for speed in speeds]
+    axes.plot(steps, figures, linestyle="none", marker=style.marker, color=style.colour, label=told, **paint)  # type: ignore[arg-type]

@@ -1,0 +1,326 @@
+"""Sections about errors: by family, distance, workload, size and place; of meshes and bounding volumes.
+
+What only the page has room for: every family of every judged method, the worst cases, and where they lie.
+
+The errors of a benchmark's methods: by distance, by workload, by size and by place.
+
+What meshes and bounding volumes cost in answers and in time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from msgspec import UNSET
+
+from hypcheck.geometry.pair import Position
+from hypcheck.record import Record
+from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
+from hypcheck.record.measurements import (
+    AccuracyLine,
+    BoundingLine,
+    ConvergenceLine,
+    PlacesLine,
+    SpeedLine,
+    StabilityLine,
+)
+from hypcheck.report.document import (
+    Block,
+    Code,
+    Column,
+    Details,
+    Figures,
+    Paragraph,
+    Section,
+    TableBlock,
+    TableCell,
+    bullets,
+    count,
+    joined,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.messages import Replays, figure
+from hypcheck.report.model import (
+    ImplementationTotal,
+    implementations,
+    measured_methods,
+    workloads,
+    worst_case,
+    worst_error_u,
+)
+from hypcheck.report.plots import half_plane, heat
+from hypcheck.report.plots.heat import STEPS
+from hypcheck.runs.judge import Status
+
+MOST_CASES = 12
+"""Cases shown of one implementation, the worst first; the record keeps up to three a family, and counts are exact."""
+
+HEAT = tuple((f"share-{place}", words) for place, (_, words) in enumerate(STEPS))
+
+_BAD = {status.value for status in Status} - {"right", "skipped", "tolerated", "refused", "excused"}
+
+_FAMILY_DISTANCE = prose(
+    "The *flip distance* of a case is the least relative change of its inputs that leads to another position. A method"
+    " whose errors end at a distance can be trusted beyond it. All families together, tolerated answers among the"
+    " wrong; a point stands for up to three octaves."
+)
+
+
+def family_sections(record: Record) -> Iterator[Section]:
+    """The sections, for the page alone; none where nothing was judged."""
+    found = [each for each in implementations(record) if each.asked or each.statuses]
+    if not found:
+        return
+    yield Section("Wrong answers by distance", (Paragraph(_FAMILY_DISTANCE), Figures("octaves")), page=True)
+    size = Figures("sizes", small=True, legend=HEAT)
+    place = Figures("fields", small=True, legend=HEAT)
+    blocks = (
+        Details("By the sizes of the bodies, α/b and γ/d", (size,)),
+        Details("By the place, r/α and |z|/γ", (place,)),
+    )
+    yield Section("Where the wrong answers lie", blocks, page=True)
+    yield Section("Family by family", tuple(_families(record, found)), page=True)
+
+
+def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[Block]:
+    """Of a gated implementation a fold of its own, of the project's methods one for all."""
+    replays = Replays.of(record)
+    for each in found:
+        if each.gated:
+            yield Details(each.name, (_family_table([each]), *_cases([each], replays)))
+    ours = [each for each in found if not each.gated]
+    if ours:
+        yield Details("All methods and families", (_family_table(ours),))
+        yield Details("Their worst cases", tuple(_cases(ours, replays)))
+
+
+def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
+    """Family by status, with columns for the statuses that occurred."""
+    seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
+    named = [] if len(found) == 1 else [Column("method")]
+    errors = map(number, ("false clear", "false contact", "wrong side", "worst error in u"))
+    columns: tuple[Column | str, ...] = (*named, "family", number("asked"), *map(number, seen), *errors)
+    rows = [
+        (*([TableCell(Code(each.name))] if named else []), *_status_row(group, seen))
+        for each in found
+        for group in each.groups
+    ]
+    return table("families", columns, rows)
+
+
+def _status_row(group: GroupLine, seen: Sequence[str]) -> tuple[TableCell, ...]:
+    error = worst_error_u(worst_case(group.worst))
+    failing = _BAD if group.failing is UNSET else group.failing
+    mistakes = [count(group.mistakes.get(name, 0)) for name in ("false-clear", "false-contact", "wrong-side")]
+    return (
+        TableCell(Code(group.family)),
+        count(group.asked),
+        *(count(group.counts.get(status, 0), bad=status in failing) for status in seen),
+        *mistakes,
+        TableCell(figure(error) if error else "·", error),
+    )
+
+
+def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
+    worst = [(each, group, case) for each in found for group in each.groups for case in group.worst]
+    if worst:
+        worst.sort(key=lambda of: -float(of[2].backward_error_u))
+        kept = [of for each in found for of in [one for one in worst if one[0] is each][:MOST_CASES]]
+        columns: tuple[Column | str, ...] = (
+            "case",
+            "method",
+            "truth",
+            "answer",
+            "mistake",
+            number("wrong by, u"),
+            "status",
+            "look at it with",
+        )
+        yield table("worst cases", columns, [_case(*of, replays) for of in kept])
+    faults = [(each, group, case) for each in found for group in each.groups for case in group.faults or ()]
+    if faults:
+        columns = ("case", "method", "ended", "because", "look at it with")
+        yield table("cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]])
+
+
+def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> tuple[TableCell, ...]:
+    error = float(case.backward_error_u)
+    return (
+        TableCell(Code(case.case)),
+        TableCell(Code(each.name)),
+        TableCell(Position(case.truth).label),
+        TableCell(str(case.answer)),
+        TableCell(case.mistake),
+        TableCell(figure(error), error),
+        TableCell(case.status, tone="bad" if case.status in _BAD else ""),
+        TableCell(Code(replays.command(group, case))),
+    )
+
+
+def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> tuple[TableCell, ...]:
+    return (
+        TableCell(Code(case.case)),
+        TableCell(Code(each.name)),
+        TableCell(case.status, tone="bad" if case.status in _BAD else ""),
+        TableCell(case.reason),
+        TableCell(Code(replays.command(group, case))),
+    )
+
+
+_WORKLOAD_DISTANCE = prose(
+    "The *flip distance* of a case is the least relative change of its inputs that leads to another position: a method"
+    " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
+)
+_FRONT = prose(
+    "Lower is right nearer to contact, farther left is faster; the line joins the methods that no other beats in both."
+    " Every mark tells what it is. The *worst of all workloads* is with those that are only judged, as the ring."
+)
+_TABLE = prose(
+    "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
+    " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
+)
+FRONT = Figures("front", "error against run time near contact, and with the errors of all workloads", "front.svg")
+PARETO = Figures("pareto", "error against run time on the other workloads", "pareto.svg")
+ERRORS = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
+
+_PLACES = tuple((role, words) for words, role in half_plane.MISTAKES.values())
+
+
+def error_sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of these."""
+    if record.of(AccuracyLine):
+        blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
+        if record.of(SpeedLine):
+            yield Section("Error against run time", blocks)
+        others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
+        yield Section("Wrong answers by distance", (Paragraph(_WORKLOAD_DISTANCE), ERRORS, others))
+        yield Section("Wrong answers by workload", (Paragraph(_TABLE), _workload_table(record)))
+    yield from _maps(record)
+
+
+def _workload_table(record: Record) -> Block:
+    numbers = map(
+        number, ("asked", "wrong", "false clear", "false contact", "wrong side", "abstained", "reliable above")
+    )
+    columns: tuple[Column | str, ...] = ("method", "workload", *numbers, "case farthest from contact")
+    titles = {name: str(line.title) for name, line in workloads(record).items()}
+    rows = [
+        (TableCell(Code(each.name)), TableCell(titles[name]), *_workload_row(line))
+        for each in measured_methods(record)
+        for name, line in each.accuracy.items()
+    ]
+    return table("wrong answers by workload", columns, rows)
+
+
+def _workload_row(line: AccuracyLine) -> tuple[TableCell, ...]:
+    worst = max(line.worst, key=lambda case: float(case.flip_distance), default=None)
+    reliable = float(line.reliable_above)
+    counts = [count(number) for number in (line.false_contact, line.wrong_side, line.abstained)]
+    return (
+        count(line.asked),
+        count(line.wrong),
+        count(line.false_clear, bad=True),
+        *counts,
+        TableCell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
+        TableCell(Code(worst.case) if worst else ""),
+    )
+
+
+def _maps(record: Record) -> Iterator[Section]:
+    if record.of(StabilityLine):
+        words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
+        figures = Figures("stability", small=True, legend=HEAT)
+        never = _never_wrong("Wrong nowhere: ", heat.never_wrong_at_sizes(record))
+        yield Section("Stability", (Paragraph(words), figures, never), page=True)
+    if record.of(PlacesLine):
+        words = "Grid points of the half plane, distance from the axis across and height up, in metres."
+        figures = Figures("places", small=True, legend=_PLACES)
+        never = _never_wrong("Wrong at none of the grid points: ", half_plane.never_wrong_at_places(record))
+        yield Section("Where the wrong answers lie", (Paragraph(words), figures, never), page=True)
+
+
+def _never_wrong(words: str, names: Sequence[str]) -> Block:
+    return bullets([(words, joined([Code(name) for name in names]), ".")] if names else [])
+
+
+_MESHES = prose(
+    "A mesh in the hyperboloid's place errs by its deviation; triangles bring it down, and cost time. A build is a"
+    " mesh, a query one position."
+)
+_BOUNDS = prose(
+    "Another shape around the spheroid is never clear where the spheroid is not, so a *false clear* would be a fault;"
+    " what it costs are invisible walls, the more the less the spheroid is like the shape."
+)
+
+
+def peer_sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of these."""
+    if record.of(ConvergenceLine):
+        yield Section("Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(ConvergenceLine))))
+    if record.of(BoundingLine):
+        lines = record.of(BoundingLine)
+        yield Section("Bounding volumes", (Paragraph(_BOUNDS), Figures("bounding"), _bounds(lines), _overlaps(lines)))
+
+
+def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
+    numbers = map(number, ("triangles", "deviation, radii", "asked", "wrong", "query, ns", "build, ns"))
+    columns: tuple[Column | str, ...] = ("method", *numbers)
+    rows = [
+        (
+            TableCell(Code(line.method)),
+            count(line.triangles),
+            TableCell(figure(line.deviation), line.deviation),
+            count(line.asked),
+            count(line.wrong),
+            TableCell(figure(line.query_ns), line.query_ns),
+            TableCell(figure(line.build_ns), line.build_ns),
+        )
+        for line in lines
+    ]
+    return table("meshes", columns, rows)
+
+
+def _bounds(lines: list[BoundingLine]) -> TableBlock:
+    columns: tuple[Column | str, ...] = (
+        "shape",
+        "workload",
+        *map(number, ("asked", "false contact", "share", "false clear")),
+    )
+    rows = [
+        (
+            TableCell(line.shape),
+            TableCell(line.workload),
+            count(line.asked),
+            count(line.false_contact),
+            _share(line.false_contact, line.asked),
+            count(line.false_clear, bad=True),
+        )
+        for line in lines
+    ]
+    return table("bounding volumes", columns, rows)
+
+
+def _overlaps(lines: list[BoundingLine]) -> TableBlock:
+    numbers = map(number, ("d/b", "asked", "false contact", "share", "median excess clearance, radii"))
+    columns: tuple[Column | str, ...] = ("shape", "workload", *numbers)
+    rows = [
+        (
+            TableCell(line.shape),
+            TableCell(line.workload),
+            TableCell(figure(ratio), ratio),
+            count(int(asked)),
+            count(int(contacts)),
+            _share(contacts, asked),
+            TableCell("–") if excess is None else TableCell(figure(excess), excess),
+        )
+        for line in lines
+        for ratio, asked, contacts, excess in line.overlap
+    ]
+    return table("bounding volumes by shape of the spheroid", columns, rows)
+
+
+def _share(part: float, whole: float) -> TableCell:
+    return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell("–")

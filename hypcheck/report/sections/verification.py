@@ -1,0 +1,388 @@
+"""Sections of a verification: oracles, methods, implementations under test, timings, maps, and the paper.
+
+The oracles' agreement.
+
+What each method got wrong, by how much, and in which families.
+
+Gated implementations as wholes: what each declares, and as what it was judged.
+
+How long the fast path takes beside others, in a run of verify.
+
+Where a method goes wrong in the half plane of a scene.
+
+What was found about the paper: its equations, the proofs of its formulas, and what they get wrong exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from hypcheck.record import Record
+from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
+from hypcheck.report.document import (
+    Block,
+    Code,
+    Column,
+    Figures,
+    Item,
+    Paragraph,
+    Section,
+    Strong,
+    TableBlock,
+    TableCell,
+    Text,
+    bullets,
+    count,
+    joined,
+    number,
+    prose,
+    table,
+)
+from hypcheck.report.messages import counted, domain_text, figure, from_hex, short_row, tolerance_of
+from hypcheck.report.model import (
+    REFERENCE,
+    ImplementationTotal,
+    OracleTotal,
+    TimingTotal,
+    UnderTest,
+    explanation,
+    implementations,
+    oracle_totals,
+    timing_totals,
+    under_test,
+    unlisted,
+    worst_error_u,
+)
+
+_ORACLES = prose(
+    "Each oracle answers on its own. `exact` agrees where an independent check accepts the certificate of its answer;"
+    " the others agree where they say what `exact` says. An oracle that cannot tell says so and is counted as"
+    " undecided. Seconds are summed over all processes."
+)
+
+
+def oracle_sections(record: Record) -> Iterator[Section]:
+    """The section; none where no oracle was wanted."""
+    totals = oracle_totals(record)
+    if not totals:
+        return
+    asked = [total for total in totals if total.unavailable is None]
+    missing = [(Code(total.name), f" was not asked: {total.unavailable}") for total in totals if total.unavailable]
+    yield Section("The oracles", (Paragraph(_ORACLES), *([_oracle_table(asked)] if asked else []), bullets(missing)))
+
+
+def _oracle_table(totals: list[OracleTotal]) -> TableBlock:
+    columns = (
+        "oracle",
+        number("asked"),
+        number("agreed"),
+        number("undecided"),
+        number("disagreed"),
+        "how it answered",
+        number("seconds"),
+    )
+    rows = [
+        (
+            Code(total.name),
+            count(total.asked),
+            count(total.agreed),
+            count(total.undecided),
+            count(total.disagreements, bad=True),
+            ", ".join(f"{stage or 'answered'} {answers:,}" for stage, answers in total.stages.items()),
+            TableCell(figure(total.seconds), total.seconds),
+        )
+        for total in totals
+    ]
+    return table("oracles", columns, rows)
+
+
+NOTHING = "·"
+NOT_ASKED = "–"
+
+_IN_TABLE = ("right", "tolerated", "wrong", "skipped")
+"""The statuses that have a column, and the one that stands for a case not asked."""
+
+
+def method_sections(record: Record) -> Iterator[Section]:
+    """The sections; none where nothing was judged."""
+    found = implementations(record)
+    exact = [each for each in found if each.exact]
+    others = [each for each in found if not each.exact]
+    if exact:
+        yield _exact(exact)
+    if others:
+        yield _introduction(record, others)
+    for precision in dict.fromkeys(each.precision for each in others):
+        yield _part(precision, [each for each in others if each.precision == precision])
+
+
+def _exact(methods: Sequence[ImplementationTotal]) -> Section:
+    rows = [(Code(each.name), each.title, count(each.asked), _statuses(each.statuses)) for each in methods]
+    return Section(
+        "Methods that promise to be exact",
+        (
+            Paragraph("One answer of theirs that is not right fails the run."),
+            table("exact methods", ("method", "what it is", number("asked"), "answers"), rows),
+        ),
+    )
+
+
+def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Section:
+    tolerance = tolerance_of(record.header.options)
+    limit = f"at most {figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
+    said = (
+        prose(
+            "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The"
+            " *backward error* of a wrong answer is the least relative change of the inputs that makes it right, in"
+            " units u of the precision (∞: no change of up to 100 % does); a wrong answer with"
+        ),
+        f" {limit} is ",
+        prose(
+            "*tolerated*. A *false clear* (dangerous) calls a contact clear, a *false contact* is an invisible wall."
+        ),
+    )
+    return Section("Numerical findings", (Paragraph(said), _glossary(methods)))
+
+
+def _glossary(methods: Sequence[ImplementationTotal]) -> Block:
+    """What the methods are; one that runs in several precisions is described once."""
+    titles = {_plain_name(each): each.title.removesuffix(f", {each.precision}") for each in methods}
+    return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
+
+
+def _plain_name(each: ImplementationTotal) -> str:
+    return each.name.removesuffix(f"-{each.precision}")
+
+
+def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
+    otherwise = [(each, {name: n for name, n in each.statuses.items() if name not in _IN_TABLE}) for each in methods]
+    also: list[Text] = [(Code(each.name), f" also ended: {_statuses(rest)}") for each, rest in otherwise if rest]
+    return Section(precision, (_totals(methods), bullets(also), *_matrix(methods)), level=3)
+
+
+def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
+    numbers = map(number, ("asked", "right", "tolerated", "wrong", "false clear", "worst error in u"))
+    columns: tuple[Column | str, ...] = ("method", "question", *numbers, "its case")
+    return table("methods", columns, [_method_row(each) for each in methods])
+
+
+def _method_row(each: ImplementationTotal) -> tuple[TableCell, ...]:
+    statuses, worst = each.statuses, each.worst
+    error = worst_error_u(worst)
+    return (
+        TableCell(Code(_plain_name(each))),
+        TableCell(each.question),
+        count(each.asked),
+        count(statuses.get("right", 0)),
+        count(statuses.get("tolerated", 0)),
+        count(statuses.get("wrong", 0), bad=True),
+        count(each.mistakes.get("false-clear", 0)),
+        TableCell(figure(error) if worst else NOTHING, error),
+        TableCell(Code(worst.case) if worst else NOTHING),
+    )
+
+
+def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
+    families = dict.fromkeys(group.family for each in methods for group in each.groups)
+    groups = {(each.name, group.family): group for each in methods for group in each.groups}
+
+    def cell(method: str, family: str) -> TableCell:
+        group = groups.get((method, family))
+        if group is None or not group.asked:
+            return TableCell(NOT_ASKED, -1)
+        wrong = group.counts.get("wrong", 0)
+        return TableCell(f"{wrong:,}", wrong, "bad") if wrong else TableCell(NOTHING, 0)
+
+    rows: list[tuple[TableCell, ...]] = [
+        (TableCell(Code(family)), *(cell(each.name, family) for each in methods)) for family in families
+    ]
+    asked = max((group.asked for group in groups.values()), default=0)
+    columns: tuple[Column | str, ...] = ("family", *(number(Code(_plain_name(each))) for each in methods))
+    return (
+        Paragraph(
+            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({NOTHING} none, {NOT_ASKED} nothing"
+            " asked: outside the stated regimes or the format's range):"
+        ),
+        table("wrong answers by family", columns, rows),
+    )
+
+
+def _statuses(statuses: dict[str, int]) -> str:
+    return ", ".join(f"{name} {cases:,}" for name, cases in statuses.items())
+
+
+_NONE = "–"
+
+
+def gated_sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing was gated."""
+    found = under_test(record)
+    if not found:
+        return
+    head = ("", "", "question", "precision", "domain", "language", "version")
+    rows = [
+        row for each in found if isinstance(each.line, ImplementationLine) for row in _gated_rows(each.name, each.line)
+    ]
+    declared = [table("implementations under test", head, rows)] if rows else []
+    yield Section("Implementations under test", (*declared, bullets([_gated_value(each) for each in found])))
+
+
+def _gated_rows(name: str, line: ImplementationLine) -> list[tuple[Text, ...]]:
+    """What it declares, and what it was judged as: options of the command line stand for what it declares."""
+    names: dict[str, Text] = {"declared": Code(name), "judged as": ""}
+    return [
+        (
+            names[what],
+            what,
+            description.question,
+            description.precision,
+            domain_text(description.domain),
+            description.language or _NONE,
+            description.version or _NONE,
+        )
+        for what, description in (("declared", line.declared), ("judged as", line.used))
+    ]
+
+
+def _gated_value(tested: UnderTest) -> Text:
+    line = tested.line
+    name: Text = (Code(tested.name), ", ", Code(line.spec))
+    if isinstance(line, NotStartedLine):
+        return (name, f", was not started: {line.trouble}.")
+    again = line.again
+    troubles = "".join(f" {trouble}." for trouble in line.troubles)
+    excused = sum(group.counts.get("excused", 0) for group in tested.groups)
+    known = f" {counted(excused, 'case')} excused as known failures." if excused else ""
+    said = (
+        f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
+        f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."
+        f" {counted(line.restarts, 'restart')}.{known}{troubles}"
+    )
+    return (name, said)
+
+
+def timing_sections(record: Record) -> Iterator[Section]:
+    """The section; none where nothing was timed."""
+    totals = timing_totals(record)
+    if not totals:
+        return
+    workloads = joined([Code(name) for name in dict.fromkeys(total.workload for total in totals)])
+    how = (
+        ", in one process, in interleaved rounds on the machine below. The ratio is the time by that of the"
+        f" {REFERENCE} in the same round, median of the rounds: below 1 is faster. Absolute figures do not carry over"
+        " to another machine."
+    )
+    said = ("On ", workloads, how)
+    numbers = map(number, ("rows", "ns a row, median", "least to greatest", "time ratio"))
+    columns: tuple[Column | str, ...] = ("contender", "what it is", *numbers)
+    yield Section("Timings", (Paragraph(said), table("timings", columns, [_timing_row(total) for total in totals])))
+
+
+def _timing_row(total: TimingTotal) -> tuple[TableCell, ...]:
+    return (
+        TableCell(total.name),
+        TableCell(total.title),
+        count(total.rows),
+        TableCell(figure(total.median_ns), total.median_ns),
+        TableCell(f"{figure(total.least_ns)} to {figure(total.greatest_ns)}", total.greatest_ns),
+        TableCell("–") if total.ratio is None else TableCell(figure(total.ratio), total.ratio),
+    )
+
+
+MAP = Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
+
+
+def map_sections(record: Record) -> Iterator[Section]:
+    """The section; none where there is no map."""
+    items = [
+        (
+            f"{line.name}: ",
+            Code(line.method),
+            f" is wrong at {line.wrong:,} of {counted(line.points, 'grid point')}",
+        )
+        for line in record.of(MapLine)
+    ]
+    if items:
+        yield Section("Where it goes wrong", (MAP, bullets(items)))
+
+
+_PROOFS = prose(
+    "Each formula is a program of single steps. What its steps must equal was derived in symbols, and its decision was "
+    "compared with its rule for every combination of signs. `derivation` are the identities that the rules rest on."
+)
+_FINDINGS = prose(
+    "Evaluated in exact rationals, so that no rounding is to blame. *Inside* its stated regimes a formula claims to be "
+    "right; *outside* them it does not: the table shows what comes of not checking."
+)
+
+
+def paper_sections(record: Record) -> Iterator[Section]:
+    """The sections about what the record has of these."""
+    equations, proofs, found = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
+    if equations:
+        yield _equations(equations)
+    if proofs:
+        yield _proofs(proofs)
+    if found:
+        yield _findings(found)
+
+
+def _equations(lines: list[EquationLine]) -> Section:
+    holding = [f"({line.number})" for line in lines if line.holds]
+    items = [
+        Item(
+            (Strong(f"({line.number})"), f" {line.verdict}: {line.finding}."),
+            (("printed: ", Code(line.statement)), ("derived: ", Code(line.correction))),
+        )
+        for line in lines
+        if not line.holds
+    ]
+    named = f": {', '.join(holding)}." if holding else "."
+    said = f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
+    return Section("The paper's equations", (Paragraph(said), bullets(items)))
+
+
+def _proofs(lines: list[ProofLine]) -> Section:
+    by_formula: dict[str, list[bool]] = {}
+    for line in lines:
+        by_formula.setdefault(line.formula, []).append(line.holds)
+    rows = [
+        (Code(name), TableCell(str(sum(holds)), sum(holds)), TableCell(str(len(holds)), len(holds)))
+        for name, holds in by_formula.items()
+    ]
+    proved = table("proofs", ("formula", number("proved"), number("to be shown")), rows)
+    return Section("The proofs", (Paragraph(_PROOFS), proved))
+
+
+def _findings(lines: list[FindingLine]) -> Section:
+    """Inside the stated regimes first: there a formula breaks its own word. Formulas with one witness share a line."""
+    alike: dict[tuple[object, ...], list[FindingLine]] = {}
+    for line in sorted(lines, key=lambda line: not line.inside):
+        key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
+        alike.setdefault(key, []).append(line)
+    columns = (
+        "formula",
+        "family",
+        "stated regimes",
+        number("wrong"),
+        "why",
+        "first witness, to six digits",
+        "its case",
+    )
+    found = table("mathematical findings", columns, [_finding(group) for group in alike.values()])
+    return Section("Mathematical findings", (Paragraph(_FINDINGS), found))
+
+
+def _finding(group: list[FindingLine]) -> tuple[TableCell, ...]:
+    line = group[0]
+    why = explanation(line)
+    row = from_hex(line.first_row)
+    return (
+        TableCell(joined([Code(each.formula) for each in group])),
+        TableCell(Code(line.family)),
+        TableCell(Strong("inside") if line.inside else "outside"),
+        TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
+        TableCell(Strong(why), tone="bad") if unlisted(line) else TableCell(why),
+        TableCell(short_row(row)),
+        TableCell(Code(line.first_case)),
+    )

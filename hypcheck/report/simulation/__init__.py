@@ -1,1 +1,0 @@
-"""Files of `hypcheck simulate`: the JSON, and pictures drawn from it alone."""

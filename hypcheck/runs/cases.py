@@ -1,0 +1,245 @@
+"""The cases of a conformance run, in chunks: frozen vectors of a family, or a range of its generated rows.
+
+The frozen vectors as a run asks them: read once, or taken from the process that has read them already.
+
+What an implementation is asked, cut into chunks: frozen vectors of a family, or a stretch of its generated rows.
+
+A chunk is a name for cases that can be made anywhere; who asks them, and in which order, makes no difference.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.runs import judge
+from hypcheck.runs.tally import CasePlace
+from hypcheck.truth import float_filter
+from hypcheck.vectors import families
+from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.families import FAMILIES, case_id
+from hypcheck.vectors.family import BLOCK, Family
+
+_SMALLEST = 1e-300
+"""Distances below are too near to where floats end for a frozen vector to say them well enough."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrozenVectors:
+    """The vectors of a family: ids, rows (n, 7), positions, int8 (n,), and of each its octave, float64 (n,).
+
+    An octave is floor(log2) of the distance to the nearest other position; NaN where the vector cannot tell it.
+    """
+
+    ids: tuple[str, ...]
+    rows: Rows
+    positions: Positions
+    octaves: NDArray[np.float64]
+
+
+_LOADED: dict[str, FrozenVectors] = {}
+
+
+def frozen_vectors(name: str) -> FrozenVectors:
+    """The vectors of a family. Raises InputError where it has none."""
+    if name not in _LOADED:
+        found = vectors.frozen_rows(name)
+        octaves = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
+        _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, octaves)
+    return _LOADED[name]
+
+
+def loaded_vectors() -> Mapping[str, FrozenVectors]:
+    """All that were read by this process, for another one to take: a file is read slowly, being checked."""
+    return dict(_LOADED)
+
+
+def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
+    """Read these no more."""
+    _LOADED.update(some)
+
+
+def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
+    """From distances that are rounded up: above 2^k, and 2^(k+1) at most. NaN where floats end."""
+    nearest = min(flips.values()) if position is Position.CONTACT else flips[Position.CONTACT]
+    if nearest == 0:
+        return -math.inf
+    if nearest < _SMALLEST:
+        return math.nan
+    mantissa, exponent = math.frexp(nearest)
+    return exponent - (2 if mantissa == 0.5 else 1) if math.isfinite(nearest) else nearest
+
+
+CHUNK_ROWS = 64 * BLOCK
+"""Generated rows of a chunk: as many as a question in binary may have."""
+
+EXPONENTS_OF = 2000
+"""Cases of a family whose own distance to the nearest other position is recorded: the first ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class CaseChunk:
+    """Cases `start` to `stop` − 1 of a family: generated rows of a seed, or frozen vectors, where `seed` is None.
+
+    Of the first `measured` of them the distance to the nearest other position is recorded.
+    """
+
+    family: str
+    seed: int | None
+    start: int
+    stop: int
+    measured: int = 0
+
+    def __len__(self) -> int:
+        return self.stop - self.start
+
+    def between(self, first: int, last: int) -> CaseChunk:
+        """Its cases `first` to `last` − 1 as a chunk of their own."""
+        measured = min(max(self.measured - first, 0), last - first)
+        return CaseChunk(self.family, self.seed, self.start + first, self.start + last, measured)
+
+    @property
+    def movement(self) -> int:
+        """So many consecutive cases follow one object from moment to moment; 1 where none do."""
+        return 1 if self.seed is None else _family(self.family).movement
+
+    @property
+    def part(self) -> int:
+        """In which part of a round its cases are asked again: 0 at the beginning of a family, then 1 and 2 in turn."""
+        number = 0 if self.seed is None else self.start // CHUNK_ROWS
+        return 1 + number % 2 if number else 0
+
+    def place(self, index: int) -> CasePlace:
+        """Where its case stands in the family."""
+        return int(self.seed is not None), self.start + index
+
+    def name(self, index: int) -> str:
+        """The id of its case."""
+        if self.seed is None:
+            return frozen_vectors(self.family).ids[self.start + index]
+        return case_id(_family(self.family), self.seed, self.start + index)
+
+    def find(self, name: str) -> int | None:
+        """Which of its cases has that id; None where none has."""
+        if self.seed is None:
+            ids = frozen_vectors(self.family).ids[self.start : self.stop]
+            return ids.index(name) if name in ids else None
+        stem, _, number = name.rpartition("/")
+        if stem != self.name(0).rpartition("/")[0] or not number.isdecimal():
+            return None
+        return int(number) - self.start if self.start <= int(number) < self.stop else None
+
+
+@dataclass(frozen=True)
+class ChunkCases:
+    """The cases of a chunk: rows (n, 7), the same column by column (7, n), and the exact positions, int8 (n,)."""
+
+    chunk: CaseChunk
+    rows: Rows
+    columns: NDArray[np.float64]
+    positions: Positions
+
+    @property
+    def by_column(self) -> Rows:
+        """The rows, each column of which lies in memory as a whole: what works on columns is faster with it."""
+        return self.columns.T
+
+
+def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
+    """The frozen vectors of a family, then `count` generated rows, beginning after those that were frozen."""
+    measured = EXPONENTS_OF
+    known = frozen_count(family.name)
+    if known:
+        yield CaseChunk(family.name, None, 0, known, min(known, measured))
+        measured = max(0, measured - known)
+    start = first_unfrozen(family, seed)
+    stop = start + count
+    while start < stop:
+        end = min(stop, (start // CHUNK_ROWS + 1) * CHUNK_ROWS)
+        yield CaseChunk(family.name, seed, start, end, min(measured, end - start))
+        start, measured = end, 0
+
+
+def frozen_count(name: str) -> int:
+    """How many vectors of a family are frozen."""
+    return len(frozen_vectors(name).rows) if name in vectors.NAMES else 0
+
+
+def searched_chunks() -> Iterator[CaseChunk]:
+    """The frozen vectors that no family generates: the worst cancellations, which a search has found."""
+    for name in vectors.NAMES:
+        if name not in FAMILIES:
+            known = len(frozen_vectors(name).rows)
+            yield CaseChunk(name, None, 0, known, min(known, EXPONENTS_OF))
+
+
+def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
+    """Its rows with the positions that they are certified with, or that are decided here."""
+    return cases_of_chunks((chunk,))[0]
+
+
+def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
+    """The cases of each of these chunks; decided together, which takes less time where each has few."""
+    made = [(chunk, _columns(chunk)) for chunk in some]
+    drawn = [columns for chunk, columns in made if chunk.seed is not None]
+    decided = (
+        float_filter.positions(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T) if drawn else None
+    )
+    found, start = [], 0
+    for chunk, columns in made:
+        if chunk.seed is None or decided is None:
+            known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
+            found.append(ChunkCases(chunk, known.rows[part], columns, known.positions[part]))
+        else:
+            stop = start + len(chunk)
+            found.append(ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, decided[start:stop]))
+            start = stop
+    return tuple(found)
+
+
+def _columns(chunk: CaseChunk) -> NDArray[np.float64]:
+    if chunk.seed is None:
+        return np.ascontiguousarray(frozen_vectors(chunk.family).rows[chunk.start : chunk.stop].T)
+    return _family(chunk.family).columns_between(chunk.seed, chunk.start, chunk.stop)
+
+
+@lru_cache
+def first_unfrozen(family: Family, seed: int) -> int:
+    """How many rows a seed begins with that are all among the frozen vectors."""
+    if family.name not in vectors.NAMES:
+        return 0
+    known = {row.tobytes() for row in frozen_vectors(family.name).rows}
+    start = 0
+    while all(row.tobytes() in known for row in family.block(seed, start // BLOCK)):
+        start += BLOCK
+    return start + next(
+        place for place, row in enumerate(family.block(seed, start // BLOCK)) if row.tobytes() not in known
+    )
+
+
+def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
+    """floor(log2) of the distance to the nearest other position, of those of the (ascending) indices it is recorded of.
+
+    A frozen vector says it itself.
+    """
+    chunk, measured = made.chunk, indices[indices < made.chunk.measured]
+    if not len(measured):
+        return np.empty(0)
+    if chunk.seed is not None:
+        return judge.flip_exponents(made.rows[measured])
+    flips = frozen_vectors(chunk.family).octaves[chunk.start + measured]
+    unknown = np.flatnonzero(np.isnan(flips))
+    flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
+    return flips
+
+
+@lru_cache
+def _family(name: str) -> Family:
+    return families.family_at(name) if families.MARK in name else FAMILIES[name]

@@ -1,0 +1,309 @@
+"""The executor of a cluster: tasks go to a dask scheduler, and a plugin holds the implementation on each worker.
+
+Dask gives the tasks of a worker that ended to others. It blames every task that was with such a worker, and gives up
+one that was blamed too often: that is a lost task here.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import shutil
+import tempfile
+import threading
+import time
+import uuid
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, InvalidStateError
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+from distributed import KilledWorker, Worker, WorkerPlugin, get_worker
+
+from hypcheck.errors import HypcheckError, InputError, system_reason
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.implementation import Implementation
+from hypcheck.implementations.session import Allowance
+from hypcheck.runs.cluster import CLOSE, CONNECT, OTHER_FILES, call_with_timeout
+from hypcheck.runs.executors import keep_freed_memory, require_same_description
+from hypcheck.runs.fingerprint import (
+    ShippedFile,
+    code_fingerprint,
+    files_to_ship,
+    module_sha256,
+    require_same_sha256,
+    spec_on_worker,
+)
+from hypcheck.runs.results import JudgingRules
+from hypcheck.runs.schedule import ImplementationOpener, Task, TaskExecution, TaskResult, WorkerLost, perform_task
+
+if TYPE_CHECKING:
+    from distributed import Client
+    from distributed import Future as DaskFuture
+
+TICK = 1.0
+PATIENCE = 60
+"""Seconds without a result between two looks at the cluster, and looks in turn that may find no worker there."""
+
+SILENCES = 6
+"""Looks in turn to which the scheduler may say nothing within the seconds of CONNECT."""
+
+IDLE = 60.0
+"""Seconds after which an implementation that nobody asks is closed; it is opened again when somebody does."""
+
+_CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
+
+Result = TypeVar("Result")
+Arguments = ParamSpec("Arguments")
+
+
+@contextmanager
+def execution_on_cluster(
+    client: Client, opening: ImplementationOpener, rules: JudgingRules, implementation: Implementation
+) -> Iterator[TaskExecution]:
+    """Performs tasks on the workers of a cluster. Tasks raise what a worker cannot begin with.
+
+    Raises InputError where the cluster is lost; so do tasks.
+    """
+    name = f"hypcheck-{uuid.uuid4().hex}"
+    files, module = files_to_ship(opening.spec), module_sha256(opening.spec)
+    job = ClusterJob(name, opening, rules, implementation.declared, files, module, code_fingerprint())
+    workers = max(1, sum(client.nthreads().values()))
+    with DaskExecutor(client) as executor:
+        try:
+            call_with_timeout(CONNECT, lambda: client.register_plugin(ImplementationPlugin(job)))
+        except TimeoutError:
+            raise executor.lost(f"it said nothing within {CONNECT} s") from None
+        function = partial(_perform_opened, name)
+        try:
+            yield TaskExecution(executor, function, workers, implementation.allowance, implementation.most, rules)
+        finally:
+            executor.shutdown()
+            if client.status == "running":
+                with suppress(Exception):  # it is lost meanwhile, and workers close what is idle by themselves
+                    call_with_timeout(CLOSE, lambda: client.unregister_worker_plugin(name))
+
+
+class DaskExecutor(Executor):
+    """Futures of a dask client as those of the standard library.
+
+    A future raises WorkerLost where dask gave its call up, and InputError where the cluster is lost: its scheduler is
+    gone or says nothing, or has had no worker for too long.
+    """
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self._address = client.scheduler.address if client.scheduler else "?"
+        self._running: dict[Future[Any], DaskFuture] = {}
+        self._news = threading.Event()
+        self._over = threading.Event()
+        threading.Thread(target=self._watch, name="hypcheck-cluster", daemon=True).start()
+
+    def submit(
+        self, function: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
+    ) -> Future[Result]:
+        """Send a call to the scheduler."""
+        future: Future[Result] = Future()
+        try:
+            there = self._client.submit(function, *args, **kwargs, key=f"hypcheck-{uuid.uuid4().hex}", pure=False)
+        except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
+            future.set_exception(self.lost("its scheduler is not there any more"))
+            return future
+        self._running[future] = there
+        future.add_done_callback(self._forget)
+        there.add_done_callback(partial(self._settle, future))
+        return future
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: ARG002
+        """Forget the calls that are left; it is not waited for them."""
+        self._over.set()
+        for future in list(self._running):
+            future.cancel()
+        self._running.clear()
+
+    def lost(self, why: str) -> InputError:
+        """That there is no cluster any more."""
+        kept = "what was finished is in the record"
+        return InputError(f"--cluster {self._address}: the cluster was lost: {why}; {kept}")
+
+    def _forget(self, future: Future[Any]) -> None:
+        there = self._running.pop(future, None)
+        if there is not None:
+            there.release()  # does not wait for the scheduler, as cancel() would
+
+    def _settle(self, future: Future[Any], there: DaskFuture) -> None:
+        """Give a future what became of its call."""
+        if future.done():
+            return
+        try:
+            result = there.result(timeout=TICK)
+        except KilledWorker as killed:
+            self._fail(future, WorkerLost("workers of the cluster", deaths=killed.allowed_failures + 1))
+        except (*_CANCELLED, asyncio.TimeoutError, OSError) as error:
+            if there.status == "error":  # what the call itself ended with
+                self._fail(future, error)
+            elif not isinstance(error, asyncio.TimeoutError):
+                self._fail(future, self.lost("its scheduler is not there any more"))
+            else:  # it was computed, but its worker is gone with it: it is computed again
+                there.add_done_callback(partial(self._settle, future))
+        except Exception as error:  # noqa: BLE001 - it is raised where the result is asked for
+            self._fail(future, error)
+        else:
+            self._news.set()
+            with suppress(InvalidStateError):  # it was cancelled meanwhile
+                future.set_result(result)
+
+    def _fail(self, future: Future[Any], error: BaseException) -> None:
+        with suppress(InvalidStateError):  # it was cancelled meanwhile
+            future.set_exception(error)
+
+    def _watch(self) -> None:
+        """Fail all calls where the cluster is lost: looked at while no results come."""
+        alone = silent = 0
+        while not self._over.wait(TICK):
+            if self._news.is_set() or not self._running:
+                self._news.clear()
+                alone = silent = 0
+                continue
+            trouble = ""
+            try:
+                workers = call_with_timeout(CONNECT, self._client.nthreads)
+                silent, alone = 0, 0 if workers else alone + 1
+            except TimeoutError:
+                silent += 1
+            except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
+                trouble = "its scheduler is not there any more"
+            if silent == SILENCES:
+                trouble = f"its scheduler has said nothing for {SILENCES * CONNECT} s"
+            if alone > PATIENCE:
+                trouble = f"it has had no worker for {PATIENCE} s"
+            if trouble:
+                for future in list(self._running):
+                    self._fail(future, self.lost(trouble))
+
+
+@dataclass(frozen=True)
+class ClusterJob:
+    """What every worker is told once: a name for the run, what to open and how to judge.
+
+    `declared` is what the implementation must say of itself, `files` what its SPEC names, `module` the sha256 of its
+    Python module, `ours` that of our own files.
+    """
+
+    name: str
+    opening: ImplementationOpener
+    rules: JudgingRules
+    declared: Description
+    files: tuple[ShippedFile, ...]
+    module: str
+    ours: str
+
+
+class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
+    """Given to the workers that there are and to those that come later."""
+
+    def __init__(self, job: ClusterJob) -> None:
+        self.job = job
+        self.name = job.name
+
+    def setup(self, worker: Worker) -> None:
+        """Be ready; nothing is opened yet."""
+        keep_freed_memory()
+        _OPENED[self.name] = _OpenedImplementation(self.job, worker.address, Path(worker.local_directory))
+
+    def teardown(self, worker: Worker) -> None:  # noqa: ARG002 - dask's signature
+        """End what was opened."""
+        held = _OPENED.pop(self.name, None)
+        if held is not None:
+            held.close()
+
+
+def _perform_opened(name: str, task: Task, allowance: Allowance) -> TaskResult:
+    """Perform a task of the run of that name, on whichever worker this is.
+
+    Raises InputError where the worker, which may have come later, has other files than where the run began.
+    """
+    if name not in _OPENED:  # it could not be made ready
+        raise InputError(f"worker {get_worker().address} {OTHER_FILES}")
+    return _OPENED[name].perform(task, allowance)
+
+
+class _OpenedImplementation:
+    """The implementations of one run on one worker, one for each task that is performed at the same time."""
+
+    def __init__(self, job: ClusterJob, worker: str, home: Path) -> None:
+        self._job = job
+        self._worker = worker
+        self._home = home
+        self._folder: Path | None = None
+        self._opening: ImplementationOpener | None = None
+        self._idle: list[tuple[float, Implementation]] = []
+        self._lock = threading.Lock()
+        self._over = threading.Event()
+        threading.Thread(target=self._close_idle, name="hypcheck-idle", daemon=True).start()
+
+    def perform(self, task: Task, allowance: Allowance) -> TaskResult:
+        """Perform it with an implementation that is idle, or another one."""
+        with self._lock:
+            implementation = self._idle.pop()[1] if self._idle else None
+            opening = self._opening = self._opening or self._opening_here()
+        if implementation is None:
+            implementation = self._open(opening)
+        try:
+            done = perform_task(task, implementation, self._job.rules, allowance)
+        except BaseException as error:
+            implementation.__exit__(type(error), error, None)
+            raise
+        with self._lock:
+            self._idle.append((time.monotonic(), implementation))
+        if self._over.is_set():
+            self.close()
+        return done
+
+    def _open(self, opening: ImplementationOpener) -> Implementation:
+        implementation = opening.open()
+        try:
+            require_same_description(implementation, self._job.declared)
+        except HypcheckError as error:
+            implementation.__exit__(type(error), error, None)
+            raise
+        return implementation
+
+    def _opening_here(self) -> ImplementationOpener:
+        job = self._job
+        spec = job.opening.spec
+        if code_fingerprint() != job.ours:
+            raise InputError(f"worker {self._worker} {OTHER_FILES}")
+        if job.module:
+            require_same_sha256(f"the module of {spec}", job.module, module_sha256(spec), self._worker)
+        try:
+            self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
+            return replace(job.opening, spec=spec_on_worker(spec, job.files, self._worker, self._folder))
+        except OSError as error:
+            reason = system_reason(error)
+            raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
+
+    def _close_idle(self) -> None:
+        while not self._over.wait(IDLE / 4):
+            with self._lock:
+                old = [each for each in self._idle if time.monotonic() > each[0] + IDLE]
+                self._idle = [each for each in self._idle if each not in old]
+            for _, implementation in old:
+                implementation.close()
+
+    def close(self) -> None:
+        """End them now, and remove the files that were put here."""
+        self._over.set()
+        with self._lock:
+            idle, self._idle = self._idle, []
+        for _, implementation in idle:
+            implementation.kill()
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)
+
+
+_OPENED: dict[str, _OpenedImplementation] = {}
+"""By the name of the run: a task runs in any thread that is free, and finds here what its worker holds."""

@@ -1,0 +1,281 @@
+"""The cases of a self-check, what the formulas get wrong on them (exactly and in floats), and the map of the tower.
+
+What one run of verify is asked to do, and the cases it works on.
+
+What the formulas get wrong: in exact rationals, where only the mathematics is to blame, and in floats.
+
+The known mathematical findings: what the paper's procedures get wrong even in exact arithmetic, and why.
+
+The list bites both ways in a complete run: a finding that is not listed and a listed one that no longer occurs both
+fail it.
+
+The picture of a scene: exact positions over the half plane (r, z), and where a method in low precision is wrong.
+
+On it one sees the ring: at z = 0, far outside the surface, the discriminant vanishes, and a plain evaluation says
+"contact" where nothing is (docs/mathematics.md, "The ring").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from importlib import resources
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck import toml
+from hypcheck.derivation.evaluation import EXACT
+from hypcheck.derivation.formulas import FORMULAS, Formula, answers
+from hypcheck.geometry.pair import COLUMNS, Pair
+from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.description import EVERYWHERE, claimed
+from hypcheck.implementations.method import Method
+from hypcheck.record.lines import FindingLine, GroupLine, MapLine
+from hypcheck.runs import judge, tally
+from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
+from hypcheck.runs.score import score
+from hypcheck.runs.tally import CasePlace
+from hypcheck.truth import exact, float_filter
+from hypcheck.truth.exact import Decision, cubic
+from hypcheck.truth.kinds import Kind
+from hypcheck.vectors.families import case_id, select
+from hypcheck.vectors.family import Family
+
+ALL_BUT_EXTREME: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SelfCheckPlan:
+    """Options of a run.
+
+    `families` are names and globs (none: all but the extreme ones); `count` rows of each family are asked of the exact
+    and the nearest-point oracle, and `judged` of them of every method; `roots` and `meshes` rows in all go to the two
+    slow oracles, and `exact_formulas` rows of each family through every formula in exact arithmetic. `workers` 1 means
+    this process.
+    """
+
+    families: tuple[str, ...] = ALL_BUT_EXTREME
+    oracles: tuple[str, ...] = ("exact", "nearest", "roots", "mesh")
+    count: int = 400
+    judged: int = 400
+    seed: int = 1
+    roots: int = 1500
+    meshes: int = 2000
+    exact_formulas: int = 60
+    workers: int = 2
+    tolerance: Fraction = DEFAULT_TOLERANCE
+
+    @property
+    def complete(self) -> bool:
+        """Whether this is the whole default run, whose findings must be exactly the known ones."""
+        default = SelfCheckPlan()
+        enough = min(self.count, self.exact_formulas) >= default.exact_formulas
+        return enough and (self.families, self.seed) == (default.families, default.seed)
+
+
+@dataclass(frozen=True)
+class FamilyBatch:
+    """The cases of one family: rows (n, 7), the exact decisions, and their positions as int8 (n,)."""
+
+    family: Family
+    seed: int
+    rows: Rows
+    decisions: tuple[Decision, ...]
+    positions: Positions
+
+    def head(self, count: int) -> FamilyBatch:
+        """The first `count` cases."""
+        return replace(self, rows=self.rows[:count], decisions=self.decisions[:count], positions=self.positions[:count])
+
+    def name(self, index: int) -> str:
+        """The id by which a case can be asked for again."""
+        return case_id(self.family, self.seed, index)
+
+    def place(self, index: int) -> CasePlace:
+        """Where a case stands in the family."""
+        return 1, index
+
+
+def self_check_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
+    """The families of the plan. Raises InputError naming one that does not exist."""
+    return select(plan.families)
+
+
+def batches(plan: SelfCheckPlan, families: Sequence[Family]) -> tuple[FamilyBatch, ...]:
+    """The cases of every family, decided exactly."""
+    return tuple(_batch(family, plan) for family in families)
+
+
+def _batch(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
+    rows = family.rows(plan.seed, plan.count)
+    decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
+    positions = np.array([decision.position for decision in decisions], dtype=np.int8)
+    return FamilyBatch(family, plan.seed, rows, decisions, positions)
+
+
+def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckPlan) -> list[FindingLine]:
+    """What the formula gets wrong in exact rationals on the first rows of a family, by side of its regimes and cause.
+
+    No reason is given yet. `asked` counts the rows on that side.
+    """
+    head = batch.head(plan.exact_formulas)
+    given = [int(answers(formula, EXACT, dict(zip(COLUMNS, row, strict=True)))) for row in head.rows.tolist()]
+    inside = replace(EVERYWHERE, regimes=formula.regimes).holds(head.rows)
+    wrong: dict[tuple[bool, str], list[int]] = {}
+    for place in np.flatnonzero(judge.is_wrong(head.positions, np.array(given), formula.question)).tolist():
+        wrong.setdefault((bool(inside[place]), cause(batch, place)), []).append(place)
+    return [
+        FindingLine(
+            formula=formula.name,
+            family=batch.family.name,
+            inside=side,
+            cause=why,
+            asked=int((inside == side).sum()),
+            wrong=len(places),
+            first_case=batch.name(places[0]),
+            first_row=tuple(value.hex() for value in batch.rows[places[0]].tolist()),
+            reason=None,
+        )
+        for (side, why), places in sorted(wrong.items())
+    ]
+
+
+def cause(batch: FamilyBatch, place: int) -> str:
+    """What is special about a case, among the things that printed statements are known to forget."""
+    if batch.decisions[place].kind is Kind.EXTERIOR_RING:
+        return "ring"
+    g = cubic(Pair.from_row(batch.rows[place].tolist()).lengths)
+    if g.n2 == 0 or g.n1 == 0:
+        return "zero-coefficient"
+    return "none known"
+
+
+def exact_formulas() -> list[Formula]:
+    """The formulas that answer from a pair alone, so that exact arithmetic can run them."""
+    return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
+
+
+def method_group(method: Method, batch: FamilyBatch, exponents: NDArray[np.float64], plan: SelfCheckPlan) -> GroupLine:
+    """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
+    tolerance = Fraction(0) if method.exact else plan.tolerance
+    criterion = Criterion(method.question, method.precision, tolerance)
+    inside = claimed(batch.rows, method.domain, method.precision, extreme=batch.family.extreme)
+    places = inside[: method.most]
+    rows = batch.rows[places]
+    scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
+    tallied = scored.tally(batch, places, exponents[places], skipped=len(batch.rows) - len(inside))
+    return tally.group_line(
+        tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
+    )
+
+
+KNOWN_FINDINGS_FILE = "known_findings.toml"
+
+
+@dataclass(frozen=True, slots=True)
+class KnownFinding:
+    """An expected finding: the formula errs inside its stated regimes for this cause, on these families at least."""
+
+    formula: str
+    cause: str
+    families: tuple[str, ...]
+    reason: str
+
+
+def known_findings() -> tuple[KnownFinding, ...]:
+    """The shipped list."""
+    text = resources.files("hypcheck.runs").joinpath(KNOWN_FINDINGS_FILE).read_text(encoding="utf-8")
+    entries = toml.parsed(text, KNOWN_FINDINGS_FILE)["finding"]
+    return tuple(
+        KnownFinding(each["formula"], each["cause"], tuple(each["families"]), each["reason"]) for each in entries
+    )
+
+
+def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | None:
+    """The listed reason of a finding; None for an unknown one, and where the formula claims nothing."""
+    if not finding.inside:
+        return None
+    matching = (each.reason for each in known if (each.formula, each.cause) == (finding.formula, finding.cause))
+    return next(matching, None)
+
+
+def finding_drift(found: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
+    """How the findings differ from the known ones, a sentence each.
+
+    Errors inside the stated regimes whose cause is not listed; and, in a complete run, listed ones that did not occur.
+    """
+    unknown = [each for each in found if each.inside and reason_for(each, known) is None]
+    sentences = [
+        f"{each.formula} errs on {each.family} inside its stated regimes (cause: {each.cause}), which is not a known "
+        f"finding; see {each.first_case}"
+        for each in unknown
+    ]
+    seen = {(each.formula, each.cause, each.family) for each in found if each.inside}
+    listed = [(each.formula, each.cause, family) for each in known for family in each.families] if complete else []
+    sentences += [
+        f"{formula} no longer errs on {family} (cause: {cause}), but is listed as a known finding"
+        for formula, cause, family in listed
+        if (formula, cause, family) not in seen
+    ]
+    return sentences
+
+
+LETTERS = {1: "e", 0: "c", -1: "i"}
+"""A grid point's letter: exterior, contact, interior; upper case where the method is wrong."""
+
+
+@dataclass(frozen=True, slots=True)
+class MapPanel:
+    """A rectangle of the half plane in metres, with `columns` × `lines` grid points."""
+
+    name: str
+    sizes: tuple[float, float, float, float]
+    r: tuple[float, float]
+    z: tuple[float, float]
+    columns: int
+    lines: int
+
+
+TOWER = (2.0, 17.8, 0.25, 0.15)
+
+
+def tower_panels() -> tuple[MapPanel, MapPanel]:
+    """The cooling tower and its surroundings, and the neighbourhood of its ring, at r* = b √((c²+1)(a²+c²))/c."""
+    alpha, gamma, b, d = TOWER
+    a, c = alpha / b, gamma / d
+    ring = b * np.sqrt((c * c + 1) * (a * a + c * c)) / c
+    whole = MapPanel("cooling tower", TOWER, (0.0, 34.0), (-17.8, 17.8), 341, 179)
+    near = MapPanel("the ring", TOWER, (ring - 0.03, ring + 0.03), (-0.03, 0.03), 121, 121)
+    return whole, near
+
+
+def map_line(panel: MapPanel, method: Method) -> MapLine:
+    """The record's line about one panel: a text line of letters for each z, from the lowest up."""
+    rows = _grid(panel)
+    truth = float_filter.positions(rows)
+    wrong = judge.is_wrong(truth, method.answer(rows), method.question)
+    letters = np.array([LETTERS[position] for position in truth.tolist()])
+    letters[wrong] = np.char.upper(letters[wrong])
+    return MapLine(
+        name=panel.name,
+        method=method.name,
+        sizes=panel.sizes,
+        r=panel.r,
+        z=panel.z,
+        wrong=int(wrong.sum()),
+        points=len(rows),
+        lines=["".join(line) for line in letters.reshape(panel.lines, panel.columns).tolist()],
+    )
+
+
+def _grid(panel: MapPanel) -> Rows:
+    r = np.linspace(*panel.r, panel.columns)
+    z = np.linspace(*panel.z, panel.lines)
+    rows = np.zeros((panel.columns * panel.lines, 7))
+    rows[:, :4] = panel.sizes
+    rows[:, 4] = np.tile(r, panel.lines)
+    rows[:, 6] = np.repeat(z, panel.columns)
+    return rows

@@ -1,0 +1,253 @@
+"""Fingerprints (SHA-256) of the files under test and of hypcheck's own code; files that a cluster's workers lack.
+
+The files that a SPEC names: told by their content, and sent to workers of a cluster that have them not.
+
+Of a command these are the program, where it is given as a path, and the words that name files here; a program that is
+looked for on the PATH is each worker's own. A Python module is not sent, but must be the same.
+
+Our own files, told by their content: what a chunk comes to depends on, besides the implementation.
+
+Two machines may have hypcheck of one version and yet not the same files, where it is installed from a repository. And
+what is under test runs as the same user as we do: it could write over the judge, or over itself, while it is judged.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import struct
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.machinery import PathFinder
+from importlib.util import cache_from_source
+from pathlib import Path
+
+import hypcheck
+from hypcheck.errors import InputError, system_reason
+from hypcheck.implementations.spec import is_file, parse_spec
+from hypcheck.record import Recorder
+from hypcheck.record.lines import DriftLine
+from hypcheck.vectors.frozen import folder
+
+_BLOCK_BYTES = 1 << 20
+
+
+def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
+    """The sha256 of the files that SPECs name, and of other files, by path; of those that are there."""
+    named = [each.path for spec in specs for each in files_of(spec)]
+    paths = [*named, *(path for path in others if path is not None)]
+    return {str(path): sha256(path) for path in paths}
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFile:
+    """A file that is there, which word `word` of a SPEC names by its path, or by what is `searched` for."""
+
+    word: int
+    path: Path
+    searched: bool
+
+
+def files_of(text: str) -> Iterator[NamedFile]:
+    """The files of a SPEC: a library, a Python file or module, a command and those of its words that are files.
+
+    Nothing is imported or run to find them. Raises InputError where the SPEC is none.
+    """
+    spec = parse_spec(text)
+    if spec.kind == "builtin":
+        return
+    for word, name in enumerate(spec.words if spec.kind == "command" else spec.words[:1]):
+        module = spec.kind == "python" and not is_file(name)
+        program = spec.kind == "command" and word == 0 and os.sep not in name
+        found = _module_file(name) if module else shutil.which(name) if program else name
+        if found is not None and os.path.isfile(found):
+            yield NamedFile(word, Path(found), module or program)
+
+
+def sha256(path: Path) -> str:
+    """Of a file's content, in hexadecimal; of one that may be run but not read, or is a pipe or device, why not."""
+    digest = hashlib.sha256()
+    try:
+        if path.exists() and not path.is_file():  # to be read it may be waited for without end
+            return "is no regular file"
+        file = path.open("rb")
+    except OSError as error:
+        return system_reason(error)
+    with file:
+        while block := file.read(_BLOCK_BYTES):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def _module_file(name: str) -> str | None:
+    """The file of a module, found as the worker finds it: from the working directory first."""
+    places: list[str] | None = [os.getcwd(), *sys.path]
+    origin = None
+    for depth in range(1, name.count(".") + 2):
+        spec = PathFinder.find_spec(".".join(name.split(".")[:depth]), places)
+        if spec is None:
+            return None
+        origin, places = spec.origin, list(spec.submodule_search_locations or ())
+    return origin
+
+
+@dataclass(frozen=True, slots=True)
+class ShippedFile:
+    """A file that word `word` of a SPEC names: its absolute path where the run began, its content, its permissions."""
+
+    word: int
+    path: str
+    content: bytes
+    mode: int
+
+    @property
+    def sha256(self) -> str:
+        """Of the content, in hexadecimal."""
+        return hashlib.sha256(self.content).hexdigest()
+
+
+def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
+    """The files that a SPEC names by their paths. Raises InputError where one cannot be read."""
+    found = []
+    for named in files_of(text):
+        if named.searched:
+            continue
+        path = named.path.absolute()
+        try:
+            found.append(ShippedFile(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
+        except OSError as error:
+            raise InputError(f"{path} cannot be sent to a cluster: {system_reason(error)}") from None
+    return tuple(found)
+
+
+def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
+    """The SPEC as a worker can open it: a file that is not where it was when the run began is put into the folder.
+
+    Raises InputError where the file there is another one.
+    """
+    spec = parse_spec(text)
+    words = list(spec.words)
+    for file in files:
+        words[file.word] = _path_on_worker(file, worker, folder)
+    if spec.kind == "command":
+        return f"command:{json.dumps(words)}"
+    return f"{spec.kind}:{':'.join(words)}" if files else text
+
+
+def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
+    path = Path(file.path)
+    if not path.is_file():
+        place = folder / str(file.word) / os.path.basename(file.path)
+        place.parent.mkdir()
+        place.write_bytes(file.content)
+        place.chmod(file.mode)
+        return str(place)
+    require_same_sha256(file.path, file.sha256, sha256(path), worker)
+    return file.path
+
+
+def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
+    """Raise InputError where two hashes differ."""
+    if here != there:
+        raise InputError(f"{what} is another file on worker {worker}: sha256 {there} there, and {here} here")
+
+
+def module_sha256(text: str) -> str:
+    """Of the file of a SPEC's Python module, as it is found here; empty where the SPEC names none."""
+    spec = parse_spec(text)
+    if spec.kind != "python" or is_file(spec.words[0]):
+        return ""
+    return next((sha256(each.path) for each in files_of(text)), "(not found)")
+
+
+_PACKAGE = Path(hypcheck.__file__).parent
+MAX_FILES_NAMED = 5
+"""Files that changed during a run which are named; whoever checks out another commit changes hundreds."""
+
+_HEADER = 16
+"""Bytes of the header of compiled Python: four of its version, four flags, then time and size of its source."""
+
+
+@lru_cache
+def code_fingerprint() -> str:
+    """Of our modules and the frozen vectors, with their names, as they were when this was first asked."""
+    told = hashlib.sha256()
+    for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json")):
+        for path in sorted(place.glob(pattern)):
+            told.update(f"{path.relative_to(place).as_posix()} {_sha256_of_bytes(_content_of(str(path)))}\n".encode())
+    return told.hexdigest()
+
+
+class FileSnapshot:
+    """The files of a run at its beginning, to be compared with those at its end: ours and those under test.
+
+    `tested` are the sha256 of those under test, by path.
+    """
+
+    def __init__(self, tested: Mapping[str, str]) -> None:
+        self._tested = dict(tested)
+        self.program = code_fingerprint()
+        self._ours = _own_files()
+
+    def record_changes(self, recorder: Recorder) -> list[str]:
+        """Sentences about files that are not as they were, ours first; the record gets them as lines that fail it."""
+        found = list(self._changes())
+        if len(found) > MAX_FILES_NAMED:
+            found[MAX_FILES_NAMED:] = [f"{len(found) - MAX_FILES_NAMED} more files were changed"]
+        for sentence in found:
+            recorder.add(DriftLine(sentence=sentence))
+        return found
+
+    def _changes(self) -> Iterator[str]:
+        now = _own_files()
+        for path in sorted({*self._ours, *now}):
+            before, after = self._ours.get(path), now.get(path)
+            if before != after and not _is_compiled(path, before, after):
+                yield f"hypcheck's own file {path} was {_change_of(before, after)} while an implementation was asked"
+        for name, before in self._tested.items():
+            after = sha256(Path(name)) if os.path.exists(name) else None
+            if before != after:
+                yield f"{name}, which is under test, was {_change_of(before, after)} while it was asked"
+
+
+def _change_of(before: str | None, after: str | None) -> str:
+    return "added" if before is None else "removed" if after is None else "changed"
+
+
+def _is_compiled(path: str, before: str | None, after: str | None) -> bool:
+    """Whether Python may have compiled a module then that it had not loaded before, or somebody removed its caches."""
+    return path.endswith(".pyc") and (before is None or after is None)
+
+
+def _own_files() -> dict[str, str]:
+    """The sha256 of everything in the package and of the frozen vectors, by path.
+
+    Of compiled Python, only where Python would load it without a look at its source, so that nothing need change it.
+    """
+    found = {}
+    for top, folders, names in os.walk(_PACKAGE):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        for path in (os.path.join(top, name) for name in names):
+            found[path] = _sha256_of_bytes(_content_of(path))
+            compiled = cache_from_source(path) if path.endswith(".py") else ""
+            if compiled and os.path.exists(compiled):
+                content, state = _content_of(compiled), os.stat(path)
+                if content[4:_HEADER] == struct.pack("<3I", 0, int(state.st_mtime) % 2**32, state.st_size % 2**32):
+                    found[compiled] = _sha256_of_bytes(content)
+    return found | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json")}
+
+
+def _content_of(path: str) -> bytes:
+    """Of a file that is small; nothing where it may not be read, or was removed at this very moment."""
+    with suppress(OSError), open(path, "rb", buffering=0) as file:  # a buffer would take longer than the small files
+        return file.read()
+    return b""
+
+
+def _sha256_of_bytes(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

@@ -1,0 +1,364 @@
+"""The search of a hunt: thin strata of rows first, then local search around the worst wrong answers.
+
+Bringing rows to the border of contact, where wrong answers are small, and leaving it by steps of known size.
+
+The position is monotone in every input (docs/mathematics.md, "Monotone in every input"), so along a factor on one
+length, or on x and y together, it changes twice at most, and a change is found by bisection on exact positions.
+
+Where to look first: thin sets of rows on which an argument about the pair changes its case.
+
+Each family of the casebook is one: tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the
+axis, the waist, the borders of the regimes, long ratios. To these come the crossings of four surfaces, z = 0, r = 0,
+a = 1 and c² = a, with one another and with the border of contact: on them exactly, and a hair beside.
+
+Whoever was made for given sizes is asked the families that are made for these, and nothing else.
+
+Local search: from a wrong answer to worse ones next to it, by a pattern search with halving steps.
+
+A climber stands on a row. Its neighbours have one of the six unknowns multiplied by 1 ± step (the logarithms of the
+sizes are what is searched), or stand on one of the surfaces exactly. Where floats fail they mostly do so in a thin
+layer at the border of contact, which a plain step would leave; so each neighbour is asked as it is and also brought to
+the border, and a ladder of ever larger steps off it is asked: the farthest rung with a wrong answer counts.
+
+The hunt: the strata first, then by turns local search around the worst that was found and more of the strata.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import FixedSizes, Positions, Rows, invalid
+from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding_rank
+from hypcheck.truth import float_filter
+from hypcheck.vectors.draw import Draw, Floats, Integers, ldexp, stepped
+from hypcheck.vectors.families import FAMILIES, families_for
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
+
+Mask = NDArray[np.bool_]
+
+MOVERS: dict[str, tuple[int, ...]] = {
+    "radius": (4, 5),
+    "height": (6,),
+    "alpha": (0,),
+    "gamma": (1,),
+    "b": (2,),
+    "d": (3,),
+}
+"""What can be multiplied by one factor to reach the border, with its columns: the unknowns of a pair."""
+
+REACH = 2.0**12
+"""Factors from 1/REACH to REACH are looked at."""
+
+OCTAVES = 46
+"""Rows are put up to 2^(OCTAVES − 1) ulp of the factor away from the border."""
+
+RUNGS = 4 ** np.arange(OCTAVES // 2, dtype=np.int64)
+"""The rungs of a ladder, in ulp of the factor."""
+
+
+def columns_of(movers: NDArray[np.str_]) -> Mask:
+    """The columns that the named movers multiply, as a mask (n, 7)."""
+    mask = np.zeros((len(movers), 7), dtype=np.bool_)
+    for name, columns in MOVERS.items():
+        mask[np.ix_(movers == name, columns)] = True
+    return mask
+
+
+def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
+    """The rows with the masked columns multiplied by each row's factor; what is beyond float64 becomes infinite."""
+    with np.errstate(all="ignore"):
+        return np.where(mask, rows * factor[:, None], rows)
+
+
+def border_factors(rows: Rows, mask: Mask, far: Mask) -> Floats:
+    """The factor just before the position changes, (n,); NaN where it does not change within REACH.
+
+    Of two changes the one at the greater factor is taken where `far` says so.
+    """
+    low, high = np.full(len(rows), 1 / REACH), np.full(len(rows), REACH)
+    at_low, at_high = _positions(moved(rows, mask, low)), _positions(moved(rows, mask, high))
+    changes = (at_low != at_high) & (at_low != UNUSABLE) & (at_high != UNUSABLE)
+    rows, mask, far = rows[changes], mask[changes], far[changes]
+    at_low, at_high = at_low[changes], at_high[changes]
+    # Halving bit patterns is halving the logarithm at first and the factor itself at the end.
+    below, above = low[changes].view(np.int64), high[changes].view(np.int64)
+    while (above - below).max(initial=0) > 1:
+        middle = below + (above - below) // 2
+        position = _positions(moved(rows, mask, middle.view(np.float64)))
+        before = np.where(far, position != at_high, position == at_low)
+        below, above = np.where(before, middle, below), np.where(before, above, middle)
+    factors = np.full(len(changes), np.nan)
+    factors[changes] = below.view(np.float64)
+    return factors
+
+
+UNUSABLE = 3
+
+
+def _positions(rows: Rows) -> Positions:
+    """Exact positions, and UNUSABLE where a length left the range of float64."""
+    usable = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
+    found = np.full(len(rows), UNUSABLE, dtype=np.int8)
+    found[usable] = float_filter.positions(rows[usable])
+    return found
+
+
+def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
+    """Each row brought to a border by its mover and off again by a random rung; rows without a border are left out."""
+    mask = columns_of(movers)
+    factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
+    rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, OCTAVES - 1)).astype(np.int64)
+    found = np.isfinite(factors)
+    return moved(rows[found], mask[found], stepped(factors[found], rungs[found]))
+
+
+def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
+    """All rungs of every row that has a border, and the number of the ladder that each belongs to.
+
+    Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs follow each other away from it.
+    """
+    owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * len(RUNGS))
+    steps = np.tile(np.concatenate([RUNGS, -RUNGS]), len(owners) // (2 * len(RUNGS)))
+    side = np.arange(len(owners)) // len(RUNGS) % 2
+    return moved(rows[owners], mask[owners], stepped(factors[owners], steps)), 2 * owners + side
+
+
+SURFACES = {
+    "z = 0": ("height",),
+    "r = 0": ("radius",),
+    "a = 1": ("alpha",),
+    "c² = a": ("alpha",),
+}
+"""The four surfaces, and what cannot be moved without leaving each."""
+
+CROSSING_BLOCK = 96
+"""Rows of a crossing made at a time: coming to the border costs more than a question."""
+
+VERSION = 1
+"""Of the crossings' generator: part of its seed."""
+
+
+@dataclass(frozen=True, slots=True)
+class HuntStratum:
+    """A set of rows: `rows(seed, number)` is its block of some rows with that number, all valid."""
+
+    name: str
+    rows: Callable[[int, int], Rows]
+
+
+def strata(settings: tuple[FixedSizes, ...] = ()) -> tuple[HuntStratum, ...]:
+    """All strata, the casebook's families first; where there are given sizes alone, the families made for them."""
+    if settings:
+        return tuple(map(_of_family, families_for(settings)))
+    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
+    return (*map(_of_family, FAMILIES.values()), *map(_of_crossing, crossings))
+
+
+def _of_family(family: Family) -> HuntStratum:
+    return HuntStratum(f"the family {family.name}", family.block)
+
+
+def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
+    name = f"contact beside {' and '.join(surfaces)}"
+    return HuntStratum(name, lambda seed, number: crossing(Draw(name, VERSION, seed, number), CROSSING_BLOCK, surfaces))
+
+
+def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
+    """At most n rows on, or a hair beside, these surfaces, each a random way off the border of contact."""
+    size = _sizes(draw, n, surfaces)
+    height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
+    radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
+    rows = centred(draw, size, radius, height)
+    movers = np.asarray(_movers(surfaces))
+    return beside_border(draw, rows, movers[draw.integers(n, 0, len(movers) - 1)])
+
+
+def _slack(draw: Draw, n: int, *, pinned: bool) -> Floats:
+    """What a distance is multiplied by: 1, or if it is to vanish 0 and 2⁻⁵⁰ … 2⁻³ by turns."""
+    if not pinned:
+        return np.ones(n)
+    return np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -50, -3))
+
+
+def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
+    """Sizes of every regime; α = b, and α/b and γ/d the square of and the fraction itself, exactly or all but."""
+    top, bottom = np.floor(draw.log_uniform(n, 0, 12)), np.floor(draw.log_uniform(n, 0, 12))
+    if "a = 1" in surfaces:
+        top = bottom
+    units = ldexp(1, draw.integers(n, -14, -10)), ldexp(1, draw.integers(n, -10, -6))
+    b, d = bottom * bottom * units[0], bottom * units[1]
+    alpha = top * top * units[0] * _nearly_one(draw, n)
+    if "c² = a" in surfaces:
+        return Sizes(alpha, top * units[1] * _nearly_one(draw, n), b, d)
+    return Sizes(alpha, d * draw.log_uniform(n, -8, 10), b, d)
+
+
+def _nearly_one(draw: Draw, n: int) -> Floats:
+    """1, or 1 ± 2⁻⁵² … 2⁻³, by turns."""
+    return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
+
+
+def _movers(surfaces: tuple[str, ...]) -> list[str]:
+    """What can be moved to come to the border without leaving these surfaces."""
+    kept = {mover for surface in surfaces for mover in SURFACES[surface]}
+    return [mover for mover in ("radius", "height", "alpha") if mover not in kept]
+
+
+Row = tuple[float, ...]
+
+FIRST_STEP = 0.5
+LAST_STEP = 2.0**-44
+
+_MOVES = [
+    (0,),
+    (1,),
+    (2,),
+    (3,),
+    (4, 5),
+    (6,),
+    (0, 2, 4, 5),  # the radial and the axial unit: nothing changes but the rounding
+    (1, 3, 6),
+]
+
+
+@dataclass(slots=True)
+class Climber:
+    """Where a search stands: the row, its backward error, and the step that is tried next."""
+
+    row: Row
+    error: float
+    step: float = FIRST_STEP
+
+    @property
+    def resting(self) -> bool:
+        """Whether nothing worse was found down to the last step, or nothing can be."""
+        return self.step < LAST_STEP or not 0 < self.error < math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Neighbours:
+    """Rows (n, 7) to be asked; the climber that each belongs to, and its ladder (a row on none is one of its own).
+
+    The rungs of a ladder follow each other away from the border: of those with a wrong answer the last is the worst.
+    """
+
+    rows: Rows
+    owners: Integers
+    ladders: Integers
+
+
+def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
+    """All that the climbers want to know next."""
+    with np.errstate(all="ignore"):  # what leaves float64 is not valid, and is not asked
+        around = [_around(climber) for climber in climbers]
+    rows = np.concatenate(around)
+    owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
+    valid = ~invalid(rows)
+    rows, owners = rows[valid], owners[valid]
+    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)])
+    rungs, numbers = ladders(rows, mask, border_factors(rows, mask, draw.signs(len(rows)) > 0))
+    rungs, numbers = rungs[~invalid(rungs)], numbers[~invalid(rungs)]
+    return Neighbours(
+        np.concatenate([rows, rungs]),
+        np.concatenate([owners, owners[numbers // 2]]),
+        np.concatenate([np.arange(len(rows)), len(rows) + numbers]),
+    )
+
+
+def _around(climber: Climber) -> Rows:
+    """The row itself, its neighbours one step away, and its images on the four surfaces."""
+    rows = np.repeat(np.array([climber.row]), 1 + 2 * len(_MOVES) + 4, axis=0)
+    for number, columns in enumerate(_MOVES):
+        rows[1 + 2 * number, columns] *= 1 + climber.step
+        rows[2 + 2 * number, columns] /= 1 + climber.step
+    axis, waist, throat, groove = rows[-4:]
+    axis[4:6] = 0
+    waist[6] = 0
+    throat[0] = throat[2]
+    groove[1] = groove[3] * np.sqrt(groove[0] / groove[2])
+    return rows
+
+
+FIRST_LOOK = 128
+"""Rows of each stratum in the first round; whole blocks follow."""
+
+CLIMBERS_TOGETHER = 4
+"""Climbers at a time, each of a cluster of its own."""
+
+Progress = Callable[[Hunt], object]
+
+
+def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
+    """Look for wrong answers until the budget is spent, and keep them in `run`; `progress` is told now and then.
+
+    With a budget of queries alone, the same plan finds the same. What was found is there when the hunt is interrupted.
+    """
+    looking, climbing = _look(run), _climb(run)
+    in_strata = 0
+    while not run.over:
+        before = run.asked
+        next(looking)
+        in_strata += run.asked - before
+        progress(run)
+        # Half of the questions go to each, once there is something to climb.
+        while not run.over and 2 * in_strata > run.asked and next(climbing):
+            progress(run)
+
+
+def _look(run: Hunt) -> Iterator[None]:
+    """The strata without end: a first look at all of them, then block after block."""
+    everywhere = strata(run.target.domain.settings)
+    for stratum in everywhere:
+        _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
+        if run.over:
+            break
+    yield
+    number = 0
+    while True:
+        number += 1
+        before = run.asked
+        for stratum in everywhere:
+            _take(run, stratum.rows(run.plan.seed, number), stratum.name)
+            yield
+        run.barren = run.asked == before
+
+
+def _take(run: Hunt, rows: Rows, source: str) -> None:
+    run.findings.add(ask_rows(run, rows), source)
+
+
+def _climb(run: Hunt) -> Iterator[bool]:
+    """Local search around the worst of each cluster, a step of some climbers at a time; False where there are none."""
+    climbers: dict[ClusterKey, Climber] = {}
+    number = 0
+    while True:
+        chosen = _climbers(run.findings, climbers)
+        if chosen:
+            number += 1
+            around = neighbours(Draw("hunt", run.plan.seed, number), [climbers[key] for key in chosen])
+            cases = ask_rows(run, around.rows, around.ladders)
+            for place, key in enumerate(chosen):
+                own = [case for case in cases if around.owners[case.index] == place]
+                run.findings.add(own, f"local search from {key[-1]}")
+                climbers[key].step /= 2
+        yield bool(chosen)
+
+
+def _climbers(findings: HuntFindings, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
+    """The climbers whose turn it is: the longest step first, then the worst.
+
+    A climber stands where its cluster's worst is, and begins anew with the first step where that has become worse.
+    """
+    found = sorted(findings.clusters.items(), key=lambda item: finding_rank(item[1].worst), reverse=True)
+    for key, cluster in found:
+        if key not in climbers or cluster.worst.error > climbers[key].error:
+            climbers[key] = Climber(cluster.worst.case.row, cluster.worst.error)
+    awake = [key for key, _ in found if not climbers[key].resting]
+    return sorted(awake, key=lambda key: -climbers[key].step)[:CLIMBERS_TOGETHER]

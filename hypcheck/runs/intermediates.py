@@ -1,0 +1,342 @@
+"""The intermediates of a formula on one row, in floats and exactly; which formula is compared with an implementation.
+
+Values of both arithmetics for people: any size, to a few digits, each digit right.
+
+A formula evaluated twice on one row, in a machine format and exactly, and where the two part ways.
+
+Which formula is shown beside an implementation: its own, one that was asked for, or one that answers alike.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from hypcheck.derivation.evaluation import EXACT, Surd, evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
+from hypcheck.derivation.formulas import FORMULAS, Formula
+from hypcheck.derivation.program import BOOLEAN, OPERATIONS, Program, Step, cut, line_of, steps_of
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS, Position
+from hypcheck.implementations.alternatives import DISTANCES, searched
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.spec import Spec
+
+DIGITS = 8
+_GUARD = 8
+
+Number = Fraction | Surd
+
+
+def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scalar of numpy
+    """A machine value: a truth value, the exact value of a finite number, or an infinity or NaN as a float."""
+    scalar: Any = np.asarray(value)[()]
+    if isinstance(scalar, np.bool_):
+        return bool(scalar)
+    if not np.isfinite(scalar):
+        return float(scalar)
+    return Fraction(*scalar.as_integer_ratio())
+
+
+def rational(value: Number, bits: int = 64) -> Fraction:
+    """A rational within a relative 2^−bits of the value; the value itself where it is rational."""
+    if not isinstance(value, Surd):
+        return value
+    # p and q√h of one sign cannot cancel. Of two signs, p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have one sign.
+    if value.p * value.q < 0:
+        return (value.p**2 - value.q**2 * value.h) / rational(Surd(value.p, -value.q, value.h), bits + 1)
+    return value.p + value.q * _root(value.h, bits + 1)
+
+
+def _root(value: Fraction, bits: int) -> Fraction:
+    """√value within a relative 2^−bits: isqrt drops less than 1 of an integer of more than bits + 1 bits."""
+    # value·4^k with 4^k large enough that its integer part has 2·bits + 4 bits, hence its root bits + 2.
+    size = value.numerator.bit_length() - value.denominator.bit_length()
+    shift = max(0, (2 * bits + 6 - size) // 2 + 1)
+    return Fraction(math.isqrt((value.numerator << 2 * shift) // value.denominator), 1 << shift)
+
+
+def number_text(value: object, digits: int = DIGITS) -> str:
+    """A value of either arithmetic: yes or no, "undefined", a word for what is not finite, or a number to `digits`."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, (Fraction, Surd)):
+        return _decimal(rational(value, 4 * digits + _GUARD), digits)
+    return str(value)
+
+
+def _decimal(value: Fraction, digits: int) -> str:
+    """A rational to that many digits, without an exponent where that is short, without zeros at the end."""
+    context = Context(prec=digits, Emin=-(10**9), Emax=10**9)
+    rounded = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    if not rounded:
+        return "0"
+    exponent = rounded.adjusted()
+    if -4 <= exponent < digits:
+        return _trimmed(f"{rounded:f}")
+    return f"{_trimmed(f'{rounded.scaleb(-exponent, context):f}')}e{exponent}"
+
+
+def _trimmed(text: str) -> str:
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def relative_error(value: object, exact: object) -> float | None:
+    """|value − exact|/|exact|: 0 where they are equal, inf where exact is 0 or value not finite, None of no numbers."""
+    if isinstance(value, bool) or not isinstance(exact, (Fraction, Surd)):
+        return None
+    if not isinstance(value, Fraction):
+        return math.inf
+    if exact == 0:
+        return 0.0 if value == 0 else math.inf
+    error = abs(rational(exact - value) / rational(exact))
+    try:
+        return float(error) or (math.ulp(0.0) if error else 0.0)
+    except OverflowError:
+        return math.inf
+
+
+_DUAL = cut(FORMULAS["dual"].program, DISTANCES, ("above_zero", "positive"))
+_DUAL_DECIDED = Program(
+    _DUAL.name, _DUAL.inputs, (*_DUAL.steps, *steps_of("side = positive ? 1 : -1\n position = above_zero ? side : 0"))
+)
+"""What the method of that name evaluates once it has found its λ: the sign of φ, on the side where λ is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Intermediate:
+    """One value of a program: what it is computed as, what it is in the machine's format and what it is exactly.
+
+    `value` is a truth value, a Fraction, or a float that is not finite; `exact` is a truth value, a Fraction, a Surd or
+    UNDEFINED. `error_u` is the relative error in units u of the format; None of a decision, which is a truth value or
+    one of several constants, and of what is undefined in exact arithmetic.
+    """
+
+    name: str
+    operation: str
+    value: object
+    exact: object
+    error_u: float | None
+    decision: bool
+
+    @property
+    def decided_otherwise(self) -> bool:
+        """Whether it is a decision that exact arithmetic takes otherwise."""
+        return self.decision and self.value != self.exact
+
+
+@dataclass(frozen=True, slots=True)
+class FormulaComparison:
+    """All values of a formula on one row. `format` is the machine's, `answer` and `exact_answer` what comes out.
+
+    `first_wrong` names the first decision (a comparison) that exact arithmetic takes otherwise, None where there is
+    none; `culprit` the number it was taken from whose absolute error is the greatest.
+    """
+
+    formula: Formula
+    format: str
+    values: tuple[Intermediate, ...]
+    answer: int
+    exact_answer: int
+    first_wrong: str | None
+    culprit: str | None
+
+    def __getitem__(self, name: str) -> Intermediate:
+        """The value of that name; raises KeyError where there is none."""
+        for each in self.values:
+            if each.name == name:
+                return each
+        raise KeyError(name)
+
+
+def compare_formula(formula: Formula, format_name: str, row: tuple[float, ...]) -> FormulaComparison | None:
+    """The formula on a valid row in a format of float_arithmetic and exactly.
+
+    The dual form is evaluated at the λ that its method finds in that format; None where that finds no finite one.
+    """
+    program, machine_inputs, exact_inputs = _dual(format_name, row) if formula.name == "dual" else _plain(formula, row)
+    if not exact_inputs:
+        return None
+    machine = evaluate(program, float_arithmetic(format_name), machine_inputs)
+    exact = evaluate(program, EXACT, exact_inputs)
+    unit = unit_roundoff(format_name)
+    said = {name: f"read as {format_name}" if name in COLUMNS else "from the search for λ" for name in program.inputs}
+    said |= {step.name: line_of(step).partition(" = ")[2] for step in program.steps}
+    decisions = _decisions(program)
+    values = tuple(
+        _intermediate(name, said[name], machine[name], exact[name], None if name in decisions else unit)
+        for name in machine
+    )
+    answer = "position" if formula.name == "dual" else formula.answer
+    by_name = {each.name: each for each in values}
+    wrong = next((step for step in program.steps if by_name[step.name].decided_otherwise), None)
+    return FormulaComparison(
+        formula=formula,
+        format=format_name,
+        values=values,
+        answer=int(machine[answer]),
+        exact_answer=int(exact[answer]),
+        first_wrong=wrong.name if wrong else None,
+        culprit=_culprit(wrong, by_name) if wrong else None,
+    )
+
+
+Prepared = tuple[Program, Mapping[str, Any], Mapping[str, Any]]
+
+
+def _plain(formula: Formula, row: tuple[float, ...]) -> Prepared:
+    columns = dict(zip(COLUMNS, row, strict=True))
+    return formula.program, columns, columns
+
+
+def _dual(format_name: str, row: tuple[float, ...]) -> Prepared:
+    found = {name: values[0] for name, values in searched(np.array([row]), format_name).items()}
+    if not all(np.isfinite(found[name]) for name in DISTANCES):
+        return _DUAL_DECIDED, found, {}
+    columns = dict(zip(COLUMNS, map(Fraction, row), strict=True))
+    at = number_of(found["lambda_"])
+    A, B = (columns["alpha"] / columns["b"]) ** 2, (columns["gamma"] / columns["d"]) ** 2
+    return _DUAL_DECIDED, found, {**columns, **dict(zip(DISTANCES, (at, A + at, B - at), strict=True))}
+
+
+def _decisions(program: Program) -> set[str]:
+    """The names of truth values, and of what chooses between constants by them."""
+    found: set[str] = set()
+    for step in program.steps:
+        chosen = step.arguments[1:] if step.operation == "select" else ()
+        of_constants = bool(chosen) and all(isinstance(each, int) or each in found for each in chosen)
+        if OPERATIONS[step.operation].gives == BOOLEAN or of_constants:
+            found.add(step.name)
+    return found
+
+
+def _intermediate(name: str, said: str, machine: Any, exact: object, unit: float | None) -> Intermediate:  # noqa: ANN401
+    value = number_of(machine)
+    error = None if unit is None else relative_error(value, exact)
+    return Intermediate(name, said, value, exact, None if error is None or unit is None else error / unit, unit is None)
+
+
+def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
+    """Of the numbers that a decision compares, the one whose absolute error is the greatest."""
+    numbers = [values[name] for name in wrong.reads]
+    return max(numbers, key=_absolute_error).name if numbers else None
+
+
+def _absolute_error(each: Intermediate) -> tuple[int, Fraction]:
+    """Ordered as the error is: what is not finite, or undefined in exact arithmetic, before all others."""
+    if not isinstance(each.value, Fraction) or not isinstance(each.exact, (Fraction, Surd)):
+        return (1, Fraction(0))
+    return (0, abs(rational(each.exact - each.value)))
+
+
+SHOWN_FORMULAS = tuple(name for name, formula in FORMULAS.items() if formula.classifies_pairs or name == "dual")
+"""The formulas that can be shown: those that take a pair and nothing else, and the dual form at the λ it finds."""
+
+PREFERRED_FORMULA = "table-2"
+
+_MANTISSA = {"x87": 63, "binary128": 112}
+
+
+@dataclass(frozen=True, slots=True)
+class FormulaChoice:
+    """A formula's values on the row, and why it is this one; `comparison` is None where it has none.
+
+    `own` says that the implementation evaluates this formula. What another one gets wrong says nothing about it.
+    """
+
+    comparison: FormulaComparison | None
+    why: str
+    own: bool = False
+
+
+def require_formula(name: str | None) -> None:
+    """Raise InputError where a formula of that name cannot be shown."""
+    if name is not None and name not in SHOWN_FORMULAS:
+        raise InputError(f"there is no formula {name!r} that takes a pair; there are {', '.join(SHOWN_FORMULAS)}")
+
+
+@dataclass(frozen=True, slots=True)
+class AskedImplementation:
+    """Whose answer it is: the SPEC, its description as declared and as used, its answer (None: it gave none)."""
+
+    spec: Spec
+    declared: Description
+    used: Description
+    answer: int | None
+
+
+def choose_formula(
+    subject: AskedImplementation, row: tuple[float, ...], truth: Position, name: str | None
+) -> FormulaChoice:
+    """The formula to be shown on a valid row: the named one, or else the nearest to the implementation.
+
+    A built-in formula is shown in its own precision; for all others the precision is that of the description in use.
+    """
+    own = _of_builtin(subject)
+    format_name, instead = format_of(subject.declared.precision if own else subject.used.precision)
+    formula = FORMULAS[name] if name is not None else own
+    if formula is None:
+        return _nearest(subject, row, truth, format_name, instead)
+    comparison = compare_formula(formula, format_name, row)
+    if comparison is None:
+        return FormulaChoice(None, f"the search of {formula.name} finds no finite λ in {format_name}", formula is own)
+    why = "as --formula asks" if name is not None else f"which is what {subject.spec} evaluates"
+    return FormulaChoice(comparison, why + instead, formula is own)
+
+
+def format_of(precision: str) -> tuple[str, str]:
+    """The format of numpy that stands for a declared precision, and what must be said of it where it is another."""
+    if precision in ("float16", "float32", "float64"):
+        return precision, ""
+    if np.finfo(np.longdouble).nmant == _MANTISSA.get(precision):
+        return "longdouble", ""
+    instead = {"bfloat16": "float32", "exact": "float64"}.get(precision, "longdouble")
+    return instead, f"; numpy has no {precision}, so {instead} stands for it"
+
+
+def _of_builtin(subject: AskedImplementation) -> Formula | None:
+    if subject.spec.kind != "builtin":
+        return None
+    return FORMULAS.get(subject.spec.words[0].removesuffix(f"-{subject.declared.precision}"))
+
+
+def _nearest(
+    subject: AskedImplementation, row: tuple[float, ...], truth: Position, format_name: str, instead: str
+) -> FormulaChoice:
+    """Of the formulas with a comparable question, one that is right or wrong as the implementation is, table-2 first.
+
+    A wrong answer is told by a formula that errs likewise; a "no" that leaves the truth open would tell nothing.
+    """
+    question, answer = subject.used.question, subject.answer
+    found = [compared for formula in _comparable(question) if (compared := compare_formula(formula, format_name, row))]
+    if answer is None:
+        return FormulaChoice(found[0], f"there being no answer to compare formulas with{instead}")
+    meant = _positions(answer, question)
+    errs = truth not in meant
+    for compared in found:
+        left = _positions(compared.answer, compared.formula.question)
+        if meant & left and (truth not in left) is errs:
+            return FormulaChoice(compared, f"which in {format_name} answers as {subject.used.name} does{instead}")
+    return FormulaChoice(found[0], f"though no formula in {format_name} answers as {subject.used.name} does{instead}")
+
+
+def _comparable(question: str) -> Iterator[Formula]:
+    """Formulas whose answers say something of answers to the question; the preferred one first."""
+    names = sorted(SHOWN_FORMULAS, key=lambda name: name != PREFERRED_FORMULA)
+    for formula in (FORMULAS[name] for name in names if FORMULAS[name].classifies_pairs):
+        if formula.question == question or "position" in (formula.question, question):
+            yield formula
+
+
+def _positions(answer: int, question: str) -> set[Position]:
+    """The positions of which the answer to the question is right."""
+    if question == "position":
+        return {Position(answer)}
+    asked = Position[question.upper()]
+    return {asked} if answer else set(Position) - {asked}

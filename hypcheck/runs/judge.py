@@ -1,0 +1,228 @@
+"""Judging answers: right or not, and if not, by how much, in one number for every precision.
+
+The backward error of a wrong answer is the infimum of the ε for which changing each input by a relative ε at most makes
+that very answer right (truth/flip.py), counted in units u of the precision that the implementation declares.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
+from hypcheck.truth import backward_error, exact, float_filter
+from hypcheck.truth.exact import Decision
+
+DEFAULT_TOLERANCE = Fraction(8)
+"""Units u of backward error that a run tolerates unless told otherwise."""
+
+
+class Status(str, Enum):
+    """How a case ended."""
+
+    RIGHT = "right"
+    TOLERATED = "tolerated"
+    WRONG = "wrong"
+    EXCUSED = "excused"
+    ABSTAINED = "abstained"
+    SKIPPED = "skipped"
+    REFUSED = "refused"
+    ERROR = "error"
+    CRASH = "crash"
+    TIMEOUT = "timeout"
+    PROTOCOL = "protocol"
+    NONDETERMINISTIC = "nondeterministic"
+    NOT_RUN = "not-run"
+
+
+UNANSWERED = (
+    Status.ERROR,
+    Status.CRASH,
+    Status.TIMEOUT,
+    Status.PROTOCOL,
+    Status.NONDETERMINISTIC,
+    Status.NOT_RUN,
+)
+"""How a case ends that has no answer that counts; each fails a run."""
+
+
+class Mistake(str, Enum):
+    """What a wrong answer means to whoever relies on it."""
+
+    FALSE_CLEAR = "false-clear"  # dangerous: something is touched
+    FALSE_CONTACT = "false-contact"  # an invisible wall
+    WRONG_SIDE = "wrong-side"
+
+
+@dataclass(frozen=True, slots=True)
+class Criterion:
+    """What an implementation is asked and how strictly: `question` of QUESTIONS, `precision` of PRECISIONS."""
+
+    question: str = "position"
+    precision: str = "float64"
+    tolerance: Fraction = DEFAULT_TOLERANCE
+
+    def __post_init__(self) -> None:
+        if self.question not in QUESTIONS:
+            raise InputError(f"the question is {self.question!r}; it must be one of {', '.join(QUESTIONS)}")
+        if self.precision not in PRECISIONS:
+            raise InputError(f"the precision is {self.precision!r}; it must be one of {', '.join(PRECISIONS)}")
+        if self.tolerance < 0:
+            raise InputError(f"the tolerance is {float(self.tolerance)}; it must be 0 or more")
+
+    @property
+    def unit(self) -> Fraction:
+        """The unit u of the precision."""
+        return UNIT_ROUNDOFF[self.precision]
+
+
+@dataclass(frozen=True, slots=True)
+class WrongCase:
+    """A wrong answer: its place in the batch, the row, truth and answer, what it means, and how far off it is.
+
+    `exponent` is floor(log2) of the backward error (−inf: 0, inf: no change is enough); measured() gives the number.
+    """
+
+    index: int
+    row: tuple[float, ...]
+    truth: Position
+    answer: int
+    mistake: Mistake
+    status: Status
+    exponent: float
+
+
+def expected(positions: Positions, question: str) -> NDArray[np.int8]:
+    """The right answers to a question, int8 (n,): the position itself, or 1 for yes and 0 for no."""
+    if question == "position":
+        return positions
+    return np.asarray(positions == Position[question.upper()], dtype=np.int8)
+
+
+def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> NDArray[np.bool_]:
+    """A mask (n,) of the wrong answers. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
+    return np.asarray((answers != expected(truth, question)) & (answers != CANNOT_SAY))
+
+
+def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criterion: Criterion) -> list[WrongCase]:
+    """Every wrong answer of a batch, judged."""
+    return list(judged(rows, answers, np.flatnonzero(is_wrong(truth, answers, criterion.question)), criterion))
+
+
+def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
+    """The wrong answers at these places of a batch, judged one after the other."""
+    guess = -10
+    for index in wrong.tolist():
+        case = _judged(index, rows[index].tolist(), int(answers[index]), criterion, guess)
+        yield case
+        if math.isfinite(case.exponent):
+            guess = int(case.exponent)  # neighbours in a family are wrong alike
+
+
+def measured(case: WrongCase, question: str) -> float:
+    """The backward error of a wrong answer, to 4 significant digits."""
+    return error_of(case.row, case.answer, question)
+
+
+def error_of(row: Sequence[float], answer: int, question: str) -> float:
+    """The backward error of an answer to a row, right or wrong, to 4 significant digits."""
+    lengths = Pair.from_row(row).lengths
+    truth = exact.decide(lengths)
+    targets = right_positions(truth.position, answer, question)
+    return min(backward_error.backward_error(lengths, truth, target) for target in targets)
+
+
+def flip_exponents(rows: Rows) -> NDArray[np.float64]:
+    """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency."""
+    octaves = backward_error.distance_exponents(rows, float_filter.positions(rows))
+    guess = -10
+    for index in np.flatnonzero(np.isnan(octaves)):
+        lengths = Pair.from_row(rows[index].tolist()).lengths
+        truth = exact.decide(lengths)
+        targets = right_positions(truth.position, 0, truth.position.name.lower())
+        octaves[index] = min(
+            backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets
+        )
+        if math.isfinite(octaves[index]):
+            guess = int(octaves[index])
+    return octaves
+
+
+def _judged(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> WrongCase:
+    lengths = Pair.from_row(row).lengths
+    truth = exact.decide(lengths)
+    targets = right_positions(truth.position, answer, criterion.question)
+    within = tolerated(lengths, truth, targets, criterion)
+    return WrongCase(
+        index=index,
+        row=tuple(row),
+        truth=truth.position,
+        answer=answer,
+        mistake=mistake_of(truth.position, answer, criterion.question),
+        status=Status.TOLERATED if within else Status.WRONG,
+        exponent=min(backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets),
+    )
+
+
+def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:
+    """The positions, other than the truth, of which a wrong answer would have been right.
+
+    "No" to a one-sided question is right of two positions; from a clear one, contact is on the way to the other.
+    """
+    if question == "position":
+        return (Position(answer),)
+    asked = Position[question.upper()]
+    if answer:
+        return (asked,)
+    if truth is Position.CONTACT:
+        return (Position.EXTERIOR, Position.INTERIOR)
+    return (Position.CONTACT,)
+
+
+def tolerated(lengths: Lengths, truth: Decision, targets: Iterable[Position], criterion: Criterion) -> bool:
+    """Whether a change of at most T units u makes one of the targets true: one exact decision each, no estimate."""
+    change = criterion.tolerance * criterion.unit
+    if change == 0:
+        return False
+    if change >= 1:
+        return any(backward_error.backward_error(lengths, truth, target) <= 1 for target in targets)
+    return any(
+        truth.kind.limit_of is target or backward_error.makes_right(lengths, truth.position, target, change)
+        for target in targets
+    )
+
+
+def in_units(error: float, unit: Fraction) -> float:
+    """A backward error in units u; inf of the precision "exact", where nothing wrong is excused by rounding."""
+    if error in (0, math.inf):
+        return error
+    return error / float(unit) if unit else math.inf
+
+
+def in_words(answer: int, question: str) -> str:
+    """An answer as people read it: a position's name, or yes or no to the question about one; else the number."""
+    meanings = {each.value: each.label for each in Position}
+    if question != "position":
+        meanings = {1: f"{question}: yes", 0: f"{question}: no"}
+    return meanings.get(answer, str(answer))
+
+
+def mistake_of(truth: Position, answer: int, question: str) -> Mistake:
+    """What a wrong answer means; `answer` is neither right nor CANNOT_SAY."""
+    if question == "position":
+        if truth is Position.CONTACT:
+            return Mistake.FALSE_CLEAR
+        return Mistake.FALSE_CONTACT if answer == Position.CONTACT else Mistake.WRONG_SIDE
+    claims_clear = bool(answer) is not (question == "contact")
+    if not claims_clear:
+        return Mistake.FALSE_CONTACT
+    return Mistake.FALSE_CLEAR if truth is Position.CONTACT else Mistake.WRONG_SIDE

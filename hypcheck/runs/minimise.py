@@ -1,0 +1,264 @@
+"""Minimisation: from a wrong answer to the simplest row nearby that is answered wrongly in the same way.
+
+How simple a row is to read, and the simplest rows there are.
+
+Rows next to a given one that are simpler to read: what minimise asks about.
+
+From a wrong answer to the simplest row next to it that is answered wrongly in the same way.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from decimal import Decimal
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import Rows
+from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding, place_of
+from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
+from hypcheck.runs.judge import Status, WrongCase
+from hypcheck.runs.score import Score
+from hypcheck.runs.tally import STATUSES
+from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
+
+Row = tuple[float, ...]
+Complexity = tuple[int, int, int]
+
+DIGITS = range(1, 17)
+"""Significant digits to which a number is tried to be rounded; 17 are the number itself."""
+
+LARGEST_SUM = 1e15
+"""Sums of sizes beyond this are not told apart."""
+
+
+@lru_cache(maxsize=1 << 16)
+def characters(value: float) -> int:
+    """The length of the shortest decimal text that reads back as `value` (2, 0.5, 1e-7, 3e6); 0 for a zero."""
+    if value == 0:
+        return 0
+    number = Decimal(repr(value)).normalize()
+    digits, leading = len(number.as_tuple().digits), number.adjusted()
+    last = leading - digits + 1  # the power of ten of the last digit
+    plain = max(leading, 0) + 1 + (1 - last if last < 0 else 0)
+    scientific = digits + (digits > 1) + len(f"e{leading}")
+    return (value < 0) + min(plain, scientific)
+
+
+def complexity(row: Sequence[float]) -> Complexity:
+    """What is less for a simpler row: the characters of all its numbers, those of the longest, the sum of the sizes."""
+    lengths = [characters(value) for value in row]
+    return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
+
+
+def simpler_than(rows: Iterable[Row], limit: Complexity) -> Rows:
+    """The different valid rows below a complexity, float64 (n, 7), the simplest first."""
+    found = {row: complexity(row) for row in set(rows) if _valid(row)}
+    chosen = sorted((row for row in found if found[row] < limit), key=lambda row: (found[row], row))
+    return np.array(chosen, dtype=np.float64).reshape(-1, 7)
+
+
+def rounded(value: float) -> Iterator[float]:
+    """`value` to 1, 2, 3 … significant digits: the nearest, and its neighbours to both sides."""
+    for digits in DIGITS:
+        text = f"{value:.{digits - 1}e}"
+        unit = float(f"1{text[text.index('e') :]}") / 10 ** (digits - 1)
+        for steps in (0, 1, -1):
+            yield float(f"{float(text) + steps * unit:.{digits - 1}e}")
+
+
+def simplest_below(limit: Complexity) -> Rows:
+    """The rows of small whole numbers and halves, one length of each unit 1, below a complexity; the simplest first."""
+    rows, complexities = _simplest()
+    return rows[: bisect_left(complexities, limit)]
+
+
+@lru_cache(maxsize=1)
+def _simplest() -> tuple[Rows, list[Complexity]]:
+    sizes = [(1.0, 1.0), *((float(size), 1.0) for size in range(2, 7)), *((1.0, float(size)) for size in range(2, 7))]
+    far, near = [half / 2 for half in range(17)], [0.0, 0.5, 1.0, 1.5, 2.0, 3.0]
+    rows = simpler_than(
+        (
+            (alpha, gamma, b, d, x, y, z)
+            for (alpha, b), (gamma, d), x, y, z in product(sizes, sizes, far, near, near)
+            if y <= x
+        ),
+        (99, 99, 99),
+    )
+    return rows, [complexity(row) for row in rows.tolist()]
+
+
+def _valid(row: Row) -> bool:
+    return all(map(math.isfinite, row)) and min(row[:4]) > 0
+
+
+GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS)
+COORDINATES = (4, 5, 6)
+_SMALL = tuple(map(float, range(1, 7)))
+
+
+def same_pair(row: Row) -> Iterator[Row]:
+    """The pair in other coordinates: no signs, x and y exchanged or turned to one, other units of length."""
+    alpha, gamma, b, d, *center = row
+    x, y, z = map(abs, center)
+    yield (alpha, gamma, b, d, x, y, z)
+    yield (alpha, gamma, b, d, y, x, z)
+    yield (alpha, gamma, b, d, math.hypot(x, y), 0.0, z)
+    for columns in GROUPS:
+        for unit in _units([row[column] for column in columns]):
+            yield _with(row, {column: row[column] / unit for column in columns})
+
+
+def _units(lengths: list[float]) -> set[float]:
+    """Each length, and the greatest common divisor of all where it is one that float64 holds."""
+    numerators, denominators = zip(*(length.as_integer_ratio() for length in lengths), strict=True)
+    shared = math.lcm(*denominators)
+    whole = [
+        numerator * (shared // denominator) for numerator, denominator in zip(numerators, denominators, strict=True)
+    ]
+    units = {abs(length) for length in lengths}
+    with suppress(OverflowError):
+        units.add(math.gcd(*whole) / shared)
+    return {unit for unit in units if unit}
+
+
+def one_changed(row: Row) -> Iterator[Row]:
+    """One number made 0, 1 or shorter, or equal to another of its unit."""
+    for column in range(7):
+        for value in {*_simple_values(row, column), *rounded(row[column])}:
+            yield _with(row, {column: value})
+
+
+def brought_back(row: Row) -> Iterator[Row]:
+    """One number made simple, and another one moved to the border of contact and rounded to ever more digits."""
+    changed = {row, *(_with(row, {column: value}) for column in range(7) for value in _simple_values(row, column))}
+    for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):
+        changed |= {(alpha, gamma, 1.0, 1.0, radius, 0.0, height) for radius in (0.0, 1.0, alpha + 1)}
+    limit = complexity(row)[0]
+    ways = [
+        (each, max(columns, key=lambda column: abs(each[column])), name, far)
+        for each, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
+    ]
+    # Only where the other numbers leave room for one that is not 0.
+    ways = [way for way in ways if sum(map(characters, way[0])) - characters(way[0][way[1]]) + 1 < limit]
+    rows = np.array([each for each, *_ in ways]).reshape(-1, 7)
+    mask = columns_of(np.array([name for _, _, name, _ in ways]))
+    factors = border_factors(rows, mask, np.array([far for *_, far in ways], dtype=np.bool_))
+    for (each, lead, _, _), factor in zip(ways, factors.tolist(), strict=True):
+        if math.isfinite(factor):
+            for value in rounded(each[lead] * factor):
+                yield _with(each, {lead: value})
+
+
+def _simple_values(row: Row, column: int) -> set[float]:
+    group = next(columns for columns in GROUPS if column in columns)
+    values = {1.0, 2.0, 3.0, *(row[other] for other in group if other != column)}
+    values |= {float(math.floor(row[column])), float(math.ceil(row[column]))}
+    return values | {0.0} if column in COORDINATES else values - {0.0}
+
+
+def _with(row: Row, values: dict[int, float]) -> Row:
+    return tuple(values.get(column, number) for column, number in enumerate(row))
+
+
+PIECE = 2048
+"""Rows a question."""
+
+MOST = 30_000
+"""Rows that are asked for one step at most: the simplest of those that could be."""
+
+
+Variants = Callable[[Row, Complexity], Rows]
+"""From a row to the rows below a complexity that could take its place, the simplest first."""
+
+
+@dataclass
+class Minimised:
+    """The search as it goes on: the given row, every simpler one that was taken, the last being the answer."""
+
+    target: HuntTarget
+    steps: list[HuntFinding] = field(default_factory=list)
+    asked: int = 0
+
+    @property
+    def first(self) -> HuntFinding:
+        """The given row's."""
+        return self.steps[0]
+
+    @property
+    def last(self) -> HuntFinding:
+        """The simplest so far."""
+        return self.steps[-1]
+
+
+def minimise(target: HuntTarget, pair: Pair) -> Minimised:
+    """Simplify until nothing simpler fails in the same way. Raises InputError where the answer is not wrong.
+
+    The same way: the same answer where the same is true, beyond tolerance, and for the same cause (place.Place).
+    """
+    run = Minimised(target)
+    run.steps.append(_start(run, pair))
+    while any(_improve(run, ways) for ways in _VARIANTS):
+        pass
+    return run
+
+
+def _start(run: Minimised, pair: Pair) -> HuntFinding:
+    rows = np.array([pair.row])
+    if not len(run.target.claimed(rows)):
+        raise InputError("the implementation does not claim to answer this row; --regimes any asks it all the same")
+    scored = _ask(run, rows)
+    for index, reason in scored.reasons.items():
+        status = STATUSES[scored.status[index]]
+        raise InputError(f"the implementation gives no answer to this row: {status.value}: {reason}")
+    case = next(scored.judged(), None)
+    if case is None:
+        raise InputError("the implementation's answer to this row is not wrong; there is nothing to simplify")
+    if case.status is not Status.WRONG:
+        raise InputError("the implementation's answer to this row is wrong within tolerance; see --tolerance")
+    return measured_finding(case, run.target.criterion, place_of(pair), "given")
+
+
+def _improve(run: Minimised, ways: Variants) -> bool:
+    """Take the simplest row of those ways that fails alike; False where there is none."""
+    row = run.last.case.row
+    candidates = ways(row, complexity(row))[:MOST]
+    for start in range(0, len(candidates), PIECE):
+        rows = candidates[start : start + PIECE]
+        rows = rows[run.target.claimed(rows)]
+        for case in _ask(run, rows).judged():
+            place = place_of(Pair.from_row(case.row)) if _alike(case, run.first.case) else None
+            if place is not None and place.cause == run.first.place.cause:
+                run.steps.append(measured_finding(case, run.target.criterion, place, f"step {len(run.steps)}"))
+                return True
+    return False
+
+
+def _alike(case: WrongCase, first: WrongCase) -> bool:
+    return case.status is Status.WRONG and (case.truth, case.answer) == (first.truth, first.answer)
+
+
+def _ask(run: Minimised, rows: Rows) -> Score:
+    run.asked += len(rows)
+    return run.target.ask(rows)
+
+
+def _next_to(around: Callable[[Row], Iterable[Row]]) -> Variants:
+    return lambda row, limit: simpler_than(around(row), limit)
+
+
+_VARIANTS: tuple[Variants, ...] = (
+    _next_to(same_pair),
+    _next_to(one_changed),
+    lambda _, limit: simplest_below(limit),
+    _next_to(brought_back),
+)
+"""Cheap ways first: each later one is tried only where those before it have nothing more to offer."""

@@ -1,0 +1,251 @@
+"""A replay: one case and one implementation; the truth, the answer, its backward error, and where its formula errs.
+
+The row that a CASE on the command line names: a case's id, seven numbers, or a case that a record has kept.
+
+One case and one implementation: what is true, what it answers, what that is worth, and where its formula errs.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hypcheck.answer import DisagreementError
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair, Position, trouble_with
+from hypcheck.geometry.rows import CANNOT_SAY, Rows
+from hypcheck.implementations.description import Description, representable
+from hypcheck.implementations.implementation import Implementation
+from hypcheck.implementations.spec import begins_as_spec
+from hypcheck.record import read
+from hypcheck.record.reader import file_of, recorded_cases
+from hypcheck.runs import judge
+from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
+from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.runs.score import Score, score, status_of
+from hypcheck.runs.tally import STATUSES
+from hypcheck.tables.numbers import number_of_text
+from hypcheck.truth import backward_error, exact
+from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.exact import Decision
+from hypcheck.truth.prove import prove
+from hypcheck.vectors import frozen
+from hypcheck.vectors.families import MARK, is_extreme, parse_case_id
+from hypcheck.vectors.family import BLOCK
+from hypcheck.vectors.showing import invalid_row_of, vector_of
+
+_RECORDED = re.compile(r"(.+):([0-9]+)", re.ASCII | re.DOTALL)
+_HEXADECIMAL = re.compile(r"[ \t]*[+-]?0x", re.ASCII | re.IGNORECASE)
+
+Row = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayCase:
+    """A row to be replayed, and what it is called; the seven numbers may be what no pair has."""
+
+    name: str
+    row: Row
+
+    @property
+    def at_fault(self) -> tuple[str, ...]:
+        """The columns that keep the row from being a pair, so that it must be refused; none of a valid row."""
+        return tuple(name for name, value in zip(COLUMNS, self.row, strict=True) if trouble_with(name, value))
+
+
+def case_of(text: str) -> ReplayCase:
+    """The case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
+
+    RECORD:N is the N-th case of a record.jsonl, or of its run's folder, as reports number them (recorded_cases). The
+    row is as it was asked: a zero keeps its sign. Raises InputError saying what is wrong with the text.
+    """
+    if begins_as_spec(text):
+        raise InputError(f"CASE is {text!r}, which names an implementation; replay takes CASE SPEC, minimise SPEC CASE")
+    recorded = _RECORDED.fullmatch(text)
+    if recorded is not None:
+        return _from_record(Path(recorded[1]), int(recorded[2][:19]))
+    if "," in text and MARK not in text:  # the names of families for given sizes have commas
+        return ReplayCase("the given row", _given_row(text))
+    if "/" in text:
+        case = parse_case_id(text)
+        block, place = divmod(case.index, BLOCK)
+        return ReplayCase(text, tuple(case.family.block(case.seed, block)[place].tolist()))
+    if text.startswith(f"{frozen.INVALID_NAME}-"):
+        return ReplayCase(text, invalid_row_of(text).row)
+    return ReplayCase(text, vector_of(text).row)
+
+
+def _from_record(path: Path, number: int) -> ReplayCase:
+    kept = recorded_cases(read(file_of(path)))
+    if not 1 <= number <= len(kept):
+        there = f"they are 1 to {len(kept)}" if kept else "it has none"
+        raise InputError(f"{path} has no case {number}; {there}")
+    case = kept[number - 1].case
+    try:
+        row = tuple(float.fromhex(value) for value in case.row)
+    except OverflowError:
+        raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
+    return ReplayCase(case.case, row)
+
+
+def _given_row(text: str) -> Row:
+    """Seven valid numbers, each of them decimal or hexadecimal."""
+    parts = text.split(",")
+    if len(parts) != len(COLUMNS):
+        raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have 7: {', '.join(COLUMNS)}")
+    row = tuple(_number(name, part) for name, part in zip(COLUMNS, parts, strict=True))
+    Pair.from_row(row)
+    return row
+
+
+def _number(name: str, text: str) -> float:
+    try:
+        return float.fromhex(text) if _HEXADECIMAL.match(text) else number_of_text(name, text)
+    except OverflowError:
+        raise InputError(f"{name} is {text.strip()!r}, which is too large for float64") from None
+    except ValueError as trouble:
+        why = f"{name} is {text!r}; it must be a number such as 2.5 or 0x1.4p+1"
+        raise InputError(why if _HEXADECIMAL.match(text) else str(trouble)) from None
+
+
+REPEATED_ROWS = 33
+"""How often the row is asked in one question, once it was answered alone; odd, so that vector loops have a tail."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProvedTruth:
+    """The exact decision about a pair, its proof, and the distance to each other position as a backward error."""
+
+    pair: Pair
+    decision: Decision
+    certificate: Certificate
+    flips: Mapping[Position, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayJudgement:
+    """How the case ended. `answer` is None where there was none, and `reason` says why, or what else is to be said.
+
+    `mistake`, `error` (the backward error) and `error_u` (the same in units u) speak of a wrong answer, tolerated or
+    not, and are None, 0 and 0 of every other.
+    """
+
+    status: Status
+    answer: int | None
+    reason: str = ""
+    mistake: Mistake | None = None
+    error: float = 0.0
+    error_u: float = 0.0
+
+    @property
+    def passes(self) -> bool:
+        """Whether it is right or within the tolerance."""
+        return self.status in (Status.RIGHT, Status.TOLERATED, Status.REFUSED)
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """What is known of a case under an implementation; `truth` and `choice` are None of a row that is no pair."""
+
+    case: ReplayCase
+    spec: str
+    declared: Description
+    used: Description
+    criterion: Criterion
+    truth: ProvedTruth | None
+    judgement: ReplayJudgement
+    skipped: str | None
+    choice: FormulaChoice | None
+
+
+def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
+    """Ask, judge and compare. Raises InputError where the row is no pair and the implementation refuses none.
+
+    Raises DisagreementError where the proof that was found does not hold.
+    """
+    declared, used = implementation.declared, implementation.description
+    rows = np.array([case.row])
+    told = (case, str(implementation.spec), declared, used, criterion)
+    if case.at_fault:
+        if not used.refuses:
+            raise InputError(
+                f"{case.name} is no pair ({', '.join(case.at_fault)}), and {used.name} does not declare that it refuses"
+                " such rows"
+            )
+        return Replay(*told, None, _refused(implementation, rows), None, None)
+    truth = truth_of(Pair.from_row(case.row))
+    judgement = _judged(implementation, rows, truth, criterion)
+    subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
+    choice = choose_formula(subject, case.row, truth.decision.position, formula)
+    return Replay(*told, truth, judgement, _skipped(case, used, criterion), choice)
+
+
+def truth_of(pair: Pair) -> ProvedTruth:
+    """Decide, prove, and check the proof. Raises DisagreementError where it does not hold."""
+    decision = exact.decide(pair.lengths)
+    certificate = prove(pair, decision)
+    if certificate.position is not decision.position or not check_certificate(pair, certificate):
+        raise DisagreementError(
+            f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck"
+        )
+    others = (position for position in Position if position is not decision.position)
+    flips = {position: backward_error.backward_error(pair.lengths, decision, position) for position in others}
+    return ProvedTruth(pair, decision, certificate, flips)
+
+
+def _usable(answer: int | None) -> int | None:
+    return None if answer == CANNOT_SAY else answer
+
+
+def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, criterion: Criterion) -> ReplayJudgement:
+    """The answer to the row alone, judged; another answer to the row asked many times at once is a fault of its own."""
+    positions = np.array([truth.decision.position], dtype=np.int8)
+    scored = score(rows, positions, implementation.classify(rows, batch=1), criterion)
+    alone, answer = _alone(scored), int(scored.answers[0])
+    if alone.answer is None:
+        return alone
+    again = implementation.classify(np.repeat(rows, REPEATED_ROWS, axis=0), batch=REPEATED_ROWS)
+    changed = np.flatnonzero(~again.answered | (again.answers != answer))
+    if not len(changed):
+        return alone
+    place = int(changed[0])
+    otherwise = again.reasons.get(place, f"it answers {int(again.answers[place])}")
+    reason = (
+        f"answers {answer} when asked alone; asked {REPEATED_ROWS} times at once, at place {place + 1}: {otherwise}"
+    )
+    return ReplayJudgement(Status.NONDETERMINISTIC, answer, reason, alone.mistake, alone.error, alone.error_u)
+
+
+def _alone(scored: Score) -> ReplayJudgement:
+    """The judgement of the one row of a score."""
+    status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
+    if not scored.answered[0]:
+        return ReplayJudgement(status, None, scored.reasons.get(0, ""))
+    for case in scored.judged():
+        error = judge.measured(case, scored.criterion.question)
+        in_units = judge.in_units(error, scored.criterion.unit)
+        return ReplayJudgement(case.status, answer, mistake=case.mistake, error=error, error_u=in_units)
+    return ReplayJudgement(status, answer)
+
+
+def _refused(implementation: Implementation, rows: Rows) -> ReplayJudgement:
+    answered = implementation.classify(rows, batch=1)
+    status, answer = STATUSES[status_of(answered)[0]], int(answered.answers[0])
+    if not answered.answered[0]:
+        return ReplayJudgement(status, None, answered.reasons.get(0, ""))
+    if answer == REFUSED:
+        return ReplayJudgement(Status.REFUSED, answer)
+    return ReplayJudgement(Status.WRONG, answer, f"a row that is no pair must be refused with {REFUSED}")
+
+
+def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str | None:
+    """Why a gating run would not ask the row; None where it would."""
+    rows = np.array([case.row])
+    if not representable(rows, criterion.precision)[0]:
+        return f"a number of the row is neither zero nor normal in {criterion.precision}"
+    asked = used.domain.holds(rows, extreme=is_extreme(case.name))[0]
+    return None if asked else "the row lies outside the implementation's domain"

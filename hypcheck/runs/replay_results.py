@@ -1,0 +1,244 @@
+"""A replay as text at a terminal, and as one JSON object for a program.
+
+A replay for a program: one JSON object.
+
+A replay for a person at a terminal.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
+from hypcheck.geometry.pair import COLUMNS, REFUSED, Position
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.description import Description
+from hypcheck.record import plain
+from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
+from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement
+from hypcheck.tables.numbers import hex_of
+
+DIGITS = 17
+"""Of numbers in the table of values, which are texts: exact ones need not fit float64."""
+
+
+def replay_as_json(done: Replay) -> str:
+    """The object, on one line; numbers that JSON has not are the strings "inf", "-inf" and "nan"."""
+    return json.dumps(
+        plain(
+            {
+                "case": done.case.name,
+                "row": done.case.row,
+                "row_hex": [hex_of(value) for value in done.case.row],
+                "truth": None if done.truth is None else _truth_json(done.truth),
+                "spec": done.spec,
+                "declared": _claims_json(done.declared),
+                "used": _claims_json(done.used),
+                "tolerance_u": float(done.criterion.tolerance),
+                **_judgement_json(done.judgement),
+                "skipped": done.skipped,
+                "values": None if done.choice is None else _choice_json(done.choice),
+            }
+        ),
+        allow_nan=False,
+    )
+
+
+def _truth_json(truth: ProvedTruth) -> dict[str, Any]:
+    decision = truth.decision
+    return {
+        "position": int(decision.position),
+        "label": decision.position.label,
+        "tangent": decision.tangent,
+        "kind": decision.kind.value,
+        "flips": {position.label: distance for position, distance in truth.flips.items()},
+        "proof": proof_as_json(truth.pair, truth.certificate),
+    }
+
+
+def _claims_json(description: Description) -> dict[str, Any]:
+    return {"name": description.name, "question": description.question, "precision": description.precision}
+
+
+def _judgement_json(judgement: ReplayJudgement) -> dict[str, Any]:
+    return {
+        "status": judgement.status.value,
+        "answer": judgement.answer,
+        "reason": judgement.reason,
+        "mistake": None if judgement.mistake is None else judgement.mistake.value,
+        "backward_error": judgement.error,
+        "backward_error_u": judgement.error_u,
+    }
+
+
+def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
+    compared = choice.comparison
+    return {"why": choice.why, "own": choice.own, **({} if compared is None else _comparison_json(compared))}
+
+
+def _comparison_json(compared: FormulaComparison) -> dict[str, Any]:
+    return {
+        "formula": compared.formula.name,
+        "question": compared.formula.question,
+        "format": compared.format,
+        "answer": compared.answer,
+        "exact_answer": compared.exact_answer,
+        "first_wrong": compared.first_wrong,
+        "culprit": compared.culprit,
+        "table": [_value(each) for each in compared.values],
+    }
+
+
+def _value(each: Intermediate) -> dict[str, Any]:
+    return {
+        "name": each.name,
+        "operation": each.operation,
+        "value": each.value if isinstance(each.value, bool) else number_text(each.value, DIGITS),
+        "exact": each.exact if isinstance(each.exact, bool) else number_text(each.exact, DIGITS),
+        "error_u": each.error_u,
+    }
+
+
+_LABEL = 12
+_FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
+
+
+def replay_lines(done: Replay) -> Iterator[str]:
+    """The whole replay, line by line."""
+    yield from _titled("case", done.case.name)
+    for name, value in zip(COLUMNS, done.case.row, strict=True):
+        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
+    if done.truth is None:
+        yield from _titled("truth", f"no pair, for {' and '.join(done.case.at_fault)}: to be refused with {REFUSED}")
+    else:
+        yield from _truth_lines(done.truth)
+    yield ""
+    yield from _judgement_lines(done)
+    if done.choice is not None and done.truth is not None:
+        yield ""
+        yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
+
+
+def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
+    decision = truth.decision
+    yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
+    yield from _titled("kind", kind_as_text(decision.kind))
+    for position, distance in truth.flips.items():
+        yield from _titled("flips", f"to {position.label} {_change(distance)}")
+    yield from _titled("proof", *proof_lines(truth.pair, truth.certificate))
+
+
+def _judgement_lines(done: Replay) -> Iterator[str]:
+    used, declared = done.used, done.declared
+    yield from _titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
+    if _claim_lines(declared) != _claim_lines(used):
+        yield from _titled("declared", _claim_lines(declared))
+    if done.judgement.answer is not None:
+        yield from _titled("answer", answer_said(done.judgement.answer, done.criterion.question))
+    yield from _titled("judged", _judged(done.judgement, float(done.criterion.tolerance)))
+    if done.skipped is not None:
+        yield from _titled("note", f"verify skips this case: {done.skipped}")
+
+
+def _claim_lines(description: Description) -> str:
+    return f"{description.question}, {description.precision}"
+
+
+def _judged(judgement: ReplayJudgement, tolerance: float) -> str:
+    parts = [judgement.status.value]
+    if judgement.mistake is not None:
+        parts.append(
+            f"a {judgement.mistake.value} with backward error {judgement.error:.4g}, {judgement.error_u:.4g} u"
+            f" (tolerated: {tolerance:g} u)"
+        )
+    if judgement.reason:
+        parts.append(judgement.reason)
+    return "; ".join(parts)
+
+
+def answer_said(answer: int, question: str) -> str:
+    """An answer to a question in words, with the number that was given."""
+    if answer == CANNOT_SAY:
+        return f"{answer}, cannot say"
+    if answer == REFUSED:
+        return f"{answer}, refused"
+    if question == "position":
+        return f"{answer:+d}, {Position(answer).label}" if answer else f"0, {Position(0).label}"
+    return f"{answer}, {'' if answer else 'not '}{question}"
+
+
+def _choice_lines(choice: FormulaChoice, truth: Position, asked: str) -> Iterator[str]:
+    compared = choice.comparison
+    if compared is None:
+        yield from _titled("values", f"none: {choice.why}")
+        return
+    formula = compared.formula
+    other = () if choice.own else (f"these are not the values of {asked} itself, whose steps cannot be shown",)
+    yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
+    yield ""
+    yield from _table(compared)
+    yield ""
+    about = () if choice.own else (f"about {formula.name}, not about {asked}:",)
+    yield from _titled("finding", *about, *finding(compared, truth))
+
+
+def _table(compared: FormulaComparison) -> Iterator[str]:
+    head = ("", "name", "computed as", compared.format, "exact", "error in u")
+    rows = [head, *(_row(compared, each) for each in compared.values)]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
+    for row in rows:
+        cells = [
+            text.rjust(width) if column == len(head) - 1 else text.ljust(width)
+            for column, (text, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        yield "  ".join(cells).rstrip()
+
+
+def _row(compared: FormulaComparison, each: Intermediate) -> Sequence[str]:
+    error = "" if each.error_u is None else f"{each.error_u:.3g}"
+    return (_mark(compared, each), each.name, each.operation, number_text(each.value), number_text(each.exact), error)
+
+
+def _mark(compared: FormulaComparison, each: Intermediate) -> str:
+    if each.name == compared.first_wrong:
+        return _FIRST
+    if each.name == compared.culprit:
+        return _CULPRIT
+    return _OTHER if each.decided_otherwise else ""
+
+
+def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
+    """What the two columns say about the formula, in a sentence or two."""
+    question = compared.formula.question
+    if compared.first_wrong is None:
+        yield f"every decision of {compared.formula.name} in {compared.format} is that of exact arithmetic"
+    else:
+        wrong = compared[compared.first_wrong]
+        decided = f"is {number_text(wrong.value)}, in exact arithmetic {number_text(wrong.exact)}"
+        yield f"{_FIRST} {wrong.name} ({wrong.operation}) {decided}"
+        if compared.culprit is not None:
+            number = compared[compared.culprit]
+            exact = number_text(number.exact)
+            yield f"{_CULPRIT} for {number.name} is {number_text(number.value)}, where {exact} is exact"
+    rounded, exactly = (answer_said(answer, question) for answer in (compared.answer, compared.exact_answer))
+    name = compared.formula.name
+    yield f"the answer of {name} in {compared.format}: {rounded}; in exact arithmetic: {exactly}"
+    right = int(truth) if question == "position" else int(truth is Position[question.upper()])
+    if compared.exact_answer != right:
+        fault = "the formula is at fault, and not rounding alone"
+        yield f"{name} errs in exact arithmetic too: {fault}; truth: {truth.label}"
+
+
+def _change(distance: float) -> str:
+    if distance == 0:
+        return "by an arbitrarily small change"
+    if distance == float("inf"):
+        return "by no relative change up to 1"
+    return f"if each number may change by a relative {distance:.4g}"
+
+
+def _titled(title: str, *lines: str) -> Iterator[str]:
+    for index, line in enumerate(lines):
+        yield f"{'' if index else title:{_LABEL}}{line}"

@@ -1,0 +1,290 @@
+"""`--resume`: how far a run is, as a line of the record that it keeps, and back to what a run goes on from.
+
+A run goes on from a record only if it is the same run.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, astuple, dataclass
+from datetime import datetime, timezone
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from msgspec import structs
+from numpy.typing import NDArray
+
+from hypcheck.errors import InputError
+from hypcheck.implementations.session import Allowance, Outcome
+from hypcheck.record import Record, Recorder, RecordLine, plain
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import ImplementationLine, NotStartedLine
+from hypcheck.record.progress import (
+    PendingCases,
+    ProgressLine,
+    SavedAllowance,
+    SavedAnswer,
+    SavedFault,
+    SavedResult,
+    SavedState,
+    SavedTally,
+)
+from hypcheck.record.writer import header
+from hypcheck.runs.cases import CaseChunk
+from hypcheck.runs.conformance_lines import recorded_description, require_lines, require_state
+from hypcheck.runs.fingerprint import code_fingerprint
+from hypcheck.runs.plan import ConformancePlan, known_failures_of, rules_of, steps_of
+from hypcheck.runs.results import CasesResult, PendingRetest
+from hypcheck.runs.schedule import RunState
+from hypcheck.runs.tally import Histogram, Tally, UnansweredCase, WorstCase
+
+PROGRESS_EVERY_S = 10.0
+"""Seconds between two lines of progress, at least: what a killed run may lose."""
+
+PROGRESS_SHARE = 100
+"""Of the time of a run, what keeping its progress may take: one part of so many."""
+
+FREE_OPTIONS = ("workers", "cluster")
+"""Options that may differ: the result is the same with any."""
+
+LIBRARIES = ("numpy", "mpmath", "sympy")
+"""Those whose versions a result may depend on."""
+
+Json = dict[str, Any]
+
+
+class ProgressWriter:
+    """Keeps in a record how far one implementation has been asked; `about` are the fields of the line but its state."""
+
+    def __init__(self, recorder: Recorder, **about: Any) -> None:  # noqa: ANN401  whatever the line holds
+        self.recorder = recorder
+        self._about = about
+        self._due = time.monotonic() + PROGRESS_EVERY_S
+
+    def offer(self, state: RunState) -> None:
+        """Keep the state if it is time to."""
+        if time.monotonic() >= self._due:
+            began = time.monotonic()
+            self.keep(state)
+            now = time.monotonic()
+            self._due = now + max(PROGRESS_EVERY_S, PROGRESS_SHARE * (now - began))
+
+    def keep(self, state: RunState) -> None:
+        """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
+        self.recorder.keep(ProgressLine(**self._about, state=saved_state(state), program=code_fingerprint()))
+
+
+@dataclass(frozen=True)
+class ResumedRun:
+    """What a record holds of a run: lines to begin with, and the state that the next implementation is in.
+
+    The lines are of implementations that were asked to their end, with the line of progress of the next one behind
+    them if there is one; otherwise the state is None, and it is asked from its beginning.
+    """
+
+    carried: tuple[RecordLine, ...] = ()
+    state: RunState | None = None
+
+    def done(self, cases: int) -> int:
+        """How many cases were asked, where each implementation is asked so many."""
+        finished = [line for line in self.carried if isinstance(line, (ImplementationLine, NotStartedLine))]
+        return len(finished) * cases + (self.state.total.cases if self.state else 0)
+
+
+def require_same_run(
+    record: Record, file: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str]
+) -> None:
+    """Raise InputError, saying what differs, where the record in `file` is not one of a run of this kind.
+
+    `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
+    """
+    before, now = as_json(record.header), as_json(header(options, datetime.now(timezone.utc), {"files": files}))
+    if not {"specs", "max_abstained"} <= before["options"].keys():
+        command = "bench" if before["options"].get("command") == "bench" else "verify without SPEC"
+        raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")
+    for name in ("schema", "hypcheck", "python"):
+        _require_same(before.get(name), now[name], name, file)
+    for part, free in {"options": FREE_OPTIONS, "versions": (), "machine": ("processor", "cores"), "files": ()}.items():
+        there, here = before.get(part) or {}, json.loads(json.dumps(plain(now[part])))
+        for key in {**there, **here}:
+            if key not in free and (part != "versions" or key in LIBRARIES):
+                _require_same(there.get(key), here.get(key), _title(part, key), file)
+    spoken = [line.spec for line in finished_part(record)[0] if isinstance(line, (ImplementationLine, NotStartedLine))]
+    _require_same(spoken, list(plan.specs[: len(spoken)]), "those that were asked to their end", file)
+
+
+def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
+    """What the run of the plan goes on with, whose implementations are asked so many cases each.
+
+    Raises InputError where the implementation that was being asked says something else of itself, or the line of
+    progress cannot be read; StartError where it cannot be started.
+    """
+    carried, begun = finished_part(record)
+    with _told_of(file):
+        _require_carried(carried, plan)
+    if begun is None:
+        return ResumedRun(carried)
+    if begun.number >= len(plan.specs):
+        raise InputError(f"{file} cannot be resumed: it goes on with an implementation behind the last one")
+    _require_same(begun.program, code_fingerprint(), "the sha256 of hypcheck's own files", file)
+    _require_same(begun.cases, cases, "the number of cases", file)
+    with plan.opening(begun.number).open() as implementation:
+        before, now = as_json(begun.declared), as_json(recorded_description(implementation.declared))
+        used = implementation.description
+    for key in now:
+        _require_same(before.get(key), now[key], f"the {key} that {plan.specs[begun.number]} declares", file)
+    with _told_of(file):
+        state = restored_state(begun.state)
+        require_state(state, steps_of(plan, used), plan, rules_of(plan, used, known_failures_of(plan)))
+    return ResumedRun((*carried, begun), state)
+
+
+@contextmanager
+def _told_of(file: Path) -> Iterator[None]:
+    """Whatever contradicts itself in the record is an InputError that names its file."""
+    try:
+        yield
+    except ValueError as error:
+        raise InputError(f"{file} cannot be resumed: what it says cannot be: {error}") from None
+
+
+def _require_carried(carried: Sequence[RecordLine], plan: ConformancePlan) -> None:
+    """Raise ValueError where lines about an implementation that was asked to its end cannot be true."""
+    about: list[RecordLine] = []
+    for line in carried:
+        about.append(line)
+        if isinstance(line, ImplementationLine):
+            require_lines(about, line, plan)
+        if isinstance(line, (ImplementationLine, NotStartedLine)):
+            about = []
+
+
+def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine | None]:
+    """The lines of implementations that were asked to their end, and the progress of the next one if it is kept.
+
+    A record is written in order, so what stands before the last such implementation belongs to it and those before it.
+    Behind it may stand lines of one that was not asked to its end: all that counts of it is the progress.
+    """
+    ends = [
+        place
+        for place, line in enumerate(record.lines)
+        if isinstance(line, NotStartedLine) or (isinstance(line, ImplementationLine) and line.finished is not False)
+    ]
+    before = record.lines[: ends[-1] + 1] if ends else ()
+    kept = [line for line in record.of(ProgressLine) if line.number == len(ends)]
+    return tuple(line for line in before if not isinstance(line, ProgressLine)), kept[-1] if kept else None
+
+
+def _title(part: str, key: str) -> str:
+    if part == "files":
+        return f"the sha256 of {key}"
+    return f"--{key.replace('_', '-')}" if part == "options" and key != "specs" else key
+
+
+def _require_same(before: object, now: object, what: str, file: Path) -> None:
+    if before != now:
+        raise InputError(f"{file} cannot be resumed: {what} was {_shown(before)}, and is {_shown(now)} now")
+
+
+def _shown(value: object) -> str:
+    return "not there" if value is None else json.dumps(value, ensure_ascii=False)
+
+
+def saved_state(state: RunState) -> SavedState:
+    """The state as a line of progress has it."""
+    left = state.left
+    allowance = SavedAllowance(restarts=left.restarts, faults=left.faults, over=left.over, hangs=left.hangs)
+    return SavedState(done=state.done, left=allowance, total=saved_result(state.total))
+
+
+def restored_state(content: SavedState) -> RunState:
+    """The state that a line of progress has. Raises ValueError where open cases have more answers, or fewer.
+
+    Nothing is made larger than what was read; whether the numbers agree is for consistency.require_state to say.
+    """
+    return RunState(Allowance(**structs.asdict(content.left)), content.done, restored_result(content.total))
+
+
+def saved_result(result: CasesResult) -> SavedResult:
+    """The result as a line of progress has it."""
+    return SavedResult(
+        tallies={family: _saved_tally(tally) for family, tally in result.tallies.items()},
+        open=[
+            PendingCases(chunk=astuple(each.chunk), indices=_runs(each.indices), answers=each.answers.tobytes().hex())
+            for each in result.open
+        ],
+        again=result.again,
+        outcomes=sorted(outcome.label for outcome in result.outcomes),
+        excusing=sorted(result.excusing),
+        named=sorted(result.named),
+    )
+
+
+def restored_result(content: SavedResult) -> CasesResult:
+    """The result that a line of progress has. Raises as restored does."""
+    return CasesResult(
+        tallies={family: _restored_tally(tally) for family, tally in content.tallies.items()},
+        open=tuple(map(_restored_open, content.open)),
+        again=content.again,
+        outcomes=frozenset(outcome for outcome in Outcome if outcome.label in content.outcomes),
+        excusing=frozenset(content.excusing),
+        named=frozenset(content.named),
+    )
+
+
+def _restored_open(content: PendingCases) -> PendingRetest:
+    """Open cases; their indices are made only where there are as many answers."""
+    chunk = CaseChunk(*content.chunk)
+    answers = np.frombuffer(bytes.fromhex(content.answers), dtype=np.int8)
+    ends = [0, *chain.from_iterable(content.indices), len(chunk)]
+    ascending = ends == sorted(ends) and all(first < last for first, last in content.indices)
+    if not content.indices or not ascending or sum(last - first for first, last in content.indices) != len(answers):
+        raise ValueError(f"{len(answers)} answers of {chunk.family} are not to its open cases")
+    return PendingRetest(chunk, np.concatenate([np.arange(*run) for run in content.indices]), answers)
+
+
+def _saved_tally(tally: Tally) -> SavedTally:
+    return SavedTally(
+        asked=tally.asked,
+        counts=dict(tally.counts),
+        mistakes=dict(tally.mistakes),
+        dangerous=tally.dangerous,
+        octaves={octave: dict(counts) for octave, counts in tally.octaves.items()},
+        size_bins=tally.size_bins.as_lists(),
+        place_bins=tally.place_bins.as_lists(),
+        worst=[SavedAnswer(**_saved_case(case)) for case in tally.worst],
+        faults=[SavedFault(**_saved_case(case)) for case in tally.faults],
+    )
+
+
+def _restored_tally(content: SavedTally) -> Tally:
+    return Tally(
+        asked=content.asked,
+        counts=content.counts,
+        mistakes=content.mistakes,
+        dangerous=content.dangerous,
+        octaves=content.octaves,
+        size_bins=Histogram.of_lists(content.size_bins),
+        place_bins=Histogram.of_lists(content.place_bins),
+        worst=tuple(WorstCase(**_restored_case(case)) for case in content.worst),
+        faults=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
+    )
+
+
+def _saved_case(case: WorstCase | UnansweredCase) -> Json:
+    return {**asdict(case), "row": tuple(value.hex() for value in case.row)}
+
+
+def _restored_case(case: SavedAnswer | SavedFault) -> Json:
+    return {**structs.asdict(case), "row": tuple(map(float.fromhex, case.row))}
+
+
+def _runs(indices: NDArray[np.intp]) -> list[tuple[int, int]]:
+    """Ascending indices as stretches [first, last + 1)."""
+    breaks = np.flatnonzero(np.diff(indices) != 1) + 1
+    return [(int(part[0]), int(part[-1]) + 1) for part in np.split(indices, breaks)]

@@ -1,0 +1,255 @@
+"""The retest: open cases asked again, later and otherwise (in a fresh process, another order and other questions).
+
+An implementation that answers many rows at once can be wrong about a place of a question alone: the rest that no vector
+holds, the first row of a thread, a block that is never begun. Such an answer is right by luck where it is the same as
+the truth. So cases are asked alone, in questions of every size, and in each place of a large question with each
+position in turn.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.implementation import Crashed, Implementation
+from hypcheck.implementations.session import Outcome
+from hypcheck.record.lines import Retest
+from hypcheck.runs import judge
+from hypcheck.runs.cases import ChunkCases, cases_of_chunks
+from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
+from hypcheck.runs.score import Indices, as_slice, score, status_of
+from hypcheck.runs.tally import STATUSES
+
+RetestQuestion = tuple[Indices, int | None]
+"""Cases, and in questions of how many they are asked; None: of as many as can be."""
+
+ALONE, MANY = 32, 1100
+"""Cases that are asked one by one; and single questions to an implementation that takes at most QUICK over each, which
+are more than fit into a counter of 8 or of 10 bits."""
+
+QUICK_S = 2e-3
+"""Seconds."""
+
+SOON_S = 0.05
+"""Seconds. An implementation that answers full questions within them is asked the longest questions too, which take
+about a second then."""
+
+LENGTHS = (7, 3, 11, 2, 5, 13, 9, 6, 15, 10, 4, 14, 12, 8, 17, 16, 31, 33, 63, 65, 129, 127)
+"""Rows of small questions: each remainder by 2, 4, 8 and 16, and what is beside a power of two."""
+
+IN_LENGTHS = 1536
+"""Cases asked in questions of LENGTHS at most, unless they are asked more than once."""
+
+LENGTH_ROUNDS = 3
+"""Questions of each of LENGTHS to an implementation that stands LARGE rows, to which these cost nothing."""
+
+TWINS = 64
+"""Cases asked four times in one question, beside themselves and apart: an implementation may keep answers by rows."""
+
+LARGE_QUESTION = 4096
+FULL_QUESTION = LARGE_QUESTION + 128 + 1
+"""Rows of a full question at least, where so many can be asked: cases are repeated, so that every thread, block and
+page has some if the implementation divides a question."""
+
+PARTS = 3
+"""Parts of a round at most, each with an order of its own."""
+
+SHORTER = (0, 0, 2)
+"""By how many rows full questions fall short, so that a vector's rest is not always the same; two are whole, so that
+an answer that is always the same in the last place is wrong in one of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class RetestTask:
+    """Open cases of some chunks, to be asked again together.
+
+    `number` counts the rounds of a run, which have up to three parts.
+    """
+
+    number: int
+    part: int
+    open: tuple[PendingRetest, ...]
+
+
+@dataclass(frozen=True)
+class _Sample:
+    """The cases of a round, in arrays: rows (n, 7), positions and first answers (n,).
+
+    `moments` (n,) are the moments of the movement, of those that follow an object; −1 of others.
+    """
+
+    made: tuple[ChunkCases, ...]
+    rows: Rows
+    truth: Positions
+    before: NDArray[np.int8]
+    moments: NDArray[np.int64]
+
+
+ChangedAnswers = dict[int, tuple[Status, str]]
+"""How those end that were not answered as before, and why; TOLERATED where rounding may explain the change."""
+
+
+def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
+    """Ask the open cases again, and judge all; those that have changed end as what has become of them."""
+    if not asked.open:
+        return CasesResult()
+    sample, changes, outcomes = _sample(asked.open), ChangedAnswers(), set[Outcome]()
+    implementation.fresh()
+    asking = retest_questions(
+        sample.truth, sample.moments, lambda: implementation.stands, rules.seed, asked.number, asked.part
+    )
+    for places, batch in asking:
+        answered = implementation.classify(sample.rows[places], batch=batch)
+        outcomes |= answered.outcomes
+        status = status_of(answered)
+        for offset in np.flatnonzero((answered.answers != sample.before[places]) | ~answered.answered).tolist():
+            place = int(places[offset])
+            if changes.get(place, (Status.TOLERATED, ""))[0] is Status.TOLERATED:
+                if answered.answered[offset]:
+                    changes[place] = _change(sample, place, int(answered.answers[offset]), rules.criterion)
+                else:
+                    reason = f"when asked again: {answered.reasons.get(offset, '')}"
+                    changes[place] = STATUSES[status[offset]], reason
+    within = sum(status is Status.TOLERATED for status, _ in changes.values())
+    beyond = sum(status is Status.NONDETERMINISTIC for status, _ in changes.values())
+    again = Retest(asked=len(sample.rows), within=within, beyond=beyond)
+    return replace(_judged(asked.open, sample, changes, rules), again=again, outcomes=frozenset(outcomes))
+
+
+def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) -> CasesResult:
+    """Judge open cases by their first answers: of a run that is interrupted before it could ask them again."""
+    return _judged(some, _sample(some), {}, rules) if some else CasesResult()
+
+
+def _sample(some: tuple[PendingRetest, ...]) -> _Sample:
+    made = cases_of_chunks(each.chunk for each in some)
+    both = tuple(zip(made, some, strict=True))
+    return _Sample(
+        made,
+        np.concatenate([part.rows[each.indices] for part, each in both]),
+        np.concatenate([part.positions[each.indices] for part, each in both]),
+        np.concatenate([each.answers for each in some]),
+        np.concatenate([_moments(each) for each in some]),
+    )
+
+
+def _moments(each: PendingRetest) -> NDArray[np.int64]:
+    if each.chunk.movement == 1:
+        return np.full(len(each.indices), -1)
+    return (each.chunk.start + each.indices) % each.chunk.movement
+
+
+def _change(sample: _Sample, place: int, answer: int, criterion: Criterion) -> tuple[Status, str]:
+    """What another answer than the first means."""
+    pair = np.array([sample.before[place], answer], dtype=np.int8)
+    if CANNOT_SAY not in pair:
+        twice = np.stack([sample.rows[place]] * 2)
+        wrong = judge.wrong_cases(twice, np.repeat(sample.truth[place], 2), pair, criterion)
+        if all(case.status is Status.TOLERATED for case in wrong):
+            return Status.TOLERATED, ""
+    reason = f"answered {pair[0]} at first and {pair[1]} when asked again, in another order and question"
+    return Status.NONDETERMINISTIC, reason
+
+
+def _judged(
+    some: tuple[PendingRetest, ...], sample: _Sample, changes: ChangedAnswers, rules: JudgingRules
+) -> CasesResult:
+    """All cases of the round, judged by their first answers unless these count no more."""
+    results, start = [], 0
+    lost = {place: change for place, change in changes.items() if change[0] is not Status.TOLERATED}
+    for made, each in zip(sample.made, some, strict=True):
+        stop = start + len(each.indices)
+        part = as_slice(each.indices)
+        scored = score(made.by_column[part], made.positions[part], Answered.of(each.answers), rules.criterion)
+        scored = scored.without({place - start: lost[place] for place in lost if start <= place < stop})
+        results.append(result_of_final(made, each.indices, scored, rules))
+        start = stop
+    return merged_result(results)
+
+
+def retest_questions(
+    truth: NDArray[np.int8],
+    moments: NDArray[np.int64],
+    stands: Callable[[], int],
+    seed: int,
+    number: int,
+    part: int = 0,
+) -> Iterator[RetestQuestion]:
+    """The questions about n cases with these positions, each case in one at least.
+
+    `moments` (n,) are those of movements, −1 of cases that follow no object: the same objects are asked moment by
+    moment, which shows an implementation that carries answers over from one question to the next. `stands` is the
+    largest question that it has answered well within its time so far. If that has LARGE rows, each case is asked many
+    times in the first part of the first round of a run, of which `number` and `part` are 0. Parts 1 and 2 share the
+    small questions.
+    """
+    random = np.random.Generator(np.random.Philox((seed, PARTS * number + part)))
+    order = random.permutation(np.flatnonzero(moments < 0))
+    share = 2 if part else 1
+    alone = ALONE // share
+    yield order[:alone], 1
+    yield np.tile(np.repeat(order[: TWINS // share], 2), 2), None
+    rest = order[alone:]
+    some = min(IN_LENGTHS // share, (len(rest) + 1) // 2)
+    began = time.monotonic()
+    small = list(_of_every_length(rest[:some]))
+    yield from small
+    quick = time.monotonic() - began < QUICK_S * len(small)
+    yield _filled(rest[some:], order, FULL_QUESTION if stands() >= FULL_QUESTION else 0), None
+    if number == part == 0 and stands() >= LARGE_QUESTION and len(order):
+        yield from _of_every_length(np.resize(order, LENGTH_ROUNDS * sum(LENGTHS)))
+        began = time.monotonic()
+        yield from _in_every_place(order, truth, random, min(FULL_QUESTION, stands()))
+        if time.monotonic() - began < SOON_S:
+            yield from _in_every_place(order, truth, random, stands())
+        if quick:
+            yield np.resize(order, MANY), 1
+    yield from _moment_by_moment(moments)
+
+
+def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:
+    start = 0
+    while start < len(cases):
+        for length in LENGTHS:
+            part = cases[start : start + length]
+            if len(part):
+                yield part, length
+            start += length
+
+
+def _filled(cases: Indices, order: Indices, least: int) -> Indices:
+    """The cases, repeated to make `least`."""
+    if len(order) and len(cases) < least:
+        return np.resize(cases if len(cases) else order, least)
+    return cases
+
+
+def _in_every_place(
+    order: Indices, truth: NDArray[np.int8], random: np.random.Generator, size: int
+) -> Iterator[RetestQuestion]:
+    """Questions of about `size` rows, as many as there are positions among the cases: others in each at each place."""
+    parts = [part for position in Position if len(part := order[truth[order] == position])]
+    which = random.integers(len(parts), size=size)
+    for turn in range(len(parts)):
+        chosen = (which[: size - SHORTER[turn]] + turn) % len(parts)
+        cases = np.empty(len(chosen), dtype=np.intp)
+        for number, part in enumerate(parts):
+            here = np.flatnonzero(chosen == number)
+            cases[here] = np.resize(part, len(here))
+        yield cases, None
+
+
+def _moment_by_moment(moments: NDArray[np.int64]) -> Iterator[RetestQuestion]:
+    moving = np.flatnonzero(moments >= 0)
+    if len(moving):
+        yield moving[: int(moments.max()) + 1], 1
+        for moment in range(int(moments.max()) + 1):
+            yield moving[moments[moving] == moment], None

@@ -1,0 +1,219 @@
+"""One score: rows that an implementation was asked, how each ended, and by how much its wrong answers are wrong.
+
+Conformance runs, the self-check, hunts and bench all score what they ask. They differ in which rows they ask, and in
+what they keep: conformance and the self-check a tally of every case, a hunt the worst answers, bench the distances.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.session import Outcome
+from hypcheck.runs import judge, tally
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.runs.tally import (
+    FAULTS_KEPT,
+    STATUS_CODES,
+    STATUSES,
+    WORST_KEPT,
+    CasePlace,
+    StatusCodes,
+    Tally,
+    UnansweredCase,
+    WorstCase,
+    by_exponent,
+    counts_of,
+    kept_unanswered,
+)
+
+Indices = NDArray[np.intp]
+
+_ENDED = np.array(
+    [STATUS_CODES[Status.RIGHT if each is Outcome.ANSWERED else Status(each.label)] for each in Outcome], dtype=np.int8
+)
+
+
+class CaseSource(Protocol):
+    """Where rows are from: some cases of a family."""
+
+    def name(self, index: int) -> str:
+        """The id of a case."""
+        ...
+
+    def place(self, index: int) -> CasePlace:
+        """Where it stands in the family."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Rows (n, 7) with their true positions (n,), as one implementation answered them.
+
+    `answers` (n,) hold CANNOT_SAY where no answer counts. `status` (n,) says in CODES how each row ended: WRONG of each
+    wrong answer, though `judged` may find it within the tolerance. `reasons` has a sentence for each row without an
+    answer that counts.
+    """
+
+    criterion: Criterion
+    rows: Rows
+    truth: Positions
+    answers: NDArray[np.int8]
+    status: StatusCodes
+    reasons: Mapping[int, str]
+
+    @cached_property
+    def wrong(self) -> Indices:
+        """The places of the wrong answers, tolerated or not."""
+        return np.flatnonzero(self.status == STATUS_CODES[Status.WRONG])
+
+    @property
+    def answered(self) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows that have an answer that counts, "cannot say" among them."""
+        answered = (STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG], STATUS_CODES[Status.ABSTAINED])
+        return np.asarray(np.isin(self.status, answered))
+
+    @property
+    def mistakes(self) -> Counter[Mistake]:
+        """The wrong answers by what they mean."""
+        found: Counter[Mistake] = Counter()
+        pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
+        for (position, answer), number in Counter(pairs).items():
+            found[judge.mistake_of(Position(position), answer, self.criterion.question)] += number
+        return found
+
+    def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
+        """The wrong answers, or those at some of their places, each with its backward error and whether it passes."""
+        return judge.judged(self.rows, self.answers, self.wrong if wrong is None else wrong, self.criterion)
+
+    def part(self, places: Indices) -> Score:
+        """The score of the rows at these places, which ascend."""
+        if len(places) == len(self.rows):
+            return self
+        chosen: slice | Indices = as_slice(places)
+        found = enumerate(places.tolist()) if self.reasons else ()
+        return Score(
+            self.criterion,
+            self.rows[chosen],
+            self.truth[chosen],
+            self.answers[chosen],
+            self.status[chosen],
+            {place: self.reasons[before] for place, before in found if before in self.reasons},
+        )
+
+    def without(self, lost: Mapping[int, tuple[Status, str]]) -> Score:
+        """The score where the answers at these places do not count, with the status and the reason of each."""
+        answers, status = self.answers.copy(), self.status.copy()
+        for place, (ended, _) in lost.items():
+            answers[place], status[place] = CANNOT_SAY, STATUS_CODES[ended]
+        reasons = {**self.reasons, **{place: reason for place, (_, reason) in lost.items()}}
+        return replace(self, answers=answers, status=status, reasons=reasons)
+
+    def tally(
+        self,
+        source: CaseSource,
+        indices: Indices,
+        exponents: NDArray[np.float64],
+        *,
+        skipped: int = 0,
+        wrong: Sequence[WrongCase] | None = None,
+    ) -> Tally:
+        """The tally of these rows, which are the cases `indices` (n,) of a source.
+
+        `exponents` are floor(log2) of the distances of the first rows to the nearest other position; `skipped` rows
+        were not asked. `wrong` are the judged cases where some of them are excused.
+        """
+        cases = list(self.judged()) if wrong is None else wrong
+        status = self.status.copy()
+        for case in cases:
+            status[case.index] = STATUS_CODES[case.status]
+        amiss = status != STATUS_CODES[Status.RIGHT]
+        return Tally(
+            asked=len(self.rows),
+            counts=counts_of(status) | ({Status.SKIPPED.value: skipped} if skipped else {}),
+            mistakes={mistake.value: number for mistake, number in self.mistakes.items()},
+            dangerous=sum(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in cases),
+            octaves=by_exponent(exponents, status[: len(exponents)]),
+            size_bins=tally.by_size(self.rows, amiss),
+            place_bins=tally.by_place(self.rows, amiss),
+            worst=self._worst(cases, source, indices),
+            faults=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
+        )
+
+    def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> tuple[WorstCase, ...]:
+        ranked = sorted(wrong, key=lambda case: (_exponent_first(case), case.index))
+        chosen = ranked[:WORST_KEPT]
+        if chosen and math.isfinite(chosen[-1].exponent):
+            # Among the cases of the last exponent that is kept, only the numbers themselves tell which are the worst.
+            last = _exponent_first(chosen[-1])
+            chosen += [case for case in ranked[WORST_KEPT:] if _exponent_first(case) == last]
+        measured = (
+            WorstCase(
+                place=source.place(int(indices[case.index])),
+                case=source.name(int(indices[case.index])),
+                row=case.row,
+                truth=int(case.truth),
+                answer=case.answer,
+                mistake=case.mistake.value,
+                status=case.status.value,
+                error=judge.measured(case, self.criterion.question),
+            )
+            for case in chosen
+        )
+        return tuple(sorted(measured, key=lambda case: case.rank)[:WORST_KEPT])
+
+
+def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
+    """Score what became of rows (n, 7) with these true positions, int8 (n,)."""
+    status = status_of(answered)
+    status[judge.is_wrong(truth, answered.answers, criterion.question)] = STATUS_CODES[Status.WRONG]
+    return Score(criterion, rows, truth, answered.answers, status, answered.reasons)
+
+
+def status_of(answered: Answered) -> StatusCodes:
+    """How each row ended as far as that is known before it is judged: RIGHT where there is an answer to be judged."""
+    status = _ENDED.take(answered.status)
+    status[(answered.answers == CANNOT_SAY) & answered.answered] = STATUS_CODES[Status.ABSTAINED]
+    return status
+
+
+def unanswered_cases(
+    rows: Rows, status: StatusCodes, reasons: Mapping[int, str], source: CaseSource, indices: Indices
+) -> tuple[UnansweredCase, ...]:
+    """The first of the rows in `reasons` of each status, as many as a record can show."""
+    if not reasons:
+        return ()
+    places = np.sort(np.fromiter(reasons, dtype=np.intp, count=len(reasons)))
+    first = (places[status[places] == code][:FAULTS_KEPT].tolist() for code in set(status[places].tolist()))
+    return kept_unanswered(
+        UnansweredCase(
+            source.place(int(indices[place])),
+            source.name(int(indices[place])),
+            tuple(rows[place].tolist()),
+            STATUSES[status[place]].value,
+            reasons[place],
+        )
+        for some in first
+        for place in some
+    )
+
+
+def as_slice(indices: Indices) -> slice | Indices:
+    """The indices as a slice, which copies nothing, where none is left out between the first and the last."""
+    if not len(indices) or indices[-1] - indices[0] != len(indices) - 1:
+        return indices
+    return slice(int(indices[0]), int(indices[-1]) + 1)
+
+
+def _exponent_first(case: WrongCase) -> tuple[bool, float]:
+    return case.status is not Status.WRONG, -case.exponent

@@ -1,0 +1,309 @@
+"""Tallies of cases: counts by status, histograms over sizes and places, and the worst cases; they add up in any order.
+
+Where cases lie: counts over the sizes of the bodies and over the place of the centre, added up part by part.
+
+The record's line about one implementation and one family: counts, distances, bins and the worst cases.
+
+A Tally is what such a line says of some of the cases. Tallies of parts add up to that of the whole in any order: counts
+are sums, and which cases are kept with their rows depends on their places in the family, not on who was judged first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from msgspec import UNSET, UnsetType
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import Rows
+from hypcheck.record import lines
+from hypcheck.record.fields import Unsigned
+from hypcheck.record.lines import GroupLine
+from hypcheck.runs import judge
+from hypcheck.runs.judge import Criterion, Status
+
+Integers = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+FAR = 63
+"""The last bin of a place, which holds everything beyond it too."""
+
+_LEAST, _GREATEST = 2.0**-1000, 2.0**1000
+_DENSE = 1 << 16
+
+
+def _nothing() -> Integers:
+    return np.empty((0, 4), dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Histogram:
+    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these did not end as right."""
+
+    table: Integers = field(default_factory=_nothing)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Histogram) and np.array_equal(self.table, other.table)
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can change
+
+    def as_lists(self) -> list[list[int]]:
+        """Rows [first, second, cases, amiss], as the record has them."""
+        lists: list[list[int]] = self.table.tolist()
+        return lists
+
+    @classmethod
+    def of_lists(cls, lists: list[list[int]]) -> Histogram:
+        """The bins of such rows."""
+        return cls(np.array(lists, dtype=np.int64).reshape(-1, 4))
+
+
+def by_size(rows: Rows, amiss: Mask) -> Histogram:
+    """Bins (⌊log2 α/b⌋, ⌊log2 γ/d⌋)."""
+    sizes = rows[:, :4]
+    if len(rows) > 1 and (sizes == sizes[0]).all():  # of a scene with one of each
+        (first, second, *_), *_ = by_size(rows[:1], amiss[:1]).as_lists()
+        return Histogram.of_lists([[first, second, len(rows), int(np.count_nonzero(amiss))]])
+    with np.errstate(all="ignore"):
+        across, along = (np.frexp(rows[:, i] / rows[:, i + 2])[1].astype(np.int64) - 1 for i in (0, 1))
+    return _counted(across, along, amiss)
+
+
+def by_place(rows: Rows, amiss: Mask) -> Histogram:
+    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR."""
+    with np.errstate(all="ignore"):
+        across, along = _eighths(_radius(rows), rows[:, 0]), _eighths(np.abs(rows[:, 6]), rows[:, 1])
+    return _counted(across, along, amiss)
+
+
+def added(parts: Iterable[Histogram]) -> Histogram:
+    """The bins of all parts together."""
+    tables = [part.table for part in parts if len(part.table)]
+    if not tables:
+        return Histogram()
+    together = np.concatenate(tables)
+    return Histogram(_summed(together[:, 0], together[:, 1], together[:, 2:]))
+
+
+def _radius(rows: Rows) -> NDArray[np.float64]:
+    """√(x² + y²); by the slower hypot where a square leaves the range of floats."""
+    x, y = rows[:, 4], rows[:, 5]
+    square = x * x + y * y
+    if len(rows) and _LEAST < square.min() and square.max() < _GREATEST:
+        return np.sqrt(square, out=square)
+    return np.hypot(x, y)
+
+
+def _eighths(lengths: NDArray[np.float64], units: NDArray[np.float64]) -> Integers:
+    eighths = lengths / units
+    eighths *= 8
+    return np.minimum(eighths, FAR, out=eighths).astype(np.int64)
+
+
+def _counted(first: Integers, second: Integers, amiss: Mask) -> Histogram:
+    if not len(first):
+        return Histogram()
+    low, origin = first.min(), second.min()
+    span = second.max() - origin + 1
+    if (first.max() - low + 1) * span > _DENSE:
+        return Histogram(_summed(first, second, np.column_stack([np.ones_like(first), amiss])))
+    keys = (first - low) * span + (second - origin)
+    cases = np.bincount(keys)
+    wrong = np.bincount(keys[amiss], minlength=len(cases))
+    there = np.flatnonzero(cases)
+    return Histogram(np.column_stack([there // span + low, there % span + origin, cases[there], wrong[there]]))
+
+
+def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
+    """One row [first, second, …] for each pair of numbers, ascending, with the sums of its counts."""
+    keys = (first << 32) + second  # two numbers in one: sorting pairs is fifty times slower
+    order = np.argsort(keys, kind="stable")
+    keys = keys[order]
+    starts = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
+    return np.column_stack(
+        [first[order][starts], second[order][starts], np.add.reduceat(counts[order], starts, axis=0)]
+    )
+
+
+WORST_KEPT = 3
+"""Worst cases a group keeps with their rows; its counts are always exact."""
+
+FAULTS_KEPT = 5
+"""Cases that ended without an answer that counts which a group keeps with the reason; more, one of each status."""
+
+STATUSES = tuple(Status)
+STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate(STATUSES)}
+"""The number that stands for a status in arrays."""
+
+StatusCodes = NDArray[np.int8]
+CasePlace = tuple[int, int]
+"""Where a case stands in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
+
+
+@dataclass(frozen=True, slots=True)
+class WorstCase:
+    """A wrong or tolerated answer that is kept: `error` is its backward error."""
+
+    place: CasePlace
+    case: str
+    row: tuple[float, ...]
+    truth: int
+    answer: int
+    mistake: str
+    status: str
+    error: float
+
+    @property
+    def rank(self) -> tuple[bool, float, CasePlace]:
+        """Wrong before tolerated, then the largest error, then the first."""
+        return self.status != Status.WRONG, -self.error, self.place
+
+
+@dataclass(frozen=True, slots=True)
+class UnansweredCase:
+    """A case that ended without an answer that counts, and why."""
+
+    place: CasePlace
+    case: str
+    row: tuple[float, ...]
+    status: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Tally:
+    """What came of some cases of one family.
+
+    `counts` are by status, skipped rows among them though they are not `asked`; `mistakes` by what wrong and tolerated
+    answers mean; `dangerous` are wrong ones, beyond the tolerance and unexcused, that claim clear in contact; `octaves`
+    by the cases' own distance to the nearest other position, and there by status. `worst` and `faults` are in order.
+    """
+
+    asked: int = 0
+    counts: Mapping[str, int] = field(default_factory=dict)
+    mistakes: Mapping[str, int] = field(default_factory=dict)
+    dangerous: int = 0
+    octaves: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    size_bins: Histogram = field(default_factory=Histogram)
+    place_bins: Histogram = field(default_factory=Histogram)
+    worst: tuple[WorstCase, ...] = ()
+    faults: tuple[UnansweredCase, ...] = ()
+
+
+def merged_tally(tallies: Iterable[Tally]) -> Tally:
+    """The tally of all cases of these tallies, in whatever order they come."""
+    parts = tuple(tallies)
+    octaves: dict[str, Mapping[str, int]] = {}
+    for part in parts:
+        for key, counts in part.octaves.items():
+            octaves[key] = _added((octaves.get(key, {}), counts))
+    return Tally(
+        asked=sum(part.asked for part in parts),
+        counts=_added(part.counts for part in parts),
+        mistakes=_added(part.mistakes for part in parts),
+        dangerous=sum(part.dangerous for part in parts),
+        octaves=octaves,
+        size_bins=added(part.size_bins for part in parts),
+        place_bins=added(part.place_bins for part in parts),
+        worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
+        faults=kept_unanswered(fault for part in parts for fault in part.faults),
+    )
+
+
+def group_line(
+    tallied: Tally,
+    family: str,
+    criterion: Criterion,
+    *,
+    method: str,
+    title: str,
+    exact: bool = False,
+    spec: str | UnsetType = UNSET,
+    failing: list[str] | UnsetType = UNSET,
+) -> GroupLine:
+    """The record's line; of an implementation under test, whose SPEC it is and which statuses fail the run."""
+    return GroupLine(
+        method=method,
+        spec=spec,
+        title=title,
+        exact=exact,
+        question=criterion.question,
+        precision=criterion.precision,
+        family=family,
+        asked=tallied.asked,
+        counts=dict(sorted(tallied.counts.items())),
+        mistakes=dict(sorted(tallied.mistakes.items())),
+        octaves={key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
+        size_bins=tallied.size_bins.as_lists(),
+        place_bins=tallied.place_bins.as_lists(),
+        worst=[_worst_line(case, criterion) for case in tallied.worst],
+        faults=UNSET if failing is UNSET else _unanswered_lines(tallied),
+        failing=failing,
+    )
+
+
+def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
+    """The faults of the record's line: the first of each status, and the first of all up to FAULTS_KEPT."""
+    first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
+    others = [fault for fault in tallied.faults if fault not in first]
+    chosen = [*first, *others[: max(0, FAULTS_KEPT - len(first))]]
+    return [
+        lines.FaultPart(case=fault.case, row=_hex(fault.row), status=fault.status, reason=fault.reason)
+        for fault in sorted(chosen, key=lambda fault: fault.place)
+    ]
+
+
+def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
+    total: Counter[str] = Counter()
+    for part in parts:
+        total.update(part)
+    return dict(total)
+
+
+def counts_of(status: StatusCodes) -> dict[str, int]:
+    """How many cases ended in each way."""
+    other = status[status != STATUS_CODES[Status.RIGHT]]  # few, as a rule
+    numbers = np.bincount(other, minlength=len(STATUSES)).tolist()
+    numbers[STATUS_CODES[Status.RIGHT]] = len(status) - len(other)
+    return {name.value: number for name, number in zip(STATUSES, numbers, strict=True) if number}
+
+
+def by_exponent(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, dict[str, int]]:
+    """How many cases ended in each way, by floor(log2) of their distance to the nearest other position, ascending."""
+    table = {}
+    for exponent in sorted(set(exponents.tolist())):  # np.unique would load numpy.ma
+        key = str(int(exponent)) if math.isfinite(exponent) else str(exponent)
+        table[key] = counts_of(status[exponents == exponent])
+    return table
+
+
+def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, ...]:
+    """The first of each status, as many as a line can show of it."""
+    kept: list[UnansweredCase] = []
+    seen: Counter[str] = Counter()
+    for fault in sorted(faults, key=lambda fault: fault.place):
+        seen[fault.status] += 1
+        if seen[fault.status] <= FAULTS_KEPT:
+            kept.append(fault)
+    return tuple(kept)
+
+
+def _worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
+    return lines.WrongAnswer(
+        case=case.case,
+        row=_hex(case.row),
+        truth=case.truth,
+        answer=case.answer,
+        mistake=case.mistake,
+        status=case.status,
+        backward_error=Unsigned(case.error),
+        backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
+    )
+
+
+def _hex(row: tuple[float, ...]) -> tuple[str, ...]:
+    return tuple(value.hex() for value in row)

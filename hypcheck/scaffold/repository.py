@@ -1,0 +1,209 @@
+"""The files of a repository that all languages share, and all files written together or not at all.
+
+The files that all languages of a repository share: settings, workflow and .gitignore.
+
+The first `init` writes them. Another one, for another language, adds to them what it needs and leaves the rest as it
+stands, so that both are gated. What cannot be added to is refused, or told.
+
+Several files written as one: none over what is there unless that is wanted, and none half.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import textwrap
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+
+from hypcheck import toml
+from hypcheck.errors import InputError, system_reason
+from hypcheck.messages import counted
+from hypcheck.scaffold.project import LANGUAGES, Project, filled
+from hypcheck.scaffold.requirement import Requirement
+from hypcheck.tables.streams import writing
+
+SETTINGS = "hypcheck.toml"
+WORKFLOW = ".github/workflows/hypcheck.yml"
+IGNORED = ".gitignore"
+
+_SPECS = re.compile(r"^specs[ \t]*=[ \t]*\[(?P<listed>.*|(?:.*\n)+?)\](?=[ \t]*(?:#.*)?$)", re.MULTILINE)
+"""A list of one line, or one whose closing bracket begins a line."""
+_KEPT = re.compile(r"^ *- name: Keep the report *$", re.MULTILINE)
+"""The step of a workflow before which those of a language stand."""
+_WIDTH = 108
+
+
+def shared_files(
+    root: Path, project: Project, wanted: Requirement | None, *, force: bool
+) -> tuple[dict[str, str], list[str]]:
+    """Texts by path, of those that are to be written or changed, and sentences about what could not be added.
+
+    With `force` settings and workflow are made anew, for all languages that have a folder there. Raises InputError
+    where a file is there to which nothing can be added.
+    """
+    before = {path: _text(root / path) for path in (IGNORED, *(() if force else (SETTINGS, WORKFLOW)))}
+    others = [each for each in LANGUAGES.values() if each != project.language and (root / each.folder).is_dir()]
+    told: list[str] = []
+    settings = before.get(SETTINGS) or filled("common", "hypcheck.toml", {})
+    workflow = before.get(WORKFLOW) or filled("common", "workflow.yml", {"INSTALL": _install(None)})
+    for each in (*(map(Project, others) if force else ()), project):
+        settings = _with_spec(settings, each, root / SETTINGS, told)
+        workflow = _with_steps(workflow, each, root / WORKFLOW)
+    workflow = _with_install(workflow, wanted, root / WORKFLOW, told)
+    after = {SETTINGS: settings, WORKFLOW: workflow, IGNORED: _with_ignored(before[IGNORED] or "")}
+    return {path: text for path, text in after.items() if text != before.get(path)}, told
+
+
+def _text(path: Path) -> str | None:
+    return toml.text_of(str(path)) if path.exists() else None
+
+
+def _with_spec(text: str, project: Project, path: Path, told: list[str]) -> str:
+    """The settings with the SPEC among those of verify; unchanged, and told, where their text does not show how."""
+    try:
+        content = toml.parsed(text, str(path))
+    except InputError as error:
+        raise _taken(path, str(error).removeprefix(f"{path}: it ").removeprefix(f"{path}: ")) from None
+    spec = project.language.spec
+    specs = content.get("specs", [])
+    if isinstance(specs, list) and spec in specs:
+        return text
+    after = _listed(text, project) if "specs" in content else f"specs = [{json.dumps(spec)}]\n\n{text}"
+    try:
+        if toml.parsed(after, str(path)) == {**content, "specs": [*specs, spec]}:
+            return after
+    except (InputError, TypeError):  # TypeError: specs that are no list
+        pass
+    told.append(f"{path} was not changed: add {json.dumps(spec)} to its specs, or `hypcheck verify` leaves it out")
+    return text
+
+
+def _listed(text: str, project: Project) -> str:
+    """The text with the SPEC at the end of its list, on a line of its own below the command that builds it."""
+
+    def longer(found: re.Match[str]) -> str:
+        listed = found["listed"].rstrip()
+        comma = "," if listed and not listed.endswith(",") else ""
+        spec = json.dumps(project.language.spec)
+        return f"specs = [{listed}{comma}\n    # Made by: {project.language.build}\n    {spec},\n]"
+
+    return _SPECS.sub(longer, text, count=1)
+
+
+def _with_steps(text: str, project: Project, path: Path) -> str:
+    """The workflow with the steps of the language before the one that keeps the reports."""
+    steps = project.filled("common", "steps.yml")
+    if steps in text:
+        return text
+    places = list(_KEPT.finditer(text))
+    if len(places) != 1:
+        raise _taken(path, "has no step `Keep the report`, before which init adds steps")
+    return f"{text[: places[0].start()]}{steps}{text[places[0].start() :]}"
+
+
+def _with_install(text: str, wanted: Requirement | None, path: Path, told: list[str]) -> str:
+    """The workflow with the step that installs what is wanted in place of the one that says that nothing was named."""
+    nothing = _install(None)
+    if wanted is None:
+        if nothing in text:
+            told.append(f"nothing that can be installed was named: edit the step `Install hypcheck` in {path}")
+        return text
+    if shlex.quote(wanted.text) in text:
+        return text
+    after = text.replace(nothing, _install(wanted))
+    if after == text:
+        told.append(
+            f"{path} installs something else than --from says, and still does: edit its first step to change it"
+        )
+    return after
+
+
+def _install(wanted: Requirement | None) -> str:
+    if wanted is None:
+        return filled("common", "install-nothing.yml", {}).rstrip("\n")
+    about = [
+        line
+        for each in wanted.says
+        for line in textwrap.wrap(f"{each[:1].upper()}{each[1:]}.", _WIDTH, break_long_words=False)
+    ]
+    values = {"REQUIREMENT": shlex.quote(wanted.text), "SAYS": "\n".join(f"        # {line}" for line in about)}
+    return "\n".join(line for line in filled("common", "install.yml", values).splitlines() if line)
+
+
+def _with_ignored(text: str) -> str:
+    """The list of what git ignores, with what runs write."""
+    title, *wanted = filled("common", "ignored", {}).splitlines()
+    there = {line.strip().strip("/") for line in text.splitlines()}
+    missing = [line for line in wanted if line.strip("/") not in there]
+    return "\n".join([*text.splitlines(), title, *missing, ""]) if missing else text
+
+
+def _taken(path: Path, reason: str) -> InputError:
+    return InputError(
+        f"{path} exists; nothing was written; --force replaces it, as nothing can be added to it: it {reason}"
+    )
+
+
+def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Collection[str] = ()) -> None:
+    """Write each text to its path below `root`, which is made where it is not there.
+
+    Files that are there are replaced only by `force`, or where their path is one of `replaced`.
+
+    Every text is on the disk, beside its place, before the first takes its place; an error leaves nothing new behind.
+    Raises InputError naming a path that is in the way or that the system refuses.
+    """
+    targets = {root / path: text for path, text in texts.items()}
+    there = [root / path for path in texts if os.path.lexists(root / path) and path not in replaced]
+    _refuse(there, force=force)
+    with ExitStack() as stack:
+        for target in targets:
+            stack.enter_context(_folder(target.parent))
+            stack.enter_context(_new(target))
+        for target, text in targets.items():
+            writer = stack.enter_context(writing(str(target)))
+            writer.write(text.encode())
+            writer.flush(to_disk=True)
+
+
+def _refuse(there: list[Path], *, force: bool) -> None:
+    """Raise InputError where one of the paths that are there must stay."""
+    for path in there:
+        if path.exists() and not path.is_file():
+            raise InputError(f"{path} is in the way; it must be a file, or not there")
+    if there and not force:
+        more = len(there) - 1
+        others = f", and so {'does' if more == 1 else 'do'} {counted(more, 'other file')} of init's" if more else ""
+        raise InputError(f"{there[0]} exists{others}; nothing was written; --force replaces what is there")
+
+
+@contextmanager
+def _folder(path: Path) -> Iterator[None]:
+    """A folder, made with those above it; after an error those that were made are gone."""
+    made = [each for each in (path, *path.parents) if not os.path.lexists(each)]
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot make the folder {path}: {system_reason(error)}") from error
+    try:
+        yield
+    except BaseException:
+        for each in made:
+            with suppress(OSError):
+                each.rmdir()
+        raise
+
+
+@contextmanager
+def _new(path: Path) -> Iterator[None]:
+    """A file that, if it was not there before, is not there after an error either."""
+    there = os.path.lexists(path)
+    try:
+        yield
+    except BaseException:
+        if not there:
+            path.unlink(missing_ok=True)
+        raise

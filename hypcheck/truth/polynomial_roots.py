@@ -1,0 +1,317 @@
+"""Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic.
+
+Real roots of integer polynomials, enclosed in rational intervals by exact arithmetic alone.
+
+A polynomial is a tuple of integers, the highest power first, the first not 0. Nothing here is approximated: signs are
+signs of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection. `prove` checks a finished
+enclosure from its definition (changes of sign, one discriminant) and shares only `value` with the code that found it.
+
+Roots of an integer polynomial between 0 and 1, enclosed exactly.
+
+Descartes' rule first: most polynomials that are asked have no root there, and their coefficients say so. Sturm's
+theorem counts where that rule is not sharp.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import zip_longest
+
+Polynomial = tuple[int, ...]
+Interval = tuple[Fraction, Fraction]
+
+RELATIVE_WIDTH_BITS = 30
+"""An enclosure is narrowed until it is at most 2^−30 of its root: nine digits for a reader; the proof needs none."""
+
+
+def value(f: Polynomial, x: Fraction) -> int:
+    """f(x) times a positive number (the denominator of x to the power of f's degree)."""
+    result, scale = 0, 1
+    for coefficient in f:
+        result = result * x.numerator + coefficient * scale
+        scale *= x.denominator
+    return result
+
+
+def primitive(f: Sequence[int]) -> Polynomial:
+    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
+    content = math.gcd(*f)  # never negative
+    first = next((i for i, coefficient in enumerate(f) if coefficient), len(f))
+    return tuple(coefficient // content for coefficient in f[first:])
+
+
+def polynomial_product(f: Sequence[int], g: Sequence[int]) -> Polynomial:
+    """The product of two polynomials."""
+    result = [0] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        for j, b in enumerate(g):
+            result[i + j] += a * b
+    return tuple(result)
+
+
+def linear_factor(root: Fraction) -> Polynomial:
+    """The primitive linear polynomial with this root."""
+    return (root.denominator, -root.numerator)
+
+
+def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
+    """The quotient of a primitive f by the linear factor of one of its roots; in integers, by Gauss's lemma."""
+    quotient = []
+    carry = 0
+    for coefficient in f:
+        carry, rest = divmod(coefficient + root.numerator * carry, root.denominator)
+        if rest:
+            break
+        quotient.append(carry)
+    if len(quotient) < len(f) or quotient.pop() != 0:
+        raise AssertionError("a number that is no root was to be divided out")
+    return tuple(quotient)
+
+
+def sturm_chain(f: Polynomial) -> list[Polynomial]:
+    """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
+    degree = len(f) - 1
+    derivative = tuple(coefficient * (degree - i) for i, coefficient in enumerate(f[:-1]))
+    chain = [primitive(f), primitive(derivative)]
+    while len(chain[-1]) > 1:
+        rest = primitive([-coefficient for coefficient in _remainder(chain[-2], chain[-1])])
+        if not rest:
+            break
+        chain.append(rest)
+    return chain
+
+
+def _remainder(f: Polynomial, g: Polynomial) -> Sequence[int]:
+    """The remainder of f by g, times a positive integer."""
+    lead, sign = abs(g[0]), 1 if g[0] > 0 else -1
+    rest = list(f)
+    while len(rest) >= len(g):
+        factor = sign * rest[0]
+        tail = [*g[1:], *[0] * (len(rest) - len(g))]
+        rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    return rest
+
+
+def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
+    """The changes of sign in the values of a Sturm chain at x, which is no root of its first polynomial."""
+    signs = [number > 0 for number in (value(f, x) for f in chain) if number]
+    return sum(left != right for left, right in itertools.pairwise(signs))
+
+
+def isolate(f: Polynomial, cuts: Sequence[Fraction]) -> list[Interval]:
+    """Open intervals with one root of f each, in order, all real roots covered; no cut and no 0 inside any.
+
+    f is squarefree and is not 0 at 0 nor at a cut. A root met exactly is given as an interval of width 0.
+    """
+    chain = sturm_chain(f)
+    near, far = _root_bounds(f)
+    inside = [cut for cut in cuts if near < abs(cut) < far]  # no root lies beyond the others
+    points = sorted([-far, -near, near, far, *inside])
+    counts = [variations(chain, point) for point in points]
+    pending = list(zip(points, counts, points[1:], counts[1:], strict=False))
+    found = []
+    while pending:
+        lower, left, upper, right = pending.pop()
+        if left - right == 1:
+            found.append(_narrowed(f, lower, upper))
+        elif left > right:
+            # Four candidates, three roots at most: one of them is no root.
+            middle = next(x for x in _between(lower, upper) if value(f, x))
+            count = variations(chain, middle)
+            pending += [(lower, left, middle, count), (middle, count, upper, right)]
+    return sorted(found)
+
+
+def _root_bounds(f: Polynomial) -> Interval:
+    """Powers of two (near, far) with near < |root| < far for every root of f, f(0) ≠ 0.
+
+    Cauchy: |root| < 1 + max |f_i / f_0| < 2 max(1, max |f_i / f_0|), and the same for 1/root with the order reversed.
+    With n bits for the largest coefficient, m for the end one, the quotient is below 2^(n − m + 1).
+    """
+    largest = max(coefficient.bit_length() for coefficient in f)
+    return (
+        _power_of_two(-(largest - f[-1].bit_length() + 2)),
+        _power_of_two(largest - f[0].bit_length() + 2),
+    )
+
+
+def _power_of_two(exponent: int) -> Fraction:
+    return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
+
+
+def _exponent(x: Fraction) -> int:
+    """An integer e with 2^(e − 1) < x < 2^(e + 1), for x > 0."""
+    return x.numerator.bit_length() - x.denominator.bit_length()
+
+
+def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
+    """Four short dyadic numbers strictly between two numbers of one sign, near the middle of their exponents or theirs.
+
+    Far apart (e.g. 2^−2000 and 2): with e halfway between the exponents i and j ≥ i + 3 of the ends, i + 1 ≤ e ≤ j − 2,
+    so lower < 2^(i+1) ≤ 2^e and 2^(e+1) ≤ 2^(j−1) < upper. Near: the width is more than 8 units, and the four are
+    from 1 unit below to 3 above the centre.
+    """
+    if upper <= 0:
+        yield from (-x for x in _between(-upper, -lower))
+        return
+    low, high = _exponent(lower), _exponent(upper)
+    if high - low >= 3:
+        start = _power_of_two((low + high) // 2)
+        unit = start / 4
+    else:
+        unit = _power_of_two(_exponent(upper - lower) - 4)
+        start = (lower + upper) // (2 * unit) * unit
+    yield start
+    for step in range(1, 4):
+        yield start + step * unit
+
+
+def _narrowed(f: Polynomial, lower: Fraction, upper: Fraction) -> Interval:
+    """The interval of the one simple root inside, narrowed by bisection; (x, x) where the root x is met."""
+    rising = value(f, upper) > 0
+    while (upper - lower) * 2**RELATIVE_WIDTH_BITS > min(abs(lower), abs(upper)):
+        middle = next(_between(lower, upper))
+        sign = value(f, middle)
+        if sign == 0:
+            return middle, middle
+        lower, upper = (lower, middle) if (sign > 0) == rising else (middle, upper)
+    return lower, upper
+
+
+def prove(f: Polynomial, intervals: Sequence[Interval]) -> None:
+    """Raise AssertionError unless f, of degree 0, 2 or 3, has one root in each interval, simple, and no other real one.
+
+    An interval is open, or a single point that is a root. Over an open one f changes its sign, so it holds an odd
+    number of roots; disjoint intervals as many as the degree hold one each. Two fewer do where the discriminant is
+    negative: a real polynomial of degree 2 or 3 has a pair of complex roots exactly then.
+    """
+    for lower, upper in intervals:
+        left, right = value(f, lower), value(f, upper)
+        held = left == 0 if lower == upper else lower < upper and min(left, right) < 0 < max(left, right)
+        if not held:
+            raise AssertionError("an enclosure is not proved to hold a root")
+    if any(left[1] > right[0] or left == right for left, right in itertools.pairwise(intervals)):
+        raise AssertionError("the enclosures of the roots overlap or are not in order")
+    degree = len(f) - 1
+    if degree != len(intervals) and not (degree == len(intervals) + 2 and discriminant(f) < 0):
+        raise AssertionError("the enclosures are not proved to hold all real roots")
+
+
+def discriminant(f: Polynomial) -> int:
+    """The discriminant of a polynomial of degree 2 or 3."""
+    if len(f) == 3:
+        a, b, c = f
+        return b * b - 4 * a * c
+    a, b, c, d = f
+    return b * b * c * c - 4 * a * c**3 - 4 * b**3 * d + 18 * a * b * c * d - 27 * a * a * d * d
+
+
+UNIT_INTERVAL_WIDTH_BITS = 60
+"""`narrowed` goes on until an enclosure is at most 2^−60 of its root: one float64, or two neighbours, hold it."""
+
+
+def polynomial_sum(*terms: Sequence[int]) -> Polynomial:
+    """The sum of polynomials, the highest power first; leading zeros are kept."""
+    columns = zip_longest(*(term[::-1] for term in terms), fillvalue=0)
+    return tuple(map(sum, columns))[::-1]
+
+
+def squarefree(f: Polynomial) -> Polynomial:
+    """The primitive polynomial with the roots of a primitive f, each of them simple."""
+    if len(f) == 1:
+        return (1,)
+    common = sturm_chain(f)[-1]
+    return f if len(common) == 1 else _quotient(f, common)
+
+
+def _quotient(f: Polynomial, g: Polynomial) -> Polynomial:
+    """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
+    rest, quotient = list(f), []
+    for _ in range(len(f) - len(g) + 1):
+        factor, remainder = divmod(rest[0], g[0])
+        if remainder:
+            raise AssertionError("a polynomial that is no factor was to be divided out")
+        quotient.append(factor)
+        tail = [*g[1:], *[0] * (len(rest) - len(g))]
+        rest = [a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    return tuple(quotient)
+
+
+def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
+    """Disjoint enclosures of the roots of a primitive f in [0, 1], in order: open intervals, or (x, x) where x is met.
+
+    Neither end of an open interval is a root. Raises AssertionError for f = 0.
+    """
+    if not f:
+        raise AssertionError("a polynomial is 0 that cannot be: every number is a root of it")
+    if _none_by_descartes(f):
+        return []
+    f = squarefree(f)
+    ends = [Fraction(time) for time in (0, 1) if value(f, Fraction(time)) == 0]
+    for end in ends:
+        f = divided_by_root(f, end)
+    return sorted([*((end, end) for end in ends), *(_away(f, *found, ends) for found in _isolated(f))])
+
+
+def _isolated(f: Polynomial) -> Iterator[Interval]:
+    """Open intervals with one root each of a squarefree f, f(0) and f(1) not 0; all roots in (0, 1) are in one."""
+    if len(f) == 1:
+        return
+    chain = sturm_chain(f)
+    pending = [(Fraction(0), variations(chain, Fraction(0)), Fraction(1), variations(chain, Fraction(1)))]
+    while pending:
+        low, left, high, right = pending.pop()
+        if left - right == 1:
+            yield low, high
+        elif left > right:
+            middle = _no_root_between(f, low, high)
+            count = variations(chain, middle)
+            pending += [(low, left, middle, count), (middle, count, high, right)]
+
+
+def _away(f: Polynomial, low: Fraction, high: Fraction, ends: Sequence[Fraction]) -> Interval:
+    """The enclosure of one root, narrowed until it leaves out those ends of [0, 1] that are roots themselves."""
+    while low != high and (low in ends or high in ends):
+        low, high = _halved(f, low, high)
+    return low, high
+
+
+def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
+    """A number near the middle that is no root: of as many as f has roots, and one more, one is none."""
+    middle, step = (low + high) / 2, (high - low) / 32
+    return next(x for x in (middle + k * step for k in range(len(f))) if value(f, x))
+
+
+def _none_by_descartes(f: Polynomial) -> bool:
+    """Whether the rule of signs excludes a root in [0, 1]; it says nothing otherwise.
+
+    t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1): (1+s)^n f(1/(1+s)) has as coefficients, from the highest power of s,
+    f(0) to f(1), and where no two of them differ in sign, and neither end is 0, there is no root.
+    """
+    shifted = list(f[::-1])
+    for last in range(len(shifted) - 1, 0, -1):  # Horner's scheme, from powers of 1 + s to powers of s
+        for place in range(1, last + 1):
+            shifted[place] += shifted[place - 1]
+    if not shifted[0] or not shifted[-1]:
+        return False
+    return min(shifted) >= 0 or max(shifted) <= 0
+
+
+def narrowed(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
+    """An enclosure that roots_from_0_to_1 gave of a root of f, narrowed; (x, x) where the root x is met."""
+    f = squarefree(f)
+    while (high - low) * 2**UNIT_INTERVAL_WIDTH_BITS > low:
+        low, high = _halved(f, low, high)
+    return low, high
+
+
+def _halved(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
+    """The half that holds the one root, a simple one, of an open interval; (x, x) where it is the middle x."""
+    middle = (low + high) / 2
+    sign = value(f, middle)
+    if sign == 0:
+        return middle, middle
+    return (low, middle) if (sign > 0) == (value(f, high) > 0) else (middle, high)

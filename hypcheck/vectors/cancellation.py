@@ -1,0 +1,162 @@
+"""The rows on which rounding does most harm to a formula that is right in exact arithmetic, found by search.
+
+Each search starts in one family, the stratum, at the rows that the formula gets most wrong, and changes their lengths
+at random: by factors near 1, by ulps, by powers of two, to fewer bits. What has a larger backward error is kept. Only
+rows count on which an implementation is judged that declares no domain of its own, on which the formula is right in
+rationals, and on which no intermediate overflows or underflows: what is found is the work of cancellation alone.
+
+The search is the same to the byte on every machine, like the families: integers, ldexp, + − × ÷ √, exact decisions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
+
+import numpy as np
+
+from hypcheck.derivation.float_arithmetic import unit_roundoff
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import Rows, within
+from hypcheck.truth import backward_error, exact, float_filter
+from hypcheck.vectors.draw import Draw, ldexp, stepped, to_bits
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.family import Metadata, Row, rows_of
+from hypcheck.vectors.flags import DEFEATED, TOLERANCE_U, exactly_right, in_range, leaves_range, wrong_answers
+
+NAME = "worst-cancellation"
+VERSION = 1
+SEED = 1
+STRATA = (
+    *("uniform", "far-centers", "giant-spheroids", "tiny-spheroids", "near-tangent-outside", "near-tangent-inside"),
+    *("degenerate-neighbourhood", "ring-neighbourhood", "osculation", "near-axis", "coefficient-zero", "axis", "waist"),
+    *("regime-borders", "out-of-regime", "stiff-radial", "stiff-axial", "stiff-both"),
+)
+BEGINNINGS = 3
+"""Searches of each kind: each begins in another block of its stratum."""
+
+BEAM = 4
+CHILDREN = 64
+ROUNDS = 40
+"""Of each round the BEAM worst rows go on, with CHILDREN changed copies each; of each search the worst row stays."""
+
+EXAMINED = 16
+"""Rows of a round whose backward error is measured to its digits, out of those in the highest octave."""
+
+METADATA = Metadata(
+    name=NAME,
+    version=VERSION,
+    title="where rounding does most harm, found by search",
+    source="found for Table 2 and for the sign of g at its local maximum, in float32 and in float64, for contacts "
+    f"missed and contacts imagined: from {len(STRATA)} families, seed {SEED}, {ROUNDS} rounds of local search for the "
+    "largest backward error",
+    purpose="right in exact arithmetic, the formulas cancel here until their answers are as wrong as could be found",
+    game="the invisible wall at its thickest, and the hole in the wall at its widest",
+    drone="the worst that a textbook formula does to sizes that people use",
+    regimes="all four",
+    extreme=False,
+    made_by=f"hypcheck cases freeze {NAME}",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CancellationSearch:
+    """What is searched for: rows on which a formula errs in a format, in contact or not, and where the search begins.
+
+    `contact` rows in contact are called clear, which is the dangerous mistake; others are called in contact, mostly.
+    """
+
+    formula: str
+    precision: str
+    contact: bool
+    stratum: str
+    beginning: int
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A row and the backward error of the formula's answer about it."""
+
+    row: Row
+    error: float
+
+
+def searches() -> tuple[CancellationSearch, ...]:
+    """Every search that the file is made of, in order."""
+    return tuple(
+        CancellationSearch(formula, precision, contact, stratum, beginning)
+        for formula, precision in DEFEATED
+        for contact in (True, False)
+        for stratum in STRATA
+        for beginning in range(BEGINNINGS)
+    )
+
+
+def worst_rows() -> Rows:
+    """What all the searches find, float64 (n, 7)."""
+    found = (worst_row(search) for search in searches())
+    return rows_of([each.row for each in found if each is not None])
+
+
+def worst_row(search: CancellationSearch) -> Found | None:
+    """The worst row that a search finds; None where it is off by no more than TOLERANCE_U units."""
+    draw = Draw(NAME, VERSION, SEED, *astuple(search))
+    best = _worst(FAMILIES[search.stratum].block(SEED, search.beginning), search, [])
+    for _ in range(ROUNDS if best else 0):
+        parents = np.repeat(rows_of([each.row for each in best]), CHILDREN, axis=0)
+        best = _worst(_changed(draw, parents), search, best)
+    least = TOLERANCE_U * unit_roundoff(search.precision)
+    return best[0] if best and best[0].error > least else None
+
+
+def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> list[Found]:
+    """The BEAM worst of the rows and of those found before, no row twice."""
+    overflow, underflow = leaves_range(search.formula, search.precision, rows)
+    rows = rows[in_range(rows, search.precision) & within(rows) & ~(overflow | underflow)]
+    positions = float_filter.positions(rows)
+    wanted = (positions == Position.CONTACT) == search.contact
+    rows, truths = rows[wanted], [Position(position) for position in positions[wanted].tolist()]
+    listed: list[Row] = [tuple(row) for row in rows.tolist()]
+    known = {each.row for each in before}
+    wrong = wrong_answers(search.formula, search.precision, rows, truths)
+    measured = [
+        Found(listed[place], _error(listed[place], wrong[place]))
+        for place in _highest_exponent_first({place: (listed[place], excuse) for place, excuse in wrong.items()})
+        if listed[place] not in known and exactly_right(search.formula, listed[place], truths[place])
+    ]
+    unlike = {each.row: each for each in (*before, *measured) if 0 < each.error < float("inf")}
+    return sorted(unlike.values(), key=lambda each: -each.error)[:BEAM]
+
+
+def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[int]:
+    """Up to EXAMINED of the places, by the octave of the backward error, then in order."""
+    guess = -10
+    octaves = []
+    for place, (row, excuse) in wrong.items():
+        lengths = Pair.from_row(row).lengths
+        octave = backward_error.backward_error_exponent(lengths, exact.decide(lengths), excuse, guess)
+        octaves.append((-octave, place))
+        guess = int(octave) if abs(octave) != float("inf") else guess
+    return [place for _, place in sorted(octaves)[:EXAMINED]]
+
+
+def _error(row: Row, excuse: Position) -> float:
+    lengths = Pair.from_row(row).lengths
+    return backward_error.backward_error(lengths, exact.decide(lengths), excuse)
+
+
+def _changed(draw: Draw, rows: Rows) -> Rows:
+    """Each row with a random one of its lengths changed, or with up to all of them, in one of four ways."""
+    n, width = rows.shape
+    way = draw.integers(n, 0, 3)[:, None]
+    share = draw.integers(n, 0, 2)[:, None]  # of the lengths: about all, a half, a quarter
+    touched = draw.integers(n * width, 0, 3).reshape(n, width) >> (2 - share) == 0
+    touched[np.arange(n), draw.integers(n, 0, width - 1)] = True
+    near = draw.signs(n * width).reshape(n, width) * ldexp(1, -draw.integers(n, 1, 52))[:, None]
+    scaled = rows * (1 + near * draw.unit(n * width).reshape(n, width))
+    ulps = stepped(rows, draw.integers(n * width, -64, 64).reshape(n, width))
+    shortest = [to_bits(rows, bits) for bits in (3, 6, 12, 24)]
+    short = np.choose(draw.integers(n, 0, 3)[:, None], shortest)
+    turned = ldexp(rows, draw.integers(n * width, -1, 1).reshape(n, width))
+    changed = np.where(way == 0, scaled, np.where(way == 1, ulps, np.where(way == 2, short, turned)))
+    return np.where(touched, changed, rows) + 0.0

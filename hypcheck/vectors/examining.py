@@ -1,0 +1,106 @@
+"""Examining vector files: each is read strictly, its metadata is compared, and every label is checked.
+
+What a file says before its cases, beside what is known of the family that it names and of the flags it describes.
+
+A flag is ours, so its meaning is too: a label is checked by ours and read by the file's. A family of ours is told in
+the words of its generator's version; of an earlier version, or of another's family, nothing is known here.
+
+Checking files, whatever they hold: each is read strictly, then its head is compared and every label put to proof.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields
+
+from hypcheck.errors import NothingJudgedError
+from hypcheck.tables.numbers import shown_json
+from hypcheck.tables.strict_json import JsonDocument, read_document
+from hypcheck.vectors import cancellation, frozen
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
+from hypcheck.vectors.flags import FLAGS
+from hypcheck.vectors.format import INVALID, content_of, vectors_of
+from hypcheck.vectors.frozen import invalid_rows_of
+from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors
+
+DESCRIPTIONS: Mapping[str, FamilyDescription] = {
+    **FAMILIES,
+    cancellation.NAME: cancellation.METADATA,
+    frozen.INVALID_NAME: frozen.INVALID_METADATA,
+}
+
+
+def wrong_description(head: Metadata) -> Iterator[str]:
+    """Sentences about what a file says wrongly of a family of ours; none of the command that made it."""
+    known = DESCRIPTIONS.get(head.name)
+    if known is None or head.version < known.version:
+        return
+    for name, said, right in _differences(FamilyDescription, head, known):
+        yield f"family.{name} is {said}; of {head.name} it is {right}"
+
+
+def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
+    """Sentences about flags that a file describes otherwise than they are checked."""
+    for flag, facts in flags.items():
+        for name, said, right in _differences(FlagFacts, facts, FLAGS[flag]):
+            yield f"the {name} of the flag {flag} is {said}; it is {right}"
+
+
+def _differences(
+    kind: type[FamilyDescription | FlagFacts], there: object, known: object
+) -> Iterator[tuple[str, str, str]]:
+    """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
+    for each in fields(kind):
+        said, right = getattr(there, each.name), getattr(known, each.name)
+        if said != right:
+            yield each.name, shown_json(said), json.dumps(right, ensure_ascii=False)
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """What became of a file: how many cases it has, what is wrong at its head, and every wrong label."""
+
+    path: str
+    count: int
+    head: tuple[MetadataFault, ...]
+    faults: tuple[LabelFault, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MetadataFault:
+    """What a file says wrongly before its cases, and on which line."""
+
+    line: int
+    sentence: str
+
+
+def shipped_files() -> list[str]:
+    """The paths of the frozen files, all of which must be there."""
+    return [str(frozen.path_of(name)) for name in (*frozen.NAMES, frozen.INVALID_NAME)]
+
+
+def examine(paths: Iterable[str]) -> Iterator[FileReport]:
+    """A report on each file in turn.
+
+    Raises InputError where one is not wholly as its schema demands, NothingJudgedError where it has no cases.
+    """
+    for path in paths:
+        document = read_document(path)
+        if content_of(document, path) == INVALID:
+            bad = invalid_rows_of(document, path)
+            head = _metadata_faults(document, "family", wrong_description(bad.head))
+            report = FileReport(path, len(bad.cases), head, tuple(faults_of_invalid_rows(bad)))
+        else:
+            file = vectors_of(document, path)
+            head = _metadata_faults(document, "family", wrong_description(file.head))
+            head += _metadata_faults(document, "flags", wrong_meanings(file.flags))
+            report = FileReport(path, len(file.cases), head, tuple(faults_of_vectors(file)))
+        if not report.count:
+            raise NothingJudgedError(f"{path} has no cases; nothing was checked")
+        yield report
+
+
+def _metadata_faults(document: JsonDocument, member: str, sentences: Iterable[str]) -> tuple[MetadataFault, ...]:
+    return tuple(MetadataFault(document.members[member][0].line, sentence) for sentence in sentences)

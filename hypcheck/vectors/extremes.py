@@ -1,0 +1,366 @@
+"""Extreme sizes: long ratios, the ends of the ordinary ranges, and the ends of the float formats.
+
+Long ratios: α/b, γ/d or both from 2¹⁰ to 2⁴⁰, about 1e3 to 1e12.
+
+Sizes and ratios up to the ends of the ordinary ranges: everything that is asked of whoever declares no range.
+
+The ends of the float formats: where an intermediate of the paper's Table 2 overflows or underflows.
+
+With a = α/b and c = γ/d about 2^k (one of them, or both) the intermediates grow like these powers of 2^k:
+
+    one ratio    A, B, c0, c1, c2: 2 · c1 c2, c2², c0²: 4 · c2³, c1³, c2 c1 c0: 6 · c2³ c0, (c2 c1)²: 8
+    both         A, B, c2: 2 · c0, c1: 4 · c2³: 6 · c0²: 8 · c2 c1 c0, c2³ c0: 10 · (c2 c1)², c1³: 12
+
+and b², x0², y0² like the square of the common unit whatever the ratios are. So the rows take k = limit/power for every
+power and both limits of the format, a few octaves to each side.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.geometry.rows import Rows, within
+from hypcheck.vectors import double_roots
+from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, Mask, gather
+from hypcheck.vectors.draw import Draw, Floats, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
+from hypcheck.vectors.tangency import exact_maker, two_points_on_an_axis
+
+STIFF_RATIOS = (10, 40)
+"""Exponents of 2. Ratios beyond 1e8 are outside the domain that an implementation has unless it declares more."""
+
+PLAIN = (-2, 6)
+
+
+def stiff(*, radial: bool, axial: bool) -> Maker:
+    """Log-uniform ratios, half of the centres within 2.5 radii of the surface, half one radius and a hair off it."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        a = draw.log_uniform(n, *(STIFF_RATIOS if radial else PLAIN))
+        c = draw.log_uniform(n, *(STIFF_RATIOS if axial else PLAIN))
+        (alpha, b), (gamma, d) = _split(draw, a), _split(draw, c)
+        hair = 1 + draw.signs(n) * draw.log_uniform(n, -30, -3)
+        offset = np.where(turns(n, True, False), offsets(draw, n), draw.signs(n) * hair)
+        return beside(draw, Sizes(alpha, gamma, b, d), heights(draw, c), offset)
+
+    return make
+
+
+def _split(draw: Draw, ratio: Floats) -> tuple[Floats, Floats]:
+    """Two lengths of this ratio, as far from 1 metre one as the other."""
+    short = ldexp(draw.log_uniform(len(ratio), -1, 1), -(exponent(ratio) // 2))
+    return ratio * short, short
+
+
+STIFF_FAMILIES = (
+    Family(
+        name="stiff-radial",
+        version=1,
+        title="α/b from 1e3 to 1e12",
+        source="α/b log-uniform, γ/d in [1/4, 64)",
+        purpose="A towers over every other term, and the surface is all but two planes with a slit between them",
+        game="a bullet in the slit between two discs as wide as the world passes through them, or stops in mid-air",
+        drone="a small drone between two wide canopies is told that both are far away",
+        regimes="a > 1, c² < a for most",
+        make=stiff(radial=True, axial=False),
+    ),
+    Family(
+        name="stiff-axial",
+        version=1,
+        title="γ/d from 1e3 to 1e12",
+        source="γ/d log-uniform, α/b in [1/4, 64)",
+        purpose="B towers over every other term: the surface is a cylinder until z is very large",
+        game="a flat disc slides along an endless pipe and its wall moves with the height",
+        drone="a flat drone in a tall chimney, where c² multiplies every rounding of r",
+        regimes="a on both sides of 1, c² > a",
+        make=stiff(radial=False, axial=True),
+    ),
+    Family(
+        name="stiff-both",
+        version=1,
+        title="α/b and γ/d from 1e3 to 1e12",
+        source="both log-uniform, and independent of each other",
+        purpose="Δ has degree 12: float32 overflows for a 30 m tower and a drone of 1 cm, float64 beyond 1e25",
+        game="a pebble that falls on a moon is told that it lies on it already, or never will",
+        drone="a real tower and a real small drone: an autopilot that computes in float32 refuses every flight",
+        regimes="a > 1, c² on both sides of a",
+        make=stiff(radial=True, axial=True),
+    ),
+)
+
+
+LENGTHS, DOMAIN_RATIOS = 20, 27
+"""Exponents of 2: semi-axes from 2⁻²⁰ to 2²⁰, ratios from 2⁻²⁷ to 2²⁷; what of them is beyond the ends is left out."""
+
+TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6])
+"""The powers of ten in the ordinary range, both ends among them, as a person types them."""
+
+
+def whole_domain(draw: Draw, n: int) -> Rows:
+    """Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact."""
+    return gather(draw, n, _attempt)
+
+
+def _attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Half of the second ratios have nothing to do with the first; the others are like it, within 2⁴ of it."""
+    octave = draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1)
+    other = np.where(
+        turns(n, True, False), draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1), octave + draw.integers(n, -4, 3)
+    )
+    (alpha, b), (gamma, d) = _lengths(draw, octave), _lengths(draw, other)
+    size = Sizes(alpha, gamma, b, d)
+    hair = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -40, -3))
+    offset = np.where(turns(n, True, True, False, False), offsets(draw, n), hair)
+    rows = beside(draw, size, _heights(draw, size), offset)
+    return rows, within(rows)
+
+
+def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
+    """Two lengths with a ratio of about 2^octave, in any unit that leaves room for both, or two powers of ten."""
+    n = len(octave)
+    room = 2 * LENGTHS - np.abs(octave)
+    unit = np.floor(draw.unit(n) * room).astype(np.int64) - LENGTHS + np.maximum(-octave, 0)
+    upper, lower = ldexp(draw.mantissas(n), octave + unit), ldexp(draw.mantissas(n), unit)
+    typed = draw.integers(n, 0, 3) == 0
+    first, second = (TENS[draw.integers(n, 0, len(TENS) - 1)] for _ in range(2))
+    return np.where(typed, first, upper), np.where(typed, second, lower)
+
+
+def _heights(draw: Draw, size: Sizes) -> Floats:
+    """A quarter about the waist, a quarter within 2γ, and half aloft.
+
+    That is where a surface narrower at its waist than the spheroid is about as wide as it, or anywhere up to 2⁸ γ.
+    """
+    n = len(size.b)
+    share = draw.unit(n)
+    aloft = np.where(size.a < 1, size.c / size.a * (0.5 + 8 * share), size.c * draw.log_uniform(n, -8, 8))
+    kind = draw.integers(n, 0, 3)
+    return np.asarray(np.choose(np.minimum(kind, 2), [8 * share, 2 * size.c * share, aloft]))
+
+
+WHOLE_DOMAIN_FAMILIES = (
+    Family(
+        name="whole-domain",
+        version=1,
+        title="sizes and ratios up to the ends of what everybody is asked",
+        source="semi-axes in 1e-6 … 1e6, α/b and γ/d in 1e-8 … 1e8, some of them exactly at the ends",
+        purpose="limits that were not declared, thresholds in metres, tables that end: right for common sizes alone",
+        game="an ant beside a mountain, in one scene: the ant walks into it",
+        drone="a map in kilometres and a sensor in micrometres are both taken at their word, and one of them is lost",
+        regimes="all four",
+        make=whole_domain,
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class BinaryFormat:
+    """A binary float format: `bits` of significand, normal numbers in ±[2^lowest, 2^highest)."""
+
+    bits: int
+    lowest: int
+    highest: int
+
+
+FORMATS = {
+    "float16": BinaryFormat(11, -14, 16),
+    "float32": BinaryFormat(24, -126, 128),
+    "float64": BinaryFormat(53, -1022, 1024),
+}
+POWERS = (2, 4, 6, 8, 10, 12)
+GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS)
+
+
+def _limits(draw: Draw, n: int, form: BinaryFormat) -> Integers:
+    """Exponents near the format's limits in turn: overflow, underflow, and down to where subnormals end."""
+    over = form.highest + draw.integers(n, -3, 3)
+    under = form.lowest - draw.integers(n, -3, form.bits + 1)
+    return np.where(turns(n, True, False), over, under)
+
+
+def long_ratios(form: BinaryFormat) -> Maker:
+    """Ratios that bring each intermediate to the limits of the format."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        octave = _limits(draw, n, form) // np.repeat(turns(-(-n // 2), *POWERS), 2)[:n]
+        ratio = ldexp(draw.mantissas(n), octave)
+        plain = draw.log_uniform(n, -2, 3)
+        group = turns(n, 0, 1, 2, 2, 2)  # five in turn beside twice six above, so that all combinations come
+        a, c = np.where(group == 1, plain, ratio), np.where(group == 0, plain, ratio * draw.between(n, 0.5, 2))
+        b, d = ldexp(draw.mantissas(n), -(exponent(a) // 2)), ldexp(draw.mantissas(n), -(exponent(c) // 2))
+        size = Sizes(a * b, c * d, b, d)
+        height = np.minimum(heights(draw, c), ldexp(c, np.full(n, form.highest // 4)))
+        rows = beside(draw, size, height, offsets(draw, n))
+        rows[:, 4:6] *= np.where(draw.signs(n) > 0, 1, 1 + draw.signs(n) * draw.log_uniform(n, -20, -1))[:, None]
+        return fitted(rows, form)
+
+    return make
+
+
+def long_units(form: BinaryFormat) -> Maker:
+    """Ordinary ratios in units so large or small that a length, or its square, comes to the limits of the format."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+        octave = _limits(draw, n, form) // turns(n, 2, 2, 1, 1)
+        group = turns(n, 0, 1, 2, 2, 2)
+        for number, columns in enumerate(GROUPS):
+            shift = np.where(group == 1 - number, 0, octave)
+            rows[:, columns] = _shifted(rows[:, columns], shift, form)
+        return fitted(rows, form)
+
+    return make
+
+
+def short_coordinates(form: BinaryFormat) -> Maker:
+    """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square comes to the lower limit."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+        under = np.asarray(form.lowest - draw.integers(n, -3, form.bits + 1))
+        for columns, chosen in (([4, 5], turns(n, True, False)), ([6], turns(n, False, True))):
+            largest = np.abs(rows[:, columns]).max(axis=1)
+            shift = np.where(chosen & (largest > 0), np.maximum(under // 2, form.lowest) - exponent(largest), 0)
+            rows[:, columns] = ldexp(rows[:, columns], shift[:, None])
+        return fitted(rows, form)
+
+    return make
+
+
+def fitted(rows: Rows, form: BinaryFormat) -> Rows:
+    """The rows in the format's own normal numbers: each group in a unit that fits, rounded, small coordinates 0."""
+    rows = rows.copy()
+    for columns in GROUPS:
+        rows[:, columns] = to_bits(_shifted(rows[:, columns], np.zeros(len(rows), dtype=np.int64), form), form.bits)
+    coordinates = rows[:, 4:]
+    coordinates[np.abs(coordinates) < math.ldexp(1, form.lowest)] = 0
+    return rows
+
+
+def _shifted(lengths: Rows, shift: Integers, form: BinaryFormat) -> Rows:
+    """One group of lengths times 2^shift, or as near to that as keeps it within the format; sizes come first."""
+    most = form.highest - 2 - exponent(np.abs(lengths).max(axis=1))
+    least = form.lowest - exponent(lengths[:, :2].min(axis=1))
+    return ldexp(lengths, np.minimum(np.maximum(shift, least), most)[:, None])
+
+
+def subnormal(draw: Draw, n: int) -> Rows:
+    """One group of lengths, or both, among the subnormal numbers of float16, float32 or float64, in turn."""
+    rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+    group = turns(n, *range(4))
+    for number, columns in enumerate(GROUPS):
+        lengths = rows[:, columns]
+        for turn, form in enumerate(FORMATS.values()):
+            grid = form.lowest - form.bits + 1
+            first = draw.integers(n, grid + 1, form.lowest - 1) - exponent(lengths[:, 1])
+            steps = np.rint(ldexp(lengths, (first - grid)[:, None]))
+            steps[:, :2] = np.maximum(steps[:, :2], 1)
+            chosen = (np.arange(n) % 3 == turn) & (group != 1 - number)
+            lengths = np.where(chosen[:, None], ldexp(steps, np.full(steps.shape, grid)), lengths)
+        rows[:, columns] = lengths
+    return rows + 0.0
+
+
+def magnitudes(draw: Draw, n: int) -> Rows:
+    """Ordinary ratios in units of 1e±150 and beyond, the same or opposite for the two groups of lengths."""
+    rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+    far = draw.integers(n, 499, 1000), draw.integers(n, 499, 1000)
+    sides = turns(n, 1, -1, 1, -1), turns(n, 1, -1, -1, 1)
+    for columns, distance, side in zip(GROUPS, far, sides, strict=True):
+        rows[:, columns] = ldexp(rows[:, columns], (distance * side)[:, None])
+    return rows + 0.0
+
+
+def almost_zero(draw: Draw, n: int) -> Rows:
+    """Exact tangencies in the waist or on the axis with one coordinate 2⁻²⁰⁰ … 2⁻¹⁰⁰⁰ in place of 0."""
+    rows = _touching_on_zero(draw, n)
+    zero = rows[:, 4:] == 0
+    # The first zero at or after a random one of x, y, z: there is always one.
+    place = draw.integers(n, 0, 2)
+    index = np.arange(n)
+    for _ in range(2):
+        place = np.where(zero[index, place], place, (place + 1) % 3)
+    rows[index, 4 + place] = draw.signs(n) * draw.log_uniform(n, -1000, -200)
+    return rows
+
+
+_touching_on_zero = in_turn(
+    exact_maker(double_roots.waist_points),
+    exact_maker(double_roots.throat_circles),
+    exact_maker(double_roots.osculations),
+    exact_maker(two_points_on_an_axis),
+)
+
+
+def _in_format(name: str, game: str, drone: str) -> Family:
+    return Family(
+        name=f"extreme-{name}",
+        version=1,
+        title=f"every intermediate of Table 2 at the ends of {name}",
+        source=f"the paper, Table 2, and the limits of {name}; all numbers are 0 or normal in {name}",
+        purpose="an intermediate is infinite, 0 or NaN, and NaN compares like contact: clear pairs are refused",
+        game=game,
+        drone=drone,
+        regimes="all four",
+        make=in_turn(long_ratios(FORMATS[name]), long_units(FORMATS[name]), short_coordinates(FORMATS[name])),
+        extreme=True,
+    )
+
+
+EXTREME_FAMILIES = (
+    _in_format(
+        "float16",
+        game="half-precision culling breaks at sizes of every room",
+        drone="a neural accelerator's arithmetic breaks at sizes of every hangar",
+    ),
+    _in_format(
+        "float32",
+        game="between planets and ants in one engine everything reads as contact",
+        drone="a tower in millimetres and a drone in kilometres: units mixed by mistake, and no warning",
+    ),
+    _in_format(
+        "float64",
+        game="a generated world runs away and takes the collision test with it",
+        drone="a wrong unit or a corrupted field gives an answer where it should give none",
+    ),
+    Family(
+        name="extreme-subnormal",
+        version=1,
+        title="lengths among the subnormal numbers",
+        source="numbers that are subnormal in float16, float32 and float64, in turn",
+        purpose="processors that flush subnormals to 0 divide by it; a valid size becomes an invalid one",
+        game="the same scene works on one console and not on the other",
+        drone="the flight computer flushes to 0 what the simulator on the desk does not",
+        regimes="all four",
+        make=subnormal,
+        extreme=True,
+    ),
+    Family(
+        name="extreme-magnitude",
+        version=1,
+        title="lengths of 1e±150 and beyond",
+        source="ordinary ratios, each group of lengths in a unit of its own",
+        purpose="the answer depends on the ratios alone, yet b² overflows or vanishes and P with it",
+        game="scaled scenes answer differently from the same scenes unscaled",
+        drone="a map in other units answers differently from the same map in metres",
+        regimes="all four",
+        make=magnitudes,
+        extreme=True,
+    ),
+    Family(
+        name="extreme-hair",
+        version=1,
+        title="tangencies missed by a coordinate of 1e-60 to 1e-300",
+        source="exact tangencies of the family tangent with a coordinate that is not quite 0",
+        purpose="the square of that coordinate decides and is lost in every sum; no λ in floats proves these answers",
+        game="nothing that a player would see: these rows tell exact programs from careful ones",
+        drone="nothing that shows in flight: these rows tell exact programs from careful ones",
+        regimes="all four",
+        make=almost_zero,
+        extreme=True,
+    ),
+)

@@ -1,0 +1,248 @@
+"""The flags of a case: what each means, the defect it finds, and how it is computed from formulas.
+
+What the formulas of the derivation answer about rows: exactly, in a float format, and how far off they are there.
+
+What is special about a case: each flag with its meaning, the defect it finds, and how it is computed.
+
+Everything here is decided exactly (in integers, in rationals, or by comparing floats), but for the float formats, which
+are evaluated as such: every operation of a formula's program rounded once, in the order in which it is written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
+from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.rows import Rows, within
+from hypcheck.truth import backward_error
+from hypcheck.truth.exact import Decision, cubic
+from hypcheck.truth.kinds import Kind
+from hypcheck.vectors.family import FlagFacts, Row, rows_of
+
+Mask = NDArray[np.bool_]
+
+
+def exactly_right(formula: str, row: Row, truth: Position) -> bool:
+    """Whether the formula, evaluated in rationals, answers its question about the row rightly."""
+    given = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
+    return int(given) == _right_answer(formula, truth)
+
+
+def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Position]) -> dict[int, Position]:
+    """The rows in the format's range that the formula answers wrongly in it, each with the nearest excuse.
+
+    That is the position of which the answer would be right: the answer itself, or, where the formula says "no" to a
+    clear position, contact, which lies on the way to the other one.
+    """
+    given: NDArray[np.int8] = answers(
+        FORMULAS[formula], float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True))
+    )
+    right = np.asarray([_right_answer(formula, truth) for truth in truths], dtype=np.int8)
+    places: list[int] = np.flatnonzero(in_range(rows, precision) & (given != right)).tolist()
+    return {place: _excuse(formula, int(given[place])) for place in places}
+
+
+def in_range(rows: Rows, precision: str) -> Mask:
+    """A mask (n,) of the rows whose every number is 0 or in the range of the format's normal numbers."""
+    limits = np.finfo(np.dtype(precision))
+    lengths = np.abs(rows)
+    normal = (lengths >= float(limits.tiny)) & (lengths <= float(limits.max))
+    return np.asarray((normal | (lengths == 0)).all(axis=1))
+
+
+def leaves_range(formula: str, precision: str, rows: Rows) -> tuple[Mask, Mask]:
+    """Which rows meet an infinity, and which a product or quotient of numbers ≠ 0 below the normal numbers.
+
+    A NaN by itself is the root of a negative number and no overflow; differences of infinities come after these. Sums
+    and differences do not underflow: where they are subnormal, they are exact.
+    """
+    program = FORMULAS[formula].program
+    values = evaluate(program, float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True)))
+    least = np.finfo(np.dtype(precision)).tiny
+    overflow, underflow = np.zeros(len(rows), dtype=np.bool_), np.zeros(len(rows), dtype=np.bool_)
+    for step in program.steps:
+        value = values[step.name]
+        if value.dtype == np.bool_:
+            continue
+        overflow |= np.isinf(value)
+        if step.operation in ("mul", "div"):
+            nonzero = np.ones(len(rows), dtype=np.bool_)
+            for name in step.reads:
+                nonzero &= values[name] != 0
+            underflow |= nonzero & (np.abs(value) < least)
+    return overflow, underflow
+
+
+def _right_answer(formula: str, truth: Position) -> int:
+    question = FORMULAS[formula].question
+    return int(truth) if question == "position" else int(truth is Position[question.upper()])
+
+
+def _excuse(formula: str, answer: int) -> Position:
+    question = FORMULAS[formula].question
+    if question == "position":
+        return Position(answer)
+    return Position[question.upper()] if answer else Position.CONTACT
+
+
+FORMATS = ("float16", "float32", "float64")
+DEFEATED = tuple((name, precision) for name in ("table-2", "local-maximum") for precision in ("float32", "float64"))
+"""The formulas whose rounding is looked at, and the formats in which it is."""
+
+PRINTED = {"proposition-3-false": "table-2", "proposition-5-false": "procedure-2b-spheroid"}
+"""The flags of the paper's own procedures, which are looked at in exact arithmetic."""
+
+TOLERANCE_U = 8
+"""Units u of backward error up to which a rounded answer counts as good."""
+
+_DOUBLE_ROOTS = {
+    Kind.CROSSING_THROAT_NODE,
+    Kind.CROSSING_GROOVE_NODE,
+    Kind.CROSSING_GROOVE_ISOLATED_POINT,
+    Kind.CROSSING_GROOVE_CUSP,
+}
+
+FLAGS: dict[str, FlagFacts] = {
+    "tangent": FlagFacts("the surfaces touch and cross nowhere; tangency is contact", "equality"),
+    "ring": FlagFacts("clear, though the discriminant is 0: g has the double root c²", "missing case"),
+    "delta=0": FlagFacts("the discriminant of the characteristic cubic is exactly 0", "equality"),
+    "c1=0": FlagFacts("the coefficient of λ is exactly 0", "missing case"),
+    "c2=0": FlagFacts("the coefficient of λ² is exactly 0", "missing case"),
+    "a<1": FlagFacts("α < b: the spheroid is wider than the throat", "hypothesis"),
+    "a=1": FlagFacts("α = b: the border of the condition α/b ≥ 1", "hypothesis"),
+    "c^2<a": FlagFacts("(γ/d)² < α/b: the spheroid is too round for the groove", "hypothesis"),
+    "c^2=a": FlagFacts("(γ/d)² = α/b: the border of the condition (γ/d)² ≥ α/b", "hypothesis"),
+    "axis": FlagFacts("x = y = 0: the nearest points of the surface are a whole circle", "degenerate input"),
+    "waist": FlagFacts("z = 0: c² is a root of the cubic itself", "degenerate input"),
+    "on-surface": FlagFacts("the spheroid's centre lies exactly on the hyperboloid", "degenerate input"),
+    "negative-zero": FlagFacts("a coordinate is −0.0, which is 0", "degenerate input"),
+    "extreme": FlagFacts(
+        "a semi-axis is outside 1e-6 … 1e6, a coordinate beyond 1e6, or α/b or γ/d outside 1e-8 … 1e8; skip it unless "
+        "you promise more",
+        "range",
+    ),
+    **{
+        f"{name}-exact": FlagFacts(f"every number is 0 or a normal number of {name}, exactly", "input conversion")
+        for name in FORMATS[:2]
+    },
+    **{
+        f"subnormal-{name}": FlagFacts(
+            f"{name} holds every number exactly, one or more of them as subnormal numbers", "flush to zero"
+        )
+        for name in FORMATS
+    },
+    **{
+        f"{event}-{name}": FlagFacts(
+            f"every number is in {name}'s range, but an intermediate of the paper's Table 2 {how} when evaluated in it",
+            event,
+        )
+        for name in FORMATS
+        for event, how in (("overflow", "overflows"), ("underflow", "underflows"))
+    },
+    "proposition-3-false": FlagFacts(
+        "the paper's Table 2 is wrong here in exact arithmetic, inside its regime or out of it", "mathematics"
+    ),
+    "proposition-5-false": FlagFacts(
+        "the paper's Procedure 2.b, asked about this spheroid, is wrong here in exact arithmetic", "mathematics"
+    ),
+    **{
+        f"{formula}-{precision}": FlagFacts(
+            f"{what}, right here in exact arithmetic, is wrong by more than {TOLERANCE_U} u when evaluated in "
+            f"{precision}",
+            "rounding",
+        )
+        for formula, precision in DEFEATED
+        for what in ("the paper's Table 2" if formula == "table-2" else "the sign of g at its local maximum",)
+    },
+}
+"""Every flag there is, in the order in which a case has them."""
+
+
+def flags_of(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    """The flags of each row, valid ones, whose exact decisions are given."""
+    array = rows_of(list(rows))
+    masks = _of_numbers(array) | _of_table_2(array) | _of_formulas(array, decisions)
+    exactly = [_of_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
+    return [
+        tuple(name for name in FLAGS if name in exact or (name in masks and masks[name][place]))
+        for place, exact in enumerate(exactly)
+    ]
+
+
+def _of_pair(pair: Pair, decision: Decision) -> set[str]:
+    """The flags that exact arithmetic decides."""
+    g, kind = cubic(pair.lengths), decision.kind
+    a, square = Fraction(pair.alpha) / Fraction(pair.b), (Fraction(pair.gamma) / Fraction(pair.d)) ** 2
+    x, y, z = Fraction(pair.x), Fraction(pair.y), Fraction(pair.z)
+    level = (x * x + y * y) / Fraction(pair.alpha) ** 2 - (z / Fraction(pair.gamma)) ** 2
+    held = {
+        "tangent": decision.tangent,
+        "ring": kind is Kind.EXTERIOR_RING,
+        "delta=0": decision.tangent or kind is Kind.EXTERIOR_RING or kind in _DOUBLE_ROOTS,
+        "c1=0": g.n1 == 0,
+        "c2=0": g.n2 == 0,
+        "a<1": a < 1,
+        "a=1": a == 1,
+        "c^2<a": square < a,
+        "c^2=a": square == a,
+        "axis": x == y == 0,
+        "waist": z == 0,
+        "on-surface": level == 1,
+    }
+    return {name for name, holds in held.items() if holds}
+
+
+def _of_numbers(rows: Rows) -> dict[str, Mask]:
+    """The flags that the seven numbers show by themselves."""
+    found = {
+        "extreme": ~within(rows),
+        "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
+    }
+    for name in FORMATS:
+        with np.errstate(over="ignore", under="ignore"):
+            held = (rows.astype(name).astype(np.float64) == rows).all(axis=1)
+        normal = in_range(rows, name)
+        found[f"{name}-exact"] = held & normal
+        found[f"subnormal-{name}"] = held & ~normal
+    return found
+
+
+def _of_table_2(rows: Rows) -> dict[str, Mask]:
+    """Where an intermediate of Table 2 leaves the range of a format that holds the row itself."""
+    found = {}
+    for name in FORMATS:
+        overflow, underflow = leaves_range("table-2", name, rows)
+        asked = in_range(rows, name)
+        found[f"overflow-{name}"], found[f"underflow-{name}"] = asked & overflow, asked & underflow
+    return found
+
+
+def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
+    """Where a formula is wrong in exact arithmetic, and where it is right in that and wrong in floats."""
+    listed: list[Row] = rows.tolist()
+    truths = [decision.position for decision in decisions]
+    found = {
+        flag: np.asarray([not exactly_right(formula, *each) for each in zip(listed, truths, strict=True)], np.bool_)
+        for flag, formula in PRINTED.items()
+    }
+    for formula, precision in DEFEATED:
+        beyond = np.zeros(len(rows), dtype=np.bool_)
+        for place, excuse in wrong_answers(formula, precision, rows, truths).items():
+            row, truth = listed[place], decisions[place]
+            beyond[place] = _beyond(row, truth, excuse, precision) and exactly_right(formula, row, truth.position)
+        found[f"{formula}-{precision}"] = beyond
+    return found
+
+
+def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool:
+    """Whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
+    change = TOLERANCE_U * Fraction(unit_roundoff(precision))
+    lengths = Pair.from_row(row).lengths
+    return truth.kind.limit_of is not excuse and not backward_error.makes_right(lengths, truth.position, excuse, change)

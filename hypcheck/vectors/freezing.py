@@ -1,0 +1,189 @@
+"""Making the frozen files: old cases stay as they are, with the ids they have; new rows are added after them.
+
+A family's file has the first rows of seed SEED, as many as COUNTS says, each once. Where a new version of a generator
+makes other rows, these are added too: nobody's copy of a case ever loses its meaning.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Callable, Iterable
+from dataclasses import fields, replace
+from pathlib import Path
+
+from hypcheck.answer import DisagreementError
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Rows
+from hypcheck.tables.streams import writing
+from hypcheck.vectors import cancellation
+from hypcheck.vectors import frozen as refusals
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.family import Family, FamilyDescription, Metadata, Row, Vector, VectorFile
+from hypcheck.vectors.flags import FLAGS
+from hypcheck.vectors.format import read_vectors, vectors_text
+from hypcheck.vectors.frozen import InvalidRowFile, invalid_rows_text, read_invalid_rows
+from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors, labelled
+
+SEED = 1
+
+COUNTS = {
+    "forest-type-1": 120,
+    "forest-type-2": 120,
+    "tower-body": 120,
+    "tower-rotors": 120,
+    "flight": 128,
+    "uniform": 160,
+    "far-centers": 120,
+    "giant-spheroids": 120,
+    "tiny-spheroids": 120,
+    "float32-exact": 160,
+    "float16-exact": 160,
+    "small-integers": 240,
+    "symmetric-images": 160,
+    "one-number-changed": 168,
+    "tangent": 270,
+    "near-tangent-outside": 240,
+    "near-tangent-inside": 240,
+    "degenerate-crossing": 120,
+    "degenerate-neighbourhood": 160,
+    "on-surface": 120,
+    "tangent-ladder": 492,
+    "ring": 240,
+    "ring-neighbourhood": 240,
+    "osculation": 240,
+    "near-axis": 200,
+    "coefficient-zero": 240,
+    "axis": 160,
+    "waist": 160,
+    "regime-borders": 240,
+    "out-of-regime": 240,
+    "stiff-radial": 160,
+    "stiff-axial": 160,
+    "stiff-both": 160,
+    "whole-domain": 240,
+    "extreme-float16": 180,
+    "extreme-float32": 180,
+    "extreme-float64": 180,
+    "extreme-subnormal": 120,
+    "extreme-magnitude": 120,
+    "extreme-hair": 60,
+}
+"""Rows of each family: more where the traps are, few where proofs are long."""
+
+_NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
+
+NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME)
+
+Progress = Callable[[str], object]
+
+
+def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) -> None:
+    """Write the files of these names to a folder, keeping the cases that are there; `tell` hears of each that is done.
+
+    Raises InputError where a name is unknown, the folder is none or a file there is not as it must be, and
+    DisagreementError, writing nothing, where a label does not stand its own check.
+    """
+    wanted = list(dict.fromkeys(names))
+    for name in wanted:
+        if name not in NAMES:
+            raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(NAMES)}")
+    if not folder.is_dir():
+        raise InputError(f"{folder} is no folder; make it, or name another with --into")
+    for name in wanted:
+        path = folder / f"{name}.json"
+        text = _text(name, path)
+        with writing(str(path)) as writer:
+            writer.write(text.encode())
+        tell(name)
+
+
+def _text(name: str, path: Path) -> str:
+    if name == refusals.INVALID_NAME:
+        invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None)
+        _require_no_faults(faults_of_invalid_rows(invalid))
+        return invalid_rows_text(invalid)
+    file = frozen(name, _before(name, path))
+    _require_no_faults(faults_of_vectors(file))
+    return vectors_text(file)
+
+
+def frozen(name: str, before: VectorFile | None = None) -> VectorFile:
+    """The file of that name, labelled anew; the cases of an earlier one keep their ids and places."""
+    head = (
+        cancellation.METADATA
+        if name == cancellation.NAME
+        else metadata_of(FAMILIES[name], f"hypcheck cases freeze {name}")
+    )
+    named = [(case.id, case.row) for case in before.cases] if before else []
+    return assembled(head, labelled(extended(name, named, [tuple(row) for row in planned(name).tolist()])))
+
+
+def planned(name: str) -> Rows:
+    """The rows that a file must have, float64 (n, 7), some of them perhaps twice."""
+    return cancellation.worst_rows() if name == cancellation.NAME else FAMILIES[name].rows(SEED, COUNTS[name])
+
+
+def metadata_of(family: Family, made_by: str) -> Metadata:
+    """What a file says of a family."""
+    told = {each.name: getattr(family, each.name) for each in fields(FamilyDescription)}
+    return Metadata(**told, made_by=made_by)
+
+
+def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:
+    """Ids and rows, then those rows that are not among them, with the next ids. Rows are compared to the bit."""
+    cases = list(before)
+    known = {_bits(row) for _, row in before}
+    number = _next_number(case for case, _ in before)
+    for row in rows:
+        if _bits(row) not in known:
+            known.add(_bits(row))
+            cases.append((f"{name}-{number:04d}", row))
+            number += 1
+    return cases
+
+
+def _next_number(ids: Iterable[str]) -> int:
+    """The number after the greatest of these ids; generated ones, which have slashes, do not count."""
+    found = (_NUMBER.fullmatch(name) for name in ids if "/" not in name)
+    return 1 + max((int(match.group(1)) for match in found if match), default=-1)
+
+
+def assembled(head: Metadata, cases: Iterable[Vector]) -> VectorFile:
+    """A file of these cases, with the meaning of the flags that they have."""
+    kept = tuple(cases)
+    used = {flag for case in kept for flag in case.flags}
+    return VectorFile(head, {name: facts for name, facts in FLAGS.items() if name in used}, kept)
+
+
+def frozen_invalid_rows(before: InvalidRowFile | None = None) -> InvalidRowFile:
+    """The file of rows that must be refused; those of an earlier one keep their ids and places."""
+    kept = before.cases if before else ()
+    known = {case.bits for case in kept}
+    number = _next_number(case.id for case in kept)
+    added = [case for case in refusals.invalid_rows().cases if case.bits not in known]
+    renamed = (replace(case, id=f"{refusals.INVALID_NAME}-{number + place:04d}") for place, case in enumerate(added))
+    return InvalidRowFile(refusals.INVALID_METADATA, (*kept, *renamed))
+
+
+def _before(name: str, path: Path) -> VectorFile | None:
+    """The file that is there. Raises InputError where it is of another family."""
+    if not path.exists():
+        return None
+    before = read_vectors(str(path))
+    if before.head.name != name:
+        raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
+    return before
+
+
+def _bits(row: Row) -> bytes:
+    return struct.pack("<7d", *row)
+
+
+def _require_no_faults(faults: list[LabelFault]) -> None:
+    if faults:
+        worst = faults[0]
+        raise DisagreementError(
+            f"the label made for {worst.case} does not stand its check: {worst.sentence}; please report this, it is a "
+            "fault of hypcheck"
+        )

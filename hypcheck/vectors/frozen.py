@@ -1,0 +1,271 @@
+"""The frozen vectors that travel with the package: a file of certified cases per family, and invalid rows.
+
+Rows that are no valid query, each with the columns that are at fault: the file `invalid`.
+
+The frozen vectors: certified cases that travel with the package, a file a family, read when they are asked for.
+
+Their ids are for ever: a row keeps the id it was given, whatever becomes of the generator that made it. Loads numpy,
+neither sympy nor mpmath.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with
+from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.messages import suggestion
+from hypcheck.tables.numbers import shown_json
+from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
+from hypcheck.vectors import cancellation
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.family import Metadata, Row, VectorFile, rows_of
+from hypcheck.vectors.format import (
+    INVALID,
+    cases_of,
+    document_text,
+    json_text,
+    listed,
+    number_of,
+    numbers_text,
+    object_text,
+    read_metadata,
+    read_vectors,
+)
+
+INVALID_NAME = "invalid"
+EXPECTED = "refused"
+INVALID_METADATA = Metadata(
+    name=INVALID_NAME,
+    version=1,
+    title="rows that must be refused",
+    source="semi-axes that are 0, negative, infinite or NaN, centres that are infinite or NaN, alone and together",
+    purpose="squares hide a sign, comparisons with NaN are false, and 0/0 reads as contact: a bad row gets an answer",
+    game="a corrupted object collides with everything, or with nothing",
+    drone="a sensor's NaN is answered as clear",
+    regimes="none",
+    extreme=False,
+    made_by=f"hypcheck cases freeze {INVALID_NAME}",
+)
+CASE_FIELDS = ("id", "row", "bits", "expected", "columns")
+
+_BITS = re.compile(r"[0-9a-f]{16}", re.ASCII)
+_WORDS = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
+_SOUND = (
+    (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0),
+    (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0),
+    (4.0, 4.0, 1.0, 1.0, 4.0, 0.0, 0.5),
+)
+"""Valid rows, one of each position: exterior, interior, contact. In what follows something of theirs is made bad."""
+
+_SIGN = 1 << 63
+_NANS = {
+    "nan": 0x7FF8 << 48,
+    "−nan": 0xFFF8 << 48,
+    "payload": (0x7FF8 << 48) + 0x1234,
+    "signalling": (0x7FF0 << 48) + 1,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class InvalidRow:
+    """A bad row: the 64 bits of its seven numbers, and the columns that are at fault, in the order of COLUMNS."""
+
+    id: str
+    bits: tuple[int, ...]
+    columns: tuple[str, ...]
+
+    @property
+    def row(self) -> Row:
+        """The seven numbers; a NaN may lose its payload on the way."""
+        return tuple(rows_from_bits([self.bits])[0].tolist())
+
+
+@dataclass(frozen=True)
+class InvalidRowFile:
+    """The file of such rows. `lines` are the lines on which they stood where it was read, for messages."""
+
+    head: Metadata
+    cases: tuple[InvalidRow, ...]
+    lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
+
+    @property
+    def rows(self) -> Rows:
+        """The rows, float64 (n, 7), to the bit."""
+        return rows_from_bits([case.bits for case in self.cases])
+
+
+def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
+    """Rows (n, 7) of these 64-bit words."""
+    return np.asarray(bits, dtype=np.uint64).reshape(len(bits), len(COLUMNS)).view(np.float64)
+
+
+def columns_at_fault(row: Row) -> tuple[str, ...]:
+    """The columns whose values are not allowed."""
+    return tuple(name for name, value in zip(COLUMNS, row, strict=True) if trouble_with(name, value) is not None)
+
+
+def invalid_rows() -> InvalidRowFile:
+    """The file, made anew."""
+    unlike = dict.fromkeys(_bad_rows())
+    cases = []
+    for number, bits in enumerate(unlike):
+        row = tuple(rows_from_bits([bits])[0].tolist())
+        cases.append(InvalidRow(f"{INVALID_NAME}-{number:04d}", bits, columns_at_fault(row)))
+    return InvalidRowFile(INVALID_METADATA, tuple(cases))
+
+
+def _bad_rows() -> Iterator[tuple[int, ...]]:
+    """One bad number in each column, every kind of NaN in each, then several bad numbers that might cancel."""
+    sound = [_bits(row) for row in _SOUND]
+    for place, name in enumerate(COLUMNS):
+        for turn, word in enumerate(_bad_words(name, _SOUND[place % 3][place])):
+            yield _replaced(sound[(place + turn) % 3], {place: word})
+    for turn, word in enumerate(_NANS.values()):
+        for place in range(len(COLUMNS)):
+            yield _replaced(sound[(place + turn) % 3], {place: word})
+    nan, infinite = _NANS["nan"], _word(math.inf)
+    for row in sound:
+        sign = {place: row[place] ^ _SIGN for place in range(4)}
+        yield _replaced(row, {0: sign[0], 2: sign[2]})  # α/b as before
+        yield _replaced(row, {1: sign[1], 3: sign[3]})  # γ/d as before
+        yield _replaced(row, sign)
+        yield _replaced(row, {0: 0, 2: 0})  # α/b = 0/0
+        yield _replaced(row, {1: 0, 3: 0})
+        yield _replaced(row, {0: infinite, 2: infinite})
+        yield _replaced(row, {1: infinite, 3: infinite})
+        yield _replaced(row, {4: infinite, 5: infinite ^ _SIGN})
+        yield _replaced(row, {2: infinite, 4: infinite})
+        yield _replaced(row, {4: nan, 5: nan, 6: nan})
+    yield (0,) * 7
+    yield (nan,) * 7
+    yield (infinite,) * 7
+    yield (infinite ^ _SIGN,) * 7
+
+
+def _bad_words(name: str, value: float) -> Iterator[int]:
+    yield from (_word(math.inf), _word(-math.inf))
+    if name in SIZES:
+        yield from (0, _SIGN, _word(-value), _word(-math.ulp(0.0)), _word(-sys.float_info.max))
+
+
+def _bits(row: Row) -> tuple[int, ...]:
+    return tuple(rows_of([row]).view(np.uint64)[0].tolist())
+
+
+def _word(value: float) -> int:
+    return int(np.float64(value).view(np.uint64))
+
+
+def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
+    return tuple(words.get(place, word) for place, word in enumerate(row))
+
+
+def invalid_rows_text(file: InvalidRowFile) -> str:
+    """The whole document."""
+    return document_text(INVALID, file.head, None, map(invalid_row_text, file.cases))
+
+
+def invalid_row_text(case: InvalidRow) -> str:
+    """One case, an object on one line."""
+    return object_text(
+        {
+            "id": json_text(case.id),
+            "row": numbers_text(case.row),
+            "bits": json_text([f"{word:016x}" for word in case.bits]),
+            "expected": json_text(EXPECTED),
+            "columns": json_text(case.columns),
+        }
+    )
+
+
+def read_invalid_rows(path: str) -> InvalidRowFile:
+    """The file of bad rows at `path`. Raises InputError where it is not wholly as the schema demands."""
+    return invalid_rows_of(read_document(path), path)
+
+
+def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
+    """The file of bad rows that a document is. Raises InputError where it is none."""
+    head, _ = read_metadata(document, path, INVALID)
+    cases = cases_of(document, path, head.name, CASE_FIELDS, _invalid_row)
+    return InvalidRowFile(head, cases, tuple(place.line for place, _ in document.cases))
+
+
+def _invalid_row(place: JsonPlace, fields: dict[str, Any]) -> InvalidRow:
+    if fields["expected"] != EXPECTED:
+        raise InputError(f"{place}: expected is {shown_json(fields['expected'])}; it must be {EXPECTED!r}")
+    columns = listed(place, "columns", fields["columns"])
+    if not columns or columns != [name for name in COLUMNS if name in columns]:
+        raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(COLUMNS)}")
+    numbers = listed(place, "row", fields["row"], len(COLUMNS))
+    words = listed(place, "bits", fields["bits"], len(COLUMNS))
+    bits = tuple(_checked_bits(place, *each) for each in zip(COLUMNS, numbers, words, strict=True))
+    return InvalidRow(fields["id"], bits, tuple(columns))
+
+
+def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  # noqa: ANN401 - JSON
+    number = _WORDS[value] if isinstance(value, str) and value in _WORDS else number_of(place, name, value)
+    if not isinstance(word, str) or not _BITS.fullmatch(word):
+        raise InputError(f"{place}: the bits of {name} are {shown_json(word)}; they must be 16 hexadecimal digits")
+    bits = int(word, 16)
+    if (bits & ~_SIGN <= _word(math.inf)) if math.isnan(number) else (bits != _word(number)):
+        raise InputError(f"{place}: the bits of {name} are {word}, which is not {shown_json(value)}")
+    return bits
+
+
+NAMES = (*FAMILIES, cancellation.NAME)
+"""The files of cases with answers; refusals.NAME is the one of rows without."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrozenRows:
+    """The cases of a file as arrays: their ids, rows (n, 7) and right answers, int8 (n,)."""
+
+    ids: tuple[str, ...]
+    rows: Rows
+    positions: Positions
+
+
+def folder() -> Path:
+    """Where the files are: in the installed package, or beside it in a source tree."""
+    package = Path(__file__).resolve().parents[1]
+    inside = package / "cases"
+    return inside if inside.is_dir() else package.parent / "cases"
+
+
+def path_of(name: str) -> Path:
+    """The file of that name, NAMES or refusals.NAME. Raises InputError where there is none of that name."""
+    known = (*NAMES, INVALID_NAME)
+    if name not in known:
+        raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, known)}")
+    return folder() / f"{name}.json"
+
+
+@cache
+def load(name: str) -> VectorFile:
+    """The frozen cases of that name. Raises InputError where there are none, or their file is not as it must be."""
+    if name == INVALID_NAME:
+        raise InputError(f"the rows of {name!r} have no answers; they must be refused")
+    return read_vectors(str(path_of(name)))
+
+
+@cache
+def load_invalid_rows() -> InvalidRowFile:
+    """The frozen rows that must be refused. Raises InputError where their file is not as it must be."""
+    return read_invalid_rows(str(path_of(INVALID_NAME)))
+
+
+def frozen_rows(name: str) -> FrozenRows:
+    """The rows and right answers of the frozen cases of that name. Raises InputError as load does."""
+    file = load(name)
+    return FrozenRows(tuple(case.id for case in file.cases), file.rows, file.positions)

@@ -1,0 +1,337 @@
+"""Random pairs of every size: sizes from ratios, centres by distance, and rows that change one number.
+
+Where the spheroid is put: sizes from the ratios a = α/b and c = γ/d, centres by their distance from the surface.
+
+Heights, radii and offsets are in spheroid radii, that is, in the space of Theorem 1 of the paper, where the spheroid
+is the unit ball and the hyperboloid has the semi-axes a, a, c. Nothing here is exact; it need not be.
+
+Random pairs of every size: uniform, far, giant, tiny, mirrored, and rows exact in the short float formats.
+
+One pair again and again, with one of its seven numbers changed in between: what is kept from the row before.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import Rows
+from hypcheck.vectors.draw import Draw, Floats, Maker, ldexp, stepped, to_bits, turns
+from hypcheck.vectors.family import Family
+
+UNITS = (-6, 4)
+"""b and d lie in [2⁻⁶, 2⁴) unless a family has a reason: centimetres to the size of a house, in metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Arrays α, γ, b, d, in the caller's units."""
+
+    alpha: Floats
+    gamma: Floats
+    b: Floats
+    d: Floats
+
+    @property
+    def a(self) -> Floats:
+        """α/b, in floats."""
+        return self.alpha / self.b
+
+    @property
+    def c(self) -> Floats:
+        """γ/d, in floats."""
+        return self.gamma / self.d
+
+
+def sizes(draw: Draw, a: Floats, c: Floats, units: tuple[int, int] = UNITS) -> Sizes:
+    """Sizes with about these ratios, b and d log-uniform in 2^units."""
+    b, d = draw.log_uniform(len(a), *units), draw.log_uniform(len(a), *units)
+    return Sizes(a * b, c * d, b, d)
+
+
+def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
+    """The rows of these columns, without negative zeros; each column lies in memory as a whole."""
+    columns = np.empty((7, len(size.b)))
+    for index, column in enumerate((size.alpha, size.gamma, size.b, size.d, x, y, z)):
+        np.add(column, 0.0, out=columns[index])
+    return columns.T
+
+
+def centred(draw: Draw, size: Sizes, radius: Floats, height: Floats) -> Rows:
+    """Rows with the centre at this distance from the axis and from the waist, at any azimuth, above or below."""
+    n = len(radius)
+    cosine, sine = draw.circle(n)
+    across = size.b * radius
+    return stack(size, across * cosine, across * sine, size.d * height * draw.signs(n))
+
+
+def beside(draw: Draw, size: Sizes, height: Floats, offset: Floats) -> Rows:
+    """Rows with the centre `offset` from the point of the surface at `height`, along the normal, outward positive."""
+    return centred(draw, size, *beside_surface(size.a, size.c, height, offset))
+
+
+def beside_surface(a: Floats, c: Floats, height: Floats, offset: Floats) -> tuple[Floats, Floats]:
+    """The radius and height of `beside`; no intermediate overflows while a, c and a·height/c do not."""
+    share = height / c
+    small = np.minimum(share, 2.0**30)
+    stretch = np.where(share > 2.0**30, share, np.sqrt(1 + small * small))
+    # The normal is (ρ/a², −ζ/c²), here over the larger of its two parts.
+    across, along = 1 / a, share / stretch / c
+    larger = np.maximum(across, along)
+    across, along = across / larger, along / larger
+    length = np.sqrt(across * across + along * along)
+    return np.abs(a * stretch + offset * across / length), height - offset * along / length
+
+
+def heights(draw: Draw, c: Floats) -> Floats:
+    """Half within two γ of the waist, half within eight radii of it."""
+    n = len(c)
+    share = draw.unit(n)
+    return np.asarray(share * np.where(draw.words(n) >> np.uint64(63) == 0, 2 * c, 8.0))
+
+
+def offsets(draw: Draw, n: int) -> Floats:
+    """Uniform in ±2.5 radii, so that each position is met wherever the surface is flat enough to allow it."""
+    return draw.between(n, -2.5, 2.5)
+
+
+def around(draw: Draw, size: Sizes) -> Rows:
+    """Rows all around the surface, at `heights` and `offsets`."""
+    return beside(draw, size, heights(draw, size.c), offsets(draw, len(size.b)))
+
+
+def all_regimes(draw: Draw, n: int) -> tuple[Floats, Floats]:
+    """a and c, the four regimes in turn: a in [2⁻⁴, 1) or [1, 2⁶), c²/a in [2⁻⁶, 1) or [1, 2⁸)."""
+    a = np.where(turns(n, True, True, False, False), draw.log_uniform(n, 0, 6), draw.log_uniform(n, -4, 0))
+    bend = np.where(turns(n, True, False), draw.log_uniform(n, 0, 8), draw.log_uniform(n, -6, 0))
+    return a, np.sqrt(a * bend)
+
+
+def uniform(draw: Draw, n: int) -> Rows:
+    """All regimes, centres all around the surface."""
+    return around(draw, sizes(draw, *all_regimes(draw, n)))
+
+
+def far_centers(draw: Draw, n: int) -> Rows:
+    """Centres 2⁴ to 2²⁷ radii up the surface, where it is all but a cone."""
+    a, c = all_regimes(draw, n)
+    size = sizes(draw, a, c, units=(-10, -8))
+    return beside(draw, size, draw.log_uniform(n, 4, 27) * np.minimum(1, c / a), offsets(draw, n))
+
+
+def giant_spheroids(draw: Draw, n: int) -> Rows:
+    """a and c in [2⁻¹⁶, 2⁻²): from the spheroid's size the hyperboloid is a double cone."""
+    return around(draw, sizes(draw, draw.log_uniform(n, -16, -2), draw.log_uniform(n, -16, -2)))
+
+
+def tiny_spheroids(draw: Draw, n: int) -> Rows:
+    """a and c in [2¹⁰, 2²⁰): insects about towers; the contact zone is a thousandth of the scene and less."""
+    return around(draw, sizes(draw, draw.log_uniform(n, 10, 20), draw.log_uniform(n, 10, 20), units=(-16, -6)))
+
+
+def exact_in(bits: int, least: float) -> Maker:
+    """Rows of `bits` significant bits, no coordinate but 0 smaller than `least`: the format's own numbers."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        a, c = all_regimes(draw, n)
+        size = sizes(draw, a, c, units=(-4, 2))
+        coarse = Sizes(*(to_bits(length, bits) for length in (size.alpha, size.gamma, size.b, size.d)))
+        rows = to_bits(around(draw, coarse), bits)
+        return np.where(np.abs(rows) < least, 0.0, rows)
+
+    return make
+
+
+def small_integers(draw: Draw, n: int) -> Rows:
+    """Whole numbers as a person types them: tangencies and other exact coincidences abound.
+
+    Each pair is followed by three others of the same numbers: its centre turned, both groups of sizes swapped, and α
+    and b doubled. Half of the zeros are negative.
+    """
+    count = -(-n // 4)
+    size = _equal_sizes(draw, *(draw.integers(count, 1, high).astype(np.float64) for high in (12, 12, 4, 4)))
+    x, y, z = (draw.integers(count, 0, high) * draw.signs(count) for high in (14, 14, 10))
+    y = np.where(draw.words(count) >> np.uint64(63) == 0, 0.0, y)
+    z = np.where(draw.integers(count, 0, 3) == 0, 6 * z, z)
+    row = stack(size, *_equal_coordinates(draw, size, x, y, z))
+    quartet = np.repeat(row, 4, axis=0)
+    quartet[1::4, 4:] = row[:, [6, 4, 5]]
+    quartet[2::4, :4] = row[:, [1, 0, 3, 2]]
+    quartet[3::4, [0, 2]] = 2 * row[:, [0, 2]]
+    rows = quartet[:n]
+    for column in range(4, 7):
+        rows[:, column] = np.where(rows[:, column] == 0, 0.0 * draw.signs(n), rows[:, column])
+    return rows
+
+
+def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats) -> Sizes:
+    """Half of the sizes as they are; of the others two, two pairs or all four are equal, or all are 1."""
+    kind = draw.integers(len(b), 0, 11)
+    ball, crossed = (kind >= 6) & (kind <= 9), kind == 11
+    one = np.where(kind == 9, 1.0, b)
+    waist = np.where((kind >= 8) & (kind <= 10), one, np.where(crossed, d, alpha))
+    flare = np.where((kind >= 7) & (kind <= 9), waist, np.where(kind == 10, d, np.where(crossed, b, gamma)))
+    return Sizes(waist, flare, one, np.where(ball, one, d))
+
+
+def _equal_coordinates(draw: Draw, size: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+    """Half of the centres as they are; of the others two coordinates, or three, are equal, or z is γ or d."""
+    kind, sign = draw.integers(len(x), 0, 9), draw.signs(len(x))
+    y = np.where((kind == 5) | (kind == 6), sign * x, y)
+    z = np.where((kind == 6) | (kind == 7), x, z)
+    return x, y, np.where(kind == 8, sign * size.gamma, np.where(kind == 9, sign * size.d, z))
+
+
+def symmetric_images(draw: Draw, n: int) -> Rows:
+    """Sixteen images of a pair in consecutive rows: x, y swapped, signs turned (−0.0 included), other units."""
+    pairs = -(-n // 16)
+    a, c = all_regimes(draw, pairs)
+    side = np.where(draw.signs(pairs) > 0, 1.0, -1.0) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -40, -2))
+    size = sizes(draw, a, c)
+    rows = np.repeat(beside(draw, size, draw.unit(pairs) * 2 * np.maximum(c, 1), side), 16, axis=0)[:n]
+    image = np.arange(n) % 16
+    for column, bit in ((4, 1), (5, 2), (6, 4)):
+        rows[:, column] = np.where(image & bit != 0, -rows[:, column], rows[:, column])
+    swapped = image & 8 != 0
+    rows[:, 4:6] = np.where(swapped[:, None], rows[:, 5:3:-1], rows[:, 4:6])
+    radial, axial = ((0, 2, 4, 5), 3), ((1, 3, 6), -2)
+    for columns, step in (radial, axial):
+        for column in columns:
+            rows[:, column] = ldexp(rows[:, column], np.where(swapped, step, 0))
+    return rows
+
+
+RANDOM_FAMILIES = (
+    Family(
+        name="uniform",
+        version=1,
+        title="ordinary sizes in every regime, centres all around the surface",
+        source="the four regimes of α/b against 1 and (γ/d)² against α/b in turn",
+        purpose="nothing special: whoever fails here has a plain error, or assumes a regime without saying so",
+        game="objects of ordinary sizes pass through each other",
+        drone="obstacles of ordinary sizes are missed or imagined",
+        regimes="all four",
+        make=uniform,
+        by_place=True,
+    ),
+    Family(
+        name="far-centers",
+        version=1,
+        title="centres far up the surface",
+        source="2⁴ to 2²⁷ radii from the origin, within 2.5 radii of the surface",
+        purpose="P and Q are huge and nearly cancel in c1 and c2; a far origin is how large worlds are built",
+        game="collisions get rough far from the world's origin",
+        drone="in coordinates of a distant base the wall moves by metres",
+        regimes="all four",
+        make=far_centers,
+        by_place=True,
+    ),
+    Family(
+        name="giant-spheroids",
+        version=1,
+        title="spheroids much larger than the waist",
+        source="a and c in [2⁻¹⁶, 2⁻²)",
+        purpose="A and B vanish beside 1, P and Q, and with them what tells the sheet from a cone",
+        game="a large creature passes through a thin post",
+        drone="a guy wire's marker is lost beside the drone's own size",
+        regimes="a < 1, c² on both sides of a",
+        make=giant_spheroids,
+        by_place=True,
+    ),
+    Family(
+        name="tiny-spheroids",
+        version=1,
+        title="spheroids much smaller than the hyperboloid",
+        source="a and c in [2¹⁰, 2²⁰)",
+        purpose="Δ has degree 12 in the lengths: float32 overflows, and what is left of it cancels",
+        game="bullets and insects pass walls, or stop in mid-air",
+        drone="a small drone in a large tower is refused everywhere by an autopilot that computes in float32",
+        regimes="a > 1, c² on both sides of a",
+        make=tiny_spheroids,
+        by_place=True,
+    ),
+    Family(
+        name="float32-exact",
+        version=1,
+        title="rows that float32 holds exactly",
+        source="every number has at most 24 significant bits, and is normal in float32 or 0",
+        purpose="reading the row costs a float32 program nothing here, so every error is its own",
+        game="a shader or an engine's float32 core gives another answer than its editor",
+        drone="a float32 autopilot gives another answer than the planner on the ground",
+        regimes="all four",
+        make=exact_in(24, 2.0**-126),
+        by_place=True,
+    ),
+    Family(
+        name="float16-exact",
+        version=1,
+        title="rows that float16 holds exactly",
+        source="every number has at most 11 significant bits, and is normal in float16 or 0",
+        purpose="reading the row costs a float16 program nothing here; short numbers also make clean examples",
+        game="half-precision culling drops what is in sight",
+        drone="an accelerator's half-precision filter drops an obstacle",
+        regimes="all four",
+        make=exact_in(11, 2.0**-14),
+        by_place=True,
+    ),
+    Family(
+        name="small-integers",
+        version=2,
+        title="small whole numbers, many of them equal",
+        source="α and γ to 12, b and d to 4, coordinates to 14; 4 consecutive rows have the same numbers; 0 and −0.0",
+        purpose="tangencies, double roots and vanishing coefficients occur by themselves, as in hand-written tests",
+        game="on a grid of tiles an exact touch is common, and blocks or frees a whole corridor",
+        drone="waypoints on a metre grid touch the keep-out volume exactly",
+        regimes="all four",
+        make=small_integers,
+        by_place=True,
+    ),
+    Family(
+        name="symmetric-images",
+        version=1,
+        title="sixteen images of one pair, near contact",
+        source="16 consecutive rows: x and y swapped, signs turned, −0.0 for 0, both groups of lengths in other units",
+        purpose="all sixteen are one question and must get one answer; rounding may differ from image to image",
+        game="a wall is solid from the east and open from the west",
+        drone="the same approach is safe on one heading and refused on another",
+        regimes="all four",
+        make=symmetric_images,
+        by_place=True,
+    ),
+)
+
+
+TURN = 2 * len(COLUMNS)
+"""Consecutive rows of one pair: as it is, α changed, α as it was but for an ulp, γ changed, and so on."""
+
+
+def one_number_changed(draw: Draw, n: int) -> Rows:
+    """Pairs 2⁻¹⁴ to 2⁻⁶ radii from contact, and changes by 1/16 of the number to all of it, so that many cross it."""
+    pairs = -(-n // TURN)
+    size = sizes(draw, *all_regimes(draw, pairs))
+    offset = draw.signs(pairs) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -14, -6))
+    row = np.repeat(beside(draw, size, heights(draw, size.c), offset), TURN, axis=0)[:n]
+    factor = 1 + draw.signs(n) * draw.log_uniform(n, -4, 0)
+    turn, column = (np.arange(n) % TURN)[:, None], np.arange(len(COLUMNS))
+    changed_now = (turn % 2 == 1) & (column == turn // 2)
+    changed_before = column < turn // 2
+    ulp_up = stepped(row, np.ones(row.shape, dtype=np.int64))
+    return np.where(changed_now, row * factor[:, None], np.where(changed_before, ulp_up, row))
+
+
+CHANGE_FAMILIES = (
+    Family(
+        name="one-number-changed",
+        version=1,
+        title="one number changed from row to row",
+        source=f"{TURN} consecutive rows are one pair near contact, each unlike the one before in one number",
+        purpose="what is kept from the row before, sizes or an answer, must be dropped whichever of the seven changes",
+        game="a creature that grows is still tested at the size it was born with",
+        drone="a payload is attached, and the test goes on with the drone's old height",
+        regimes="all four",
+        make=one_number_changed,
+    ),
+)

@@ -1,0 +1,363 @@
+"""Exact tangencies and other double roots, a ladder of ulps beside them, and the ring where Δ = 0.
+
+Exact tangencies and other double roots, and what lies a hair's breadth beside them.
+
+A ladder of ulps beside an exact tangency: every power of two from 1 to 2⁴⁰, on both sides, one after the other.
+
+Where Δ = 0 though nothing touches, where the sphere has the groove's own curvature, and what lies around both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from hypcheck.geometry.rows import Rows
+from hypcheck.vectors import double_roots
+from hypcheck.vectors.double_roots import (
+    DoubleRoots,
+    Mask,
+    big_integers_of_any_length,
+    gather,
+    in_metres,
+    to_rows,
+    triples,
+    turned,
+)
+from hypcheck.vectors.draw import Draw, Floats, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.random_pairs import beside_surface, centred, sizes
+
+ULPS = 40
+"""Near misses lie 1, 2, 4 … 2^ULPS ulp away."""
+
+
+def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
+    """The generator of a construction of rows and which of them are usable."""
+    return lambda draw, n: in_metres(draw, gather(draw, n, construction))
+
+
+def _touching(construction: Callable[[Draw, int], DoubleRoots], *, outer: bool, tangent: bool) -> Maker:
+    """The generator of those double roots that are wanted."""
+
+    def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+        found = construction(draw, n)
+        return found.rows, found.usable & (found.outer == outer) & (found.tangent == tangent)
+
+    return exact_maker(attempt)
+
+
+def two_points(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Tangencies at two points, c² < a."""
+    return double_roots.waist_roots(draw, n, ring=False)
+
+
+def two_points_on_an_axis(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """The same with the centre on the x or y axis."""
+    return double_roots.waist_roots_on_an_axis(draw, n, ring=False)
+
+
+tangent = in_turn(
+    _touching(double_roots.by_ratios, outer=True, tangent=True),
+    _touching(double_roots.by_angle, outer=False, tangent=True),
+    exact_maker(double_roots.osculations),
+    exact_maker(double_roots.throat_circles),
+    exact_maker(two_points),
+    exact_maker(double_roots.waist_points),
+    _touching(double_roots.by_angle, outer=True, tangent=True),
+    _touching(double_roots.by_ratios, outer=False, tangent=True),
+    exact_maker(two_points_on_an_axis),
+)
+
+degenerate_crossing = in_turn(
+    _touching(double_roots.by_angle, outer=False, tangent=False),  # nodes of the throat
+    _touching(double_roots.by_angle, outer=True, tangent=False),  # nodes of the groove and isolated points
+    exact_maker(double_roots.cusps),
+    _touching(double_roots.by_ratios, outer=True, tangent=False),
+)
+
+
+def ulps_away(draw: Draw, rows: Rows) -> Rows:
+    """The rows with one length each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side.
+
+    Fewer where so many would be more than about 2⁻⁸ radii, so that no row is carried right through the surface.
+    """
+    n = len(rows)
+    alpha, _, b, d, x, y, z = np.abs(rows).T
+    reach = np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
+    most = np.minimum(ULPS, 52 - 8 - 1 - reach)
+    steps = ldexp(draw.signs(n), draw.integers(n, 0, ULPS) % (most + 1)).astype(np.int64)
+    chosen = draw.integers(n, 0, rows.shape[1] - 1)
+    index = np.arange(n)
+    chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
+    moved = rows.copy()
+    moved[index, chosen] = stepped(rows[index, chosen], steps)
+    return moved
+
+
+def near_tangent(*, outer: bool) -> Maker:
+    """Tangencies of one side, half of them moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in."""
+
+    def beside(construction: Callable[[Draw, int], DoubleRoots]) -> Maker:
+        def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+            found = construction(draw, n)
+            usable = found.usable & (found.outer == outer) & found.tangent
+            rows = np.where(usable[:, None], found.rows, 1.0)
+            along = _along_the_normal(rows, found.sine, _small(draw, n), outer=outer)
+            by_ulps = draw.signs(n) < 0
+            return np.where(by_ulps[:, None], ulps_away(draw, rows), along), usable
+
+        return exact_maker(attempt)
+
+    return in_turn(beside(double_roots.by_ratios), beside(double_roots.by_angle))
+
+
+def _small(draw: Draw, n: int) -> Floats:
+    return draw.signs(n) * draw.log_uniform(n, -50, -9)
+
+
+def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) -> Rows:
+    """The centre moved by `step` radii away from the point it touches; its radius and height are ≥ 0."""
+    _, _, b, d, x, y, z = rows.T
+    cosine = np.sqrt(1 - sine * sine)
+    away = step if outer else -step
+    radius = np.sqrt(x * x + y * y)
+    stretch = np.where(radius > 0, away * cosine * b / np.where(radius > 0, radius, 1), 0)
+    moved = rows.copy()
+    moved[:, 4] = x + x * stretch
+    moved[:, 5] = y + y * stretch
+    moved[:, 6] = z - away * sine * d
+    return moved
+
+
+def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
+    """Degenerate crossings moved by ulps: contact on both sides, though Δ changes its sign."""
+    return ulps_away(draw, degenerate_crossing(draw, n))
+
+
+def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """The centre on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one triple."""
+    leg, other, hypotenuse = triples(draw, n, 12)
+    x, y, turn = turned(draw, n)
+    unit, tall = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
+    b, d = big_integers_of_any_length(draw, n, 24), big_integers_of_any_length(draw, n, 24)
+    return to_rows(
+        radial=(leg * unit * turn, b, hypotenuse * unit * x, hypotenuse * unit * y),
+        axial=(leg * tall, d, other * tall),
+    )
+
+
+TANGENT_FAMILIES = (
+    Family(
+        name="tangent",
+        version=1,
+        title="exactly tangent, in every way there is",
+        source="double roots of g placed at will: at a point from inside and outside, along a circle, "
+        "at two points, osculating",
+        purpose="Δ is 0 exactly, and tangency is contact: the answer every float formula gets by luck",
+        game="a character at rest against a wall flickers between free and stuck",
+        drone="the limit of the keep-out volume itself counts as clear",
+        regimes="all four",
+        make=tangent,
+    ),
+    Family(
+        name="near-tangent-outside",
+        version=1,
+        title="just clear of the outside, or just not",
+        source="exact exterior tangencies moved by 1, 2, 4 … 2⁴⁰ ulp, or along the normal by 1e-15 to 1e-3 radii",
+        purpose="measures how near to contact a program can still tell; backward errors show here first",
+        game="sliding along a trunk stutters, or sinks into it",
+        drone="a planned clearance of a millimetre is none",
+        regimes="all four",
+        make=near_tangent(outer=True),
+    ),
+    Family(
+        name="near-tangent-inside",
+        version=1,
+        title="just clear of the inside, or just not",
+        source="exact interior tangencies moved by 1, 2, 4 … 2⁴⁰ ulp, or along the normal by 1e-15 to 1e-3 radii",
+        purpose="measures how near to contact a program can still tell from within, where two negative roots meet",
+        game="a flyer hugging the shell from inside leaves it",
+        drone="an inspection drone's last millimetre to the shell is answered by chance",
+        regimes="all four",
+        make=near_tangent(outer=False),
+    ),
+    Family(
+        name="degenerate-crossing",
+        version=1,
+        title="double roots that are no tangency",
+        source="docs/mathematics.md, root patterns: curves with a node, an isolated point or a cusp",
+        purpose="Δ = 0 and a real double root, yet the surfaces cross: reading tangency off Δ alone is wrong",
+        game="an overlap is taken for a touch, and pushed out the wrong way",
+        drone="a collision is logged as a graze",
+        regimes="a < 1 or c² < a",
+        make=degenerate_crossing,
+    ),
+    Family(
+        name="degenerate-neighbourhood",
+        version=1,
+        title="beside double roots that are no tangency",
+        source="rows of the family degenerate-crossing with one length moved by 1, 2, 4 … 2⁴⁰ ulp",
+        purpose="Δ changes its sign here but the answer does not: Δ > 0 with three roots of one sign is contact",
+        game="a deep overlap reads as clear on one side of nowhere",
+        drone="a collision in progress is accepted as a valid movement",
+        regimes="a < 1 or c² < a",
+        make=degenerate_neighbourhood,
+    ),
+    Family(
+        name="on-surface",
+        version=1,
+        title="centres exactly on the surface",
+        source="rational points of the hyperboloid from Pythagorean triples",
+        purpose="the distance is 0 and so is the nearest-point multiplier: code that divides by either breaks",
+        game="a spawn point on the surface makes an object explode or vanish",
+        drone="a waypoint marked on the shell itself is answered with NaN",
+        regimes="all four",
+        make=exact_maker(on_surface),
+    ),
+)
+
+
+RUNGS = 2 * (ULPS + 1)
+"""Consecutive rows of one tangency: 1 ulp up, 1 down, 2 up, 2 down … 2^ULPS up, 2^ULPS down."""
+
+FARTHEST = 52 - 8 - 1 - ULPS
+"""The exponent of the longest ratio of a length to b or d at which 2^ULPS ulps of it are within about 2⁻⁸ radii."""
+
+
+def tangencies(construction: Callable[[Draw, int], DoubleRoots], *, outer: bool) -> Maker:
+    """Tangencies of one side, near enough for the whole ladder."""
+
+    def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+        found = construction(draw, n)
+        usable = found.usable & found.tangent & (found.outer == outer)
+        rows = np.where(usable[:, None], found.rows, 1.0)
+        return rows, usable & (reach(rows) <= FARTHEST)
+
+    return lambda draw, n: in_metres(draw, gather(draw, n, attempt))
+
+
+def reach(rows: Rows) -> Integers:
+    """The exponent of the longest of α/b, |x|/b, |y|/b and |z|/d: what a relative change is multiplied with in radii.
+
+    γ is left out: it moves the surface by no more than r and α together.
+    """
+    alpha, _, b, d, x, y, z = np.abs(rows).T
+    return np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
+
+
+_starts = in_turn(
+    tangencies(double_roots.by_ratios, outer=True),
+    tangencies(double_roots.by_angle, outer=False),
+    tangencies(double_roots.by_angle, outer=True),
+    tangencies(double_roots.by_ratios, outer=False),
+)
+
+
+def ladder(draw: Draw, n: int) -> Rows:
+    """RUNGS rows of each tangency in turn, one length of it moved, any but a zero."""
+    count = -(-n // RUNGS)
+    start = _starts(draw, count)
+    chosen = draw.integers(count, 0, start.shape[1] - 1)
+    index = np.arange(count)
+    chosen = np.where(start[index, chosen] == 0, chosen % 4, chosen)
+    rung = np.arange(n) % RUNGS
+    steps = (ldexp(1, rung // 2) * turns(n, 1.0, -1.0)).astype(np.int64)
+    rows = np.repeat(start, RUNGS, axis=0)[:n]
+    column = np.repeat(chosen, RUNGS)[:n]
+    place = np.arange(n)
+    rows[place, column] = stepped(rows[place, column], steps)
+    return rows
+
+
+LADDER_FAMILIES = (
+    Family(
+        name="tangent-ladder",
+        version=1,
+        title="1, 2, 4 … 2⁴⁰ ulp beside exactly tangent, both ways",
+        source=f"exact tangencies from outside and inside in turn, one length moved; {RUNGS} consecutive rows "
+        "are one tangency",
+        purpose="the answer must change once, between the two sides, and where it does not tells a program's ulps",
+        game="a wall's surface has a grain: sliding along it, the answer flickers",
+        drone="how near to the keep-out volume the test can be trusted, in ulps of a coordinate",
+        regimes="all four",
+        make=ladder,
+    ),
+)
+
+
+def ring_anywhere(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """The ring for any rational a and c."""
+    return double_roots.waist_roots(draw, n, ring=True)
+
+
+def ring_on_an_axis(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """The ring with the centre on the x or y axis."""
+    return double_roots.waist_roots_on_an_axis(draw, n, ring=True)
+
+
+ring = in_turn(exact_maker(ring_anywhere), exact_maker(ring_on_an_axis))
+
+
+def ring_neighbourhood(draw: Draw, n: int) -> Rows:
+    """Up to 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth row has the tower's ratios."""
+    tower = turns(n, True, False, False, False)
+    a = np.where(tower, 8.0, draw.log_uniform(n, -3, 10))
+    c = np.where(tower, 17.8 / 0.15, np.sqrt(a) * draw.log_uniform(n, 1, 8))
+    radius = np.sqrt((c * c + 1) * (a * a / (c * c) + 1))
+    step = draw.signs(n) * draw.log_uniform(n, -40, -6)
+    height = np.where(turns(n, True, True, False), 0.0, draw.log_uniform(n, -40, -6))
+    return centred(draw, sizes(draw, a, c), radius + np.where(turns(n, True, False, True), step, 0), height)
+
+
+def osculation(draw: Draw, n: int) -> Rows:
+    """c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
+
+    Half stand in the plane or above it at random, half one radius (1 ± a hair) off a point of the groove's bottom.
+    """
+    a = draw.log_uniform(n, -3, 12)
+    c = np.sqrt(a * (1 + draw.signs(n) * draw.log_uniform(n, -50, -3)))
+    height = np.where(turns(n, True, True, False, False, False), 0.0, draw.log_uniform(n, -24, -1))
+    hair = draw.signs(n) * draw.log_uniform(n, -50, -3)
+    free = a + 1 + hair, height
+    bound = beside_surface(a, c, height, 1 + hair)
+    here = turns(n, True, False)
+    return centred(draw, sizes(draw, a, c), np.where(here, free[0], bound[0]), np.where(here, free[1], bound[1]))
+
+
+RING_FAMILIES = (
+    Family(
+        name="ring",
+        version=1,
+        title="clear, with Δ = 0",
+        source="z = 0 and r² = (c² + 1)(a² + c²)/c² with c² > a: the paper's Propositions 3 and 5 call it contact",
+        purpose="g has a double root that is no tangency, far from the surface: Procedure 1 refuses a valid movement",
+        game="an invisible wall rings the trunk at some distance, just where the ground is level with its waist",
+        drone="a level approach is refused in free air, a metre or more from the tower",
+        regimes="c² > a",
+        make=ring,
+    ),
+    Family(
+        name="ring-neighbourhood",
+        version=1,
+        title="clear, with Δ next to 0",
+        source="10⁻¹² to 10⁻² radii from the ring, in the waist's plane or beside it; the tower's ratios among them",
+        purpose="rounding gives the ring a thickness: in float32 it is up to a tenth of a radius",
+        game="the invisible wall is thick enough to be met every day",
+        drone="the refused region is as wide as the drone's own position noise",
+        regimes="c² > a",
+        make=ring_neighbourhood,
+    ),
+    Family(
+        name="osculation",
+        version=1,
+        title="a sphere that fits the groove",
+        source="c² = a (1 ± 2⁻⁵⁰ … 2⁻³), centres near r = a + 1 and z = 0",
+        purpose="three roots meet at c², so rounding in the coefficients is magnified by its cube root",
+        game="a ball resting in a groove of its own curvature jitters",
+        drone="docking at a saddle that fits the drone is where the distance is least certain",
+        regimes="c² on both sides of a, within 1/8",
+        make=osculation,
+    ),
+)

@@ -1,0 +1,74 @@
+"""Whole numbers of the command line: large ones as people write them, others refused in a sentence."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.cli.main import main
+from hypcheck.cli.options import integer_of
+from hypcheck.runs.cases import family_chunks, searched_chunks
+from hypcheck.runs.plan import ConformancePlan, chosen_families, planned_size
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("0", 0),
+        ("007", 7),
+        ("1e9", 10**9),
+        ("1E+9", 10**9),
+        ("2.5e6", 2_500_000),
+        ("12.0", 12),
+        ("1_000_000", 10**6),
+        ("9223372036854775807", 2**63 - 1),
+        ("1e99", 10**99),
+    ],
+)
+def test_a_whole_number_is_read_exactly(text, number):
+    assert integer_of(text) == number
+
+
+@pytest.mark.parametrize(
+    "text", ["", " ", "1.5", "1e-1", "-1", "+1", "1__0", "_1", "1_", "e9", "1e", "1e999", "0x10", "٣", "inf", "1" * 30]
+)
+def test_anything_else_is_none(text):
+    assert integer_of(text) is None
+
+
+@given(st.integers(0, 10**19 - 1))
+def test_digits_are_read_as_python_reads_them(number):
+    assert integer_of(str(number)) == number
+    assert integer_of(f"{number:_}") == number
+
+
+@pytest.mark.parametrize(
+    ("option", "text", "wanted"),
+    [
+        ("--count", "1.5", "at least 0 and at most 1e15"),
+        ("--count", "1e16", "at least 0 and at most 1e15"),
+        ("--workers", "0", "at least 1 and at most 1024"),
+        ("--seed", "9223372036854775808", "at least 0 and at most 9223372036854775807"),
+    ],
+)
+def test_what_is_out_of_range_is_refused_in_one_sentence(option, text, wanted, capsys):
+    assert main(["verify", "builtin:fast", option, text]) == 2
+    said = capsys.readouterr().err.splitlines()[0]
+    assert said == f"hypcheck: error: invalid value for '{option}': '{text}' must be a whole number, {wanted}"
+
+
+def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys):
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "1.2e2", "--out", str(tmp_path)]) == 0
+    assert "360 right" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
+def test_the_size_of_a_run_is_that_of_its_chunks(families):
+    plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
+    some = [chunk for family in chosen_families(plan) for chunk in family_chunks(family, plan.seed, plan.count)]
+    assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks())]))
+
+
+def test_a_run_of_any_size_is_sized_at_once():
+    assert planned_size(ConformancePlan(("builtin:fast",), families=("ring",), count=10**15)) > 10**15

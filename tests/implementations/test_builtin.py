@@ -1,0 +1,60 @@
+"""The built-in methods: all are reachable by name, the exact one is exact, the dual form is backward stable."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.builtin import builtin, builtin_methods
+from hypcheck.implementations.description import UNIT_ROUNDOFF, allowed, representable
+from hypcheck.runs import judge
+from hypcheck.runs.judge import Criterion
+from hypcheck.truth import float_filter
+from hypcheck.vectors.families import select
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return np.concatenate([family.rows(11, 60) for family in select()])
+
+
+@pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
+def test_a_method_answers_its_question_with_allowed_answers(name, rows):
+    method = builtin(name)
+    some = rows if method.most is None else rows[:: 1 + 10 * len(rows) // (method.most * 28)]
+    answers = method.answer(some)
+    assert answers.dtype == np.int8
+    assert answers.shape == (len(some),)
+    assert set(answers.tolist()) <= {*allowed(method.question), CANNOT_SAY}
+
+
+@pytest.mark.parametrize("name", ["fast", "fast-numpy"])
+def test_the_kernels_are_exact(name, rows):
+    method = builtin(name)
+    assert method.exact
+    assert (method.answer(rows) == float_filter.positions(rows)).all()
+    assert {each.name for each in builtin_methods().values() if each.exact and not each.measured} == {
+        "fast",
+        "fast-numpy",
+    }
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
+    method = builtin(f"dual-{precision}")
+    asked = rows[method.domain.holds(rows) & representable(rows, precision)]
+    cases = judge.wrong_cases(
+        asked, float_filter.positions(asked), method.answer(asked), Criterion(precision=precision)
+    )
+    assert cases  # at a tangency one side or the other is bound to be missed
+    unit = UNIT_ROUNDOFF[precision]
+    assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1
+
+
+def test_an_unknown_name_is_refused_with_the_known_ones():
+    with pytest.raises(InputError, match=r"no built-in method 'tabel-2-float32'; did you mean table-2-float32"):
+        builtin("tabel-2-float32")
+    with pytest.raises(InputError, match=r"no built-in method 'xyzzy'; there are .*table-2-float32"):
+        builtin("xyzzy")

@@ -1,0 +1,318 @@
+"""Commands: each fault ends as its own status and sentence, and costs only its own row."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import numpy as np
+import pytest
+
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.protocol import row_text
+from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError, TimingError
+from tests.tools.miniatures import LIMITS, QUICK, UNLUCKY, command, compiled, only_unlucky, rows, signs, truth
+
+HANGS = ("silent", "short", "drips", "loops")
+FAULTS = {
+    "prints_before": (Outcome.PROTOCOL, r"wrote 'computing the discriminant \.\.\.' where '\d+ 1' had to come"),
+    "stale": (Outcome.PROTOCOL, r"replied to question \d+ again, when \d+ was asked"),
+    "silent": (Outcome.PROTOCOL, r"replied to question \d+, when \d+ had got no reply"),
+    "short": (Outcome.PROTOCOL, r"its reply was short: the next one came after 0 of 1 answers"),
+    "long": (Outcome.PROTOCOL, r"wrote '.*' behind a complete reply"),
+    "wrong_count": (Outcome.PROTOCOL, "announced 2 answers to 1 rows"),
+    "answers_3": (Outcome.PROTOCOL, "answered 3; it must be one of -1, 0, 1 or 2"),
+    "answers_nan": (Outcome.PROTOCOL, "answer 1 of 1 is 'nan'; it must be an integer"),
+    "drips": (Outcome.TIMEOUT, r"only '\d+' of a reply within 0.7 s"),
+    "leaves": (Outcome.CRASH, "ended by itself with exit status 1; stderr: terminate called after .*out_of_range"),
+    "segfaults": (Outcome.CRASH, "ended by SIGSEGV"),
+    "segfaults_with_children": (Outcome.CRASH, "ended by SIGABRT"),
+    "loops": (Outcome.TIMEOUT, "no reply within 0.7 s"),
+    "eats_memory": (Outcome.CRASH, r"memory: its processes grew to 0\.\d+ GiB, beyond 0.39 GiB"),
+    "child_eats_memory": (Outcome.CRASH, r"memory: its processes grew to 0\.\d+ GiB, beyond 0.39 GiB"),
+    "reports_error": (Outcome.ERROR, r"reported an error: no root found \\x1b\[2J"),
+    "endless_line": (Outcome.PROTOCOL, r"does not end within 4096 bytes: '1+…'"),
+    "endless_answer": (Outcome.PROTOCOL, r"longer than 64 bytes: '1+'"),
+    "closes_output": (Outcome.PROTOCOL, "closed its standard output and lives on"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_costs_its_own_row_and_says_why(name):
+    some, (outcome, sentence) = rows(), FAULTS[name]
+    with open_implementation(command(name), QUICK if name in HANGS else LIMITS) as it:
+        reason = only_unlucky(it.classify(some), outcome, truth(some))
+        assert re.search(sentence, reason), reason
+        assert it.classify(rows(lucky=True)).answered.all()
+
+
+@pytest.mark.parametrize("name", ["short", "long", "silent"])
+def test_the_binary_form_is_guarded_alike(name):
+    some = rows()
+    with open_implementation(command(name, "binary"), QUICK if name in HANGS else LIMITS) as it:
+        assert it.description.binary
+        only_unlucky(it.classify(some), Outcome.PROTOCOL, truth(some))
+
+
+def test_noise_between_replies_is_noticed_before_the_next_question():
+    with open_implementation(command("prints_behind"), LIMITS) as it:
+        assert it.classify(rows()).answered.all()
+        time.sleep(0.3)
+        answered = it.classify(rows(1, lucky=True))
+    assert answered.status.tolist() == [Outcome.PROTOCOL]
+    assert "wrote 'done' when nothing was asked" in answered.reasons[0]
+
+
+@pytest.mark.parametrize("form", ["text", "binary"])
+def test_a_right_command_is_right_in_questions_of_every_size(form):
+    some = rows(5000)
+    expected = truth(some)
+    with open_implementation(command("right", form), LIMITS) as it:
+        assert it.longest == (4096 if form == "text" else 65536)
+        for n, batch in ((50, 1), (5000, 77), (5000, 100_000), (5000, None)):
+            answered = it.classify(some[:n], batch=batch)
+            assert answered.answered.all()
+            assert answered.answers.tolist() == expected[:n].tolist()
+        assert it.classify(some[:0]).answers.shape == (0,)
+        assert it.restarts == 0
+
+
+def test_text_reads_back_as_the_same_numbers_to_the_bit():
+    bits = np.random.default_rng(3).integers(0, 2**64, 7 * 700, dtype=np.uint64)
+    some = bits.view(np.float64).reshape(-1, 7)
+    some = np.vstack([some[np.isfinite(some).all(axis=1)], [[5e-324, 1.0, 1e22, 1e23, -0.0, 0.1, 2.0**-1022]]])
+    back = np.array([line.split() for line in b"".join(row_text(some)).splitlines()], dtype=np.float64)
+    assert back.tobytes() == some.tobytes()
+
+
+def test_a_flood_on_standard_error_is_evidence_and_no_fault():
+    some = rows()
+    with open_implementation(command("floods_stderr"), LIMITS) as it:
+        answered = it.classify(some)
+        assert answered.answers.tolist() == truth(some).tolist()
+        assert it.stderr[-1] == r"\x1b[31mwarning �\x00"
+        assert all(line.isprintable() for line in it.stderr)
+        assert sum(map(len, it.stderr)) < 50_000
+
+
+def test_who_takes_long_over_a_row_is_not_taken_for_one_that_skips_it():
+    """The second question that is sent after a while is answered behind the first, and nothing is lost or shifted."""
+    some = rows()
+    with open_implementation(command("slow_reply"), QUICK) as it:
+        for _ in range(2):
+            assert it.classify(some).answers.tolist() == truth(some).tolist()
+
+
+@pytest.mark.parametrize("words", [("0.04",), ("0.04", "0.5")], ids=["steadily", "with a pause"])
+def test_who_goes_on_answering_is_waited_for(words):
+    some = rows(lucky=True)
+    with open_implementation(command("steady", *words), QUICK) as it:
+        began = time.monotonic()
+        answered = it.classify(some)
+        assert time.monotonic() - began > 2 * QUICK.timeout
+        assert it.restarts == 0
+    assert answered.answers.tolist() == truth(some).tolist()
+
+
+def test_who_answers_ever_so_slowly_is_not_waited_for_for_ever():
+    """Two and a half answers in forty are a sixteenth; of a question with one row, its answer is all."""
+    with open_implementation(command("steady", "0.45"), QUICK) as it:
+        began = time.monotonic()
+        with pytest.raises(FaultError) as caught:
+            it._runs.session().classify(rows(lucky=True))
+        assert time.monotonic() - began < 10 * QUICK.timeout
+    assert caught.value.outcome == Outcome.TIMEOUT
+    assert re.search(r"1 of 40 answers, and hardly one more within 0.7 s", caught.value.reason)
+
+
+def test_cannot_say_is_an_answer():
+    with open_implementation(command("cannot_say"), LIMITS) as it:
+        answered = it.classify(rows())
+    assert answered.answered.all()
+    assert set(answered.answers.tolist()) == {2}
+
+
+def test_noise_throughout_is_known_as_that():
+    with open_implementation(command("without_number"), LIMITS) as it:
+        answered = it.classify(rows())
+        assert it.restarts == LIMITS.restarts
+    assert answered.count(Outcome.PROTOCOL) == LIMITS.restarts + 1
+    assert answered.count(Outcome.NOT_RUN) == len(rows()) - LIMITS.restarts - 1
+    assert re.search("not asked: 6 restarts are used up; the last process: it wrote '-?1'", answered.reasons[39])
+    assert sorted(answered.reasons) == list(range(40))
+
+
+def test_an_implementation_that_never_answers_is_asked_no_more_after_three_hangs_in_a_row():
+    """One of all rows, and one each of the first two."""
+    with open_implementation(command("hangs"), QUICK) as it:
+        answered = it.classify(rows())
+        assert it.restarts == 2
+    assert answered.status.tolist() == [Outcome.TIMEOUT] * 2 + [Outcome.NOT_RUN] * 38
+    assert answered.reasons[39].startswith(
+        "not asked: it hung on 3 questions in a row and never answered any; the last: no reply within 0.7 s"
+    )
+
+
+def test_an_implementation_that_answered_once_may_hang_as_often_as_restarts_allow():
+    some = rows()
+    some[1:5, 1] = 13.0
+    with open_implementation(command("loops"), QUICK) as it:
+        answered = it.classify(some[:10])
+    assert answered.status.tolist() == [Outcome.ANSWERED] + [Outcome.TIMEOUT] * 4 + [Outcome.ANSWERED] * 5
+
+
+def test_without_restarts_the_first_row_at_fault_is_found_and_the_rest_is_not_run():
+    with open_implementation(command("segfaults"), Limits(restarts=0)) as it:
+        answered = it.classify(rows())
+    expected = [Outcome.ANSWERED] * UNLUCKY + [Outcome.CRASH] + [Outcome.NOT_RUN] * (39 - UNLUCKY)
+    assert answered.status.tolist() == expected
+    assert answered.reasons[UNLUCKY].startswith("it was ended by SIGSEGV")
+
+
+def test_a_crash_of_several_rows_that_no_row_causes_alone_is_not_lost():
+    some = rows()
+    with open_implementation(command("dies_of_two"), LIMITS) as it:
+        answered = it.classify(some)
+    assert answered.status.tolist() == [Outcome.CRASH] + [Outcome.ANSWERED] * 39
+    assert "in a question of 40 rows from this one on, though not in smaller ones" in answered.reasons[0]
+    assert answered.answers[1:].tolist() == truth(some)[1:].tolist()
+
+
+def test_a_program_for_one_question_is_not_one_for_many():
+    with open_implementation(command("one_row_each"), LIMITS) as it:
+        answered = it.classify(rows(10, lucky=True), batch=1)
+    assert answered.status[0] == Outcome.ANSWERED
+    assert "ended by itself with exit status 0" in answered.reasons[1]
+
+
+def test_who_describes_itself_anew_after_a_restart_is_not_asked_further():
+    with open_implementation(command("changes_its_mind"), LIMITS) as it:
+        answered = it.classify(rows())
+    assert answered.count(Outcome.CRASH) == 1
+    assert answered.count(Outcome.NOT_RUN) == 39
+    assert answered.reasons[39] == "not asked: started again, it describes itself otherwise than before"
+
+
+def test_faults_of_memory_are_not_mended_by_restarts_of_others():
+    """A restart is a new process: what was counted in the old one is gone."""
+    some = rows()
+    with open_implementation(command("stateful"), LIMITS) as it:
+        first = it.classify(some, batch=40)
+        assert first.answers.tolist() == truth(some).tolist()
+        it.classify(some, batch=20)
+        assert it.classify(some).answers.tolist() == (-truth(some)).tolist()
+        it.fresh()
+        assert it.classify(some).answers.tolist() == truth(some).tolist()
+        assert it.restarts == 0
+
+
+def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_as_they_are():
+    some = rows()
+    with open_implementation(command("minds_batch_size"), LIMITS) as it:
+        assert it.classify(some, batch=1).answers.tolist() == truth(some).tolist()
+        wrong = np.flatnonzero(it.classify(some, batch=8).answers != truth(some))
+    assert wrong.tolist() == [7, 15, 23, 31, 39]
+
+
+BAD_DESCRIPTIONS = [
+    ("gate 1.0 ready", "its first line is no description: the description is 'gate 1.0 ready'; it must be JSON"),
+    ('{"protocol":1,"name":"x",', "it must be JSON"),
+    ('{"protocol":1,"name":"x","name":"y"}', "key 'name' stands twice; it must stand once"),
+    ('\ufeff{"protocol":1,"name":"x"}', "it must be JSON"),
+    ("[1, 2]", r"the description is \[1, 2\]; it must be an object with protocol, name"),
+    ('{"name":"x"}', "the description lacks protocol"),
+    ('{"protocol":1}', "the description lacks name"),
+    ('{"protocol":2,"name":"x"}', "the description's protocol is 2; it must be 1"),
+    ('{"protocol":1,"name":"x","presicion":"float32"}', "has the key 'presicion'; it may have protocol, name"),
+    ('{"protocol":1,"name":"x","precision":"double"}', "precision is 'double'; it must be one of float16"),
+    ('{"protocol":1,"name":"x","binary":1}', "binary is 1; it must be true or false"),
+    ('{"protocol":1,"name":"x","domain":{"ratio":[2,1]}}', r"ratio is \[2.0, 1.0\]"),
+    ("[" * 60_000, "it must be JSON"),
+    ("", "it must be JSON"),
+]
+
+
+@pytest.mark.parametrize(("line", "sentence"), BAD_DESCRIPTIONS, ids=range(len(BAD_DESCRIPTIONS)))
+def test_who_describes_itself_badly_is_not_started(line, sentence):
+    with pytest.raises(StartError, match=sentence) as caught:
+        open_implementation(command("describes", line), LIMITS)
+    assert caught.value.exit_code == 5
+    assert str(caught.value).startswith("command:")
+    assert str(caught.value).isprintable()
+
+
+def test_who_never_describes_itself_is_not_started_and_its_last_words_are_told():
+    for way in ("nothing", "drip"):
+        with pytest.raises(StartError, match=r"no description came within 0\.5 s; stderr: loading tables"):
+            open_implementation(command("never_describes", way), Limits(startup_timeout=0.5))
+    with pytest.raises(StartError, match="first line does not end within 65536 bytes"):
+        open_implementation(command("never_describes", "flood"), LIMITS)
+    with pytest.raises(StartError, match="exit status 1 before it described itself; stderr: Error: Unable to access"):
+        open_implementation(command("dies_at_start"), LIMITS)
+
+
+def test_what_the_system_cannot_run_is_not_started(tmp_path):
+    script = tmp_path / "no interpreter"
+    script.write_text("#!/no/such/interpreter\n")
+    plain = tmp_path / "plain"
+    plain.write_bytes(b"\x7fELF and no more")
+    with pytest.raises(StartError, match="'no-such-program' was not found; it must be on the PATH"):
+        open_implementation("command:no-such-program --gate")
+    with pytest.raises(StartError, match="is not executable"):
+        open_implementation(f"command:'{script}'")
+    for path in (script, plain):
+        path.chmod(0o755)
+    with pytest.raises(StartError, match=r"interpreter .* was not found"):
+        open_implementation(f"command:'{script}'")
+    with pytest.raises(StartError, match="no program for this machine"):
+        open_implementation(f"command:'{plain}'")
+
+
+def test_a_command_is_run_where_the_caller_is_and_without_a_shell(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    line = '{"protocol":1,"name":"$HOME; touch made"}'
+    program = command("describes", line).replace(";", ";")
+    with open_implementation(program, LIMITS) as it:
+        assert it.description.name == "$HOME; touch made"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_it_is_timed_by_its_own_clock_and_checked_by_its_own_answers():
+    some = rows(lucky=True)
+    with open_implementation(command("right", "binary"), LIMITS) as it:
+        assert it.time(some, 5) == 5000
+    with open_implementation(command("right"), LIMITS) as it:
+        assert it.time(some, 5) is None
+    with (
+        open_implementation(command("miscounts_time"), LIMITS) as it,
+        pytest.raises(TimingError, match="timed with the checksum 40, but its answers sum to"),
+    ):
+        it.time(some, 1)
+
+
+@pytest.mark.parametrize("form", ["true", "false"])
+def test_a_compiled_command_answers_large_questions(form, tmp_path):
+    program = compiled("command", tmp_path / "sign", "-O2", f"-DBINARY={form}")
+    some = rows(1 << 20 if form == "true" else 1 << 16)
+    with open_implementation(f"command:{program}") as it:
+        assert it.classify(some).answers.tolist() == signs(some).tolist()
+
+
+def test_who_replies_before_it_read_the_rows_cannot_know():
+    """Seen where a question is more than a pipe holds; after an error the rest would be taken for questions."""
+    some = rows(4096)
+    with open_implementation(command("hasty"), Limits(restarts=0)) as it:
+        assert "it replied before it had read the rows" in it.classify(some, batch=4096).reasons[0]
+    with open_implementation(command("hasty", "error"), Limits(restarts=0)) as it:
+        answered = it.classify(some, batch=4096)
+    # Its error is read, unless it has left by the time the rest of the rows is written to it; the row that it did not
+    # read ends it, as a question that it does not understand.
+    asked = answered.status.tolist().index(Outcome.NOT_RUN)
+    assert set(answered.status[:asked].tolist()) <= {Outcome.ERROR, Outcome.CRASH}
+    assert asked <= 2
+    assert set(answered.status[asked:].tolist()) == {Outcome.NOT_RUN}
+
+
+def test_the_unlucky_row_is_valid_and_decided():
+    assert truth(rows())[UNLUCKY] in {-1, 0, 1}
+    assert set(truth(rows()).tolist()) == {-1, 0, 1}

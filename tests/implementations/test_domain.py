@@ -1,0 +1,82 @@
+"""Which rows a method speaks of."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.errors import InputError
+from hypcheck.implementations.description import Domain, in_regime, representable
+from tests.support.pairs import pairs
+
+
+@given(st.lists(pairs, min_size=1, max_size=10))
+def test_regimes_are_decided_exactly(some):
+    rows = np.array([pair.row for pair in some])
+    sizes = [[Fraction(value) for value in pair.row[:4]] for pair in some]
+    assert in_regime(rows, "a>=1").tolist() == [alpha >= b for alpha, _, b, _ in sizes]
+    assert in_regime(rows, "c2>=a").tolist() == [(g / d) ** 2 >= alpha / b for alpha, g, b, d in sizes]
+
+
+@pytest.mark.parametrize("ulps", [-1, 0, 1])
+def test_a_border_regime_is_told_from_its_neighbours(ulps):
+    """(γ/d)² = α/b at γ = 3, d = 1, α = 9, b = 1; one ulp of α to either side."""
+    row = np.array([[9.0 + ulps * 2.0**-49, 3.0, 1.0, 1.0, 0.0, 0.0, 0.0]])
+    assert in_regime(row, "c2>=a").tolist() == [ulps <= 0]
+
+
+def test_ranges_are_inclusive_and_the_least_one_is_of_semi_axes():
+    rows = np.array(
+        [
+            [1.0, 1.0, 0.5, 1.0, 0.0, 4.0, -1e-9],
+            [1.0, 1.0, 0.5, 1.0, 0.0, -4.1, 0.5],
+            [1.0, 1.0, 0.4, 1.0, 0.0, 4.0, 0.5],
+        ]
+    )
+    assert Domain(magnitude=(0.5, 4.0)).holds(rows).tolist() == [True, False, False]
+
+
+LONG_RATIO = [1e6, 1.0, 1e-3, 1.0, 1.0, 0.0, 0.0]
+FAR = [1e7, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
+
+
+def test_what_is_not_declared_is_ordinary_and_without_bounds_where_more_is_asked_for():
+    rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
+    assert Domain().holds(rows).tolist() == [True, False, False]
+    assert Domain().holds(rows, extreme=True).all()
+
+
+def test_what_is_declared_bounds_the_extremes_too():
+    rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
+    assert Domain(ratio=(0.5, 1e8)).holds(rows, extreme=True).tolist() == [True, False, True]
+    assert Domain(magnitude=(0.1, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
+    assert Domain(ratio=(1e-8, 1e8), magnitude=(1e-6, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
+    assert Domain(regimes=("c2>=a",)).holds(rows, extreme=True).tolist() == [True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("value", "precision", "expected"),
+    [
+        (2.0**-14, "float16", True),
+        (2.0**-15, "float16", False),
+        (65505.0, "float16", False),
+        (1e-40, "float32", False),
+        (1e39, "float32", False),
+        (1e-40, "float64", True),
+        (5e-324, "float64", False),
+        (5e-324, "binary128", True),
+    ],
+)
+def test_only_normal_numbers_of_the_precision_are_asked(value, precision, expected):
+    row = np.array([[1.0, 1.0, 1.0, 1.0, 0.0, 0.0, value]])
+    assert representable(row, precision).tolist() == [expected]
+
+
+@pytest.mark.parametrize("bad", [{"regimes": ("a>1",)}, {"ratio": (2.0, 1.0)}, {"magnitude": (-1.0, 1.0)}])
+def test_a_domain_that_makes_no_sense_is_refused(bad):
+    with pytest.raises(InputError, match="the domain"):
+        Domain(**bad)

@@ -1,0 +1,91 @@
+"""The naive FCL methods: right where a plain mesh can be, and wrong where the documentation says they are."""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import UnavailableError
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.meshes import ellipsoid_mesh, point_mesh, sphere_mesh
+from hypcheck.truth.mesh import verdict
+from tests.support.fractions_truth import exact_position, near_contact_rows, tangent_row
+
+pytest.importorskip("fcl", reason="python-fcl has no wheel here")
+
+METHODS = [ellipsoid_mesh, sphere_mesh, point_mesh]
+
+CLEAR_OF_DOUBT = np.array(
+    [
+        (2, 3, 1, 1, 4.0, 0, 0),
+        (2, 3, 1, 1, 0, -4.0, 1),
+        (2, 3, 1, 1, 2.2, 0, 0),
+        (2, 3, 1, 1, 0, -1.6, -1),
+        (2, 3, 1, 1, 0.3, 0, 0),
+        (2, 3, 1, 1, 0, 0.2, 5),
+        (2, 3, 0.5, 1, 20, 1, 0),
+        (5, 1, 1, 1, 0, 0, 0),
+        (0.5, 1, 1, 1, 0, 0, 0),
+    ]
+)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_far_from_touching_all_are_right(method):
+    assert method(CLEAR_OF_DOUBT).tolist() == [exact_position(row) for row in CLEAR_OF_DOUBT]
+
+
+def rows_at_gap(gap, flatness):
+    """Rows with b = 1 and d = `flatness` whose clearance is about ± `gap` radii, and their positions."""
+    rows = []
+    for k in (Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(2)):
+        for v in (Fraction(1, 2), Fraction(1), Fraction(3), Fraction(5), Fraction(9)):
+            for steps in (1 + gap, 1 - gap, -1 - gap, -1 + gap):
+                found = tangent_row(Fraction(4, 5), Fraction(3, 5), k, v, steps)
+                if found is not None:
+                    alpha, gamma, b, d, x, y, z = found[0]
+                    rows.append((alpha / b, gamma / d * flatness, 1.0, flatness, x / b, y / b, z / d * flatness))
+    return np.array(rows), np.array([exact_position(row) for row in rows])
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_plain_mesh_is_wrong_near_contact_where_the_certified_one_is_not(method):
+    known = near_contact_rows(60)
+    rows, positions = np.array([row for row, _ in known]), np.array([position for _, position in known])
+    answers = method(rows, triangles=500)
+    assert np.any((answers == 0) & (positions != 0)) or np.any((answers != 0) & (positions == 0))
+    assert [verdict(Pair(*row)).position for row in rows] == positions.tolist()
+
+
+def test_more_triangles_help_but_do_not_cure():
+    rows, positions = rows_at_gap(Fraction(1, 2**16), 1.0)
+    wrong = [np.count_nonzero(point_mesh(rows, triangles) != positions) for triangles in (50, 5000)]
+    assert wrong[0] > wrong[1] > 0
+
+
+def test_the_ellipsoid_query_loses_the_contacts_of_flat_spheroids():
+    missed = {}
+    for flatness in (1.0, 2.0**-20):
+        rows, positions = rows_at_gap(Fraction(1, 2**4), flatness)
+        assert sphere_mesh(rows).tolist() == positions.tolist()
+        missed[flatness] = np.count_nonzero((ellipsoid_mesh(rows) != 0) & (positions == 0))
+    assert missed[1.0] == 0
+    assert missed[2.0**-20] >= np.count_nonzero(positions == 0) / 2
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_numbers_beyond_fcl_are_not_guessed(method):
+    huge = np.array([(1e200, 1e-150, 1e200, 1e200, 1e200, 0, 0), (1e-200, 1e-200, 1e200, 1e-300, 1e300, 0, 1e300)])
+    assert method(huge).tolist() == [CANNOT_SAY, CANNOT_SAY]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_no_rows_and_no_fcl(method, monkeypatch):
+    assert method(np.empty((0, 7))).shape == (0,)
+    monkeypatch.setitem(sys.modules, "fcl", None)
+    with pytest.raises(UnavailableError, match="not available"):
+        method(CLEAR_OF_DOUBT)

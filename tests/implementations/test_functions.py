@@ -1,0 +1,300 @@
+"""Python functions: each fault ends as its own status and sentence, and costs only its own row."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.implementations.description import Domain
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
+from hypcheck.implementations.worker import RoundingMode, mode_in_use
+from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, function, only_unlucky, rows, truth
+
+FAULTS = {
+    "answers_256": (Outcome.PROTOCOL, "answered 256; it must be one of -1, 0, 1 or 2"),
+    "raises": (Outcome.ERROR, r"raised ZeroDivisionError: float division \\x1b\[0m by zero \(raises.py, line 8\)"),
+    "exits": (Outcome.ERROR, r"raised SystemExit: 3 \(exits.py, line 10\)"),
+    "leaves": (Outcome.CRASH, "ended by itself with exit status 3"),
+    "segfaults": (Outcome.CRASH, "ended by SIGSEGV.*; stderr: .*segfaults.py"),
+    "loops": (Outcome.TIMEOUT, "no answer within 0.7 s"),
+    "eats_memory": (Outcome.CRASH, r"memory: its processes grew to 0\.\d+ GiB"),
+    "changes_rounding": (Outcome.PROTOCOL, "left the rounding mode changed: upward; a call must leave it as it was"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_costs_its_own_row_and_says_why(name):
+    some, (outcome, sentence) = rows(), FAULTS[name]
+    with open_implementation(function(name), QUICK if name == "loops" else LIMITS) as it:
+        reason = only_unlucky(it.classify(some), outcome, truth(some))
+        assert re.search(sentence, reason), reason
+        assert it.classify(rows(lucky=True)).answered.all()
+        assert it.restarts == (1 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("floats", "it returned an array of float64; it must be integers, such as int8"),
+        ("too_many", r"it returned an array of shape \(2,\) for 1 rows; it must be \(1,\)"),
+        ("nothing", r"it returned a NoneType of shape \(\) for 1 rows; it must be \(1,\)"),
+        ("masked", "it returned a masked array with masked answers; it must answer every row"),
+        ("ragged", "it returned a list that is no array of one integer a row"),
+    ],
+)
+def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, sentence):
+    with open_implementation(function(name), LIMITS) as it:
+        answered = it.classify(rows())
+        assert it.restarts == 0
+    assert answered.count(Outcome.PROTOCOL) == 40
+    assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
+
+
+def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
+    monkeypatch.setattr("hypcheck.implementations.implementation.FAULTS", 200)
+    with open_implementation(function("floats"), LIMITS) as it:
+        answered = it.classify(rows(3000), batch=150)
+    assert answered.status.tolist() == [Outcome.PROTOCOL] * 200 + [Outcome.NOT_RUN] * 2800
+    assert answered.reasons[199].startswith("it returned")
+    assert answered.reasons[2999].startswith("not asked: 200 rows before were at fault; the last: it returned")
+
+
+@pytest.mark.parametrize(("name", "restarts"), [("leaves", 3), ("raises", 0)])
+def test_what_faults_come_to_is_the_same_however_many_rows_are_asked_at_once(monkeypatch, name, restarts):
+    """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
+    monkeypatch.setattr("hypcheck.implementations.implementation.FAULTS", 4)
+    some = rows(9000, lucky=True)
+    some[[70, 500, 1300, 5000, 5003, 8000]] = rows()[UNLUCKY]
+    found = []
+    for batch in (64, 1000, 9000):
+        with open_implementation(function(name), replace(LIMITS, restarts=3)) as it:
+            answered = it.classify(some, batch=batch)
+            found.append((answered.status.tolist(), answered.answers.tolist(), it.restarts))
+    assert found[0] == found[1] == found[2]
+    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [70, 500, 1300, *range(5000, 9000)]
+    assert it.restarts == restarts
+
+
+@pytest.mark.parametrize("name", ["right", "prints", "list_of_integers", "imports_us"])
+def test_right_answers_arrive_whatever_is_printed_and_whatever_integers_they_are(name):
+    some = rows(5000)
+    with open_implementation(function(name), LIMITS) as it:
+        assert it.classify(some).answers.tolist() == truth(some).tolist()
+
+
+def intruder(name):
+    return function("writes_into_our_pipe").replace(":classify", f":{name}")
+
+
+@pytest.mark.parametrize(("name", "seen"), [("garbage", r"'�\\x1b\[31m"), ("error", "'erro")])
+def test_what_is_written_into_our_own_pipe_costs_its_own_row_and_is_never_taken_for_a_reply(name, seen):
+    some = rows()
+    with open_implementation(intruder(name), LIMITS) as it:
+        for _ in range(2):
+            reason = only_unlucky(it.classify(some), Outcome.PROTOCOL, truth(some))
+            assert re.search(f"it wrote into our own pipe, which reads {seen}", reason), reason
+
+
+def test_forged_times_are_refused():
+    with (
+        open_implementation(intruder("times"), LIMITS) as it,
+        pytest.raises(TimingError, match="it wrote into our own"),
+    ):
+        it.time(rows(), 1)
+
+
+def test_what_is_printed_is_kept_as_evidence():
+    with open_implementation(function("prints"), LIMITS) as it:
+        it.classify(rows())
+        assert it.stderr[-2:] == ("computing", r"�\x00 from C")
+
+
+def test_a_module_on_the_path_is_found_from_the_working_directory(tmp_path, monkeypatch):
+    """There a struct.py of the user's is no stand-in for Python's while our own modules are loaded."""
+    (tmp_path / "package").mkdir()
+    (tmp_path / "package" / "module.py").write_text("def near(rows):\n    return [0] * len(rows)\n")
+    (tmp_path / "struct.py").write_text("raise SystemExit('this is not the struct that we want')\n")
+    monkeypatch.chdir(tmp_path)
+    with open_implementation("python:package.module:near", LIMITS) as it:
+        assert it.classify(rows()).answers.tolist() == [0] * 40
+        assert (it.description.name, it.description.language) == ("package.module:near", "python")
+
+
+def test_a_file_finds_its_neighbours(tmp_path):
+    (tmp_path / "neighbour.py").write_text("ANSWER = 1\n")
+    (tmp_path / "kernel.py").write_text(
+        "from neighbour import ANSWER\n\n\ndef f(rows):\n    return [ANSWER] * len(rows)\n"
+    )
+    with open_implementation(f"python:{tmp_path / 'kernel.py'}:f", LIMITS) as it:
+        assert it.classify(rows()).answers.tolist() == [1] * 40
+
+
+def test_a_description_is_read_and_overridden():
+    with open_implementation(function("right"), LIMITS, precision="float32", domain=Domain(ratio=(1.0, 2.0))) as it:
+        assert (it.declared.name, it.declared.version, it.declared.precision) == ("right", "2.1", "float64")
+        assert it.declared.domain == Domain(regimes=("a>=1",), ratio=(0.1, 10.0))
+        assert (it.description.precision, it.description.domain) == ("float32", Domain(ratio=(1.0, 2.0)))
+    with open_implementation(function("float16"), LIMITS) as it:
+        assert (it.description.precision, it.description.question) == ("float16", "exterior")
+        assert it.classify(rows()).answers.tolist() == [1] * 40
+    with open_implementation(function("nowhere"), LIMITS) as it:
+        assert not it.description.domain.holds(rows()).any()
+
+
+def test_a_bad_override_is_the_callers_fault_and_leaves_nothing_behind():
+    with pytest.raises(InputError, match="the precision is 'double'; it must be one of float16"):
+        open_implementation(function("right"), LIMITS, precision="double")
+
+
+def test_answers_are_those_of_the_question_asked():
+    some = rows()
+    with open_implementation(function("right"), LIMITS, question="exterior") as it:
+        answered = it.classify(some)
+    assert (answered.status == Outcome.PROTOCOL).tolist() == (truth(some) == -1).tolist()
+    assert "it must be one of 0, 1 or 2" in answered.reasons[int(np.flatnonzero(truth(some) == -1)[0])]
+
+
+def test_refusals_are_answers_to_invalid_rows_of_those_who_declare_them():
+    some = rows()
+    some[3, 0], some[4, 6] = -1.0, np.nan
+    with open_implementation(function("refuses"), LIMITS) as it:
+        answered = it.classify(some)
+        assert answered.answered.all()
+        assert np.flatnonzero(answered.answers == 127).tolist() == [3, 4]
+    with open_implementation(function("refuses_all"), LIMITS) as it:
+        answered = it.classify(some)
+        assert np.flatnonzero(answered.answered).tolist() == [3, 4]
+        assert "answered 127, which refuses the row, but the row is valid" in answered.reasons[0]
+
+
+def test_addresses_differ_from_call_to_call_so_that_one_that_minds_them_is_seen():
+    some = rows()
+    with open_implementation(function("minds_alignment"), LIMITS) as it:
+        answers = {bytes(it.classify(some).answers) for _ in range(8)}
+        it.fresh()
+        afresh = it.classify(some).answers
+    assert len(answers) == 2
+    assert bytes(afresh) in answers
+
+
+def test_memory_of_a_function_ends_with_its_process():
+    some = rows()
+    with open_implementation(function("stateful"), LIMITS) as it:
+        seen = [it.classify(some).answers.tolist() for _ in range(5)]
+        it.fresh()
+        assert it.classify(some).answers.tolist() == truth(some).tolist()
+    assert seen == [truth(some).tolist()] * 3 + [(-truth(some)).tolist()] * 2
+
+
+def test_who_is_slow_is_asked_less_at_once_and_is_no_fault():
+    """All 260 rows at once would take 1.3 s."""
+    with open_implementation(function("slow"), QUICK) as it:
+        assert it.classify(rows(260)).answered.all()
+        assert it.restarts == 0
+
+
+@pytest.mark.parametrize(
+    ("spec", "sentence"),
+    [
+        (
+            function("fails_to_import"),
+            r"raised ModuleNotFoundError: .*\(fails_to_import.py, line 3\)",
+        ),
+        (function("misspelt"), "the description has the key 'presicion'; it may have protocol, name"),
+        (
+            function("ends_when_loaded"),
+            "while it was loaded it ended by itself with .* 4; stderr: licence expired",
+        ),
+        (function("no_such_file"), r"there is no file '.*no_such_file.py'$"),
+        (f"python:{HERE / 'functions' / 'right.py'}:clasify", "has no function 'clasify'; it has nothing of that name"),
+        (f"python:{HERE / 'functions' / 'right.py'}:hypcheck", "has no function 'hypcheck'; it has a dict"),
+        ("python:no.such.module:f", r"raised ModuleNotFoundError: No module named 'no'( \(.*\.py, line \d+\))?$"),
+    ],
+)
+def test_what_cannot_be_loaded_is_not_started(spec, sentence):
+    with pytest.raises(StartError, match=sentence) as caught:
+        open_implementation(spec, LIMITS)
+    assert str(caught.value).startswith(spec[:30])
+
+
+def test_what_takes_too_long_to_load_is_not_started(tmp_path):
+    (tmp_path / "slow.py").write_text("import time\ntime.sleep(60)\n")
+    with pytest.raises(StartError, match=r"it was not loaded within 0\.5 s"):
+        open_implementation(f"python:{tmp_path / 'slow.py'}:f", Limits(startup_timeout=0.5))
+
+
+def test_a_function_is_timed_and_a_fault_is_told():
+    some = rows(1000, lucky=True)
+    with open_implementation(function("right"), LIMITS) as it:
+        # the least of five, for whatever else the machine does may fall on any one of them
+        assert 0 < min(it.time(some, 1) for _ in range(5)) < it.time(some, 200)
+        assert it.time(some, 1, each=True) > 0
+        with pytest.raises(InputError, match="0 rows cannot be timed 1 time;"):
+            it.time(some[:0], 1)
+        with pytest.raises(InputError, match="cannot be asked by scene"):
+            it.time(some, 1, by_scene=True)
+    with open_implementation(function("raises"), LIMITS) as it:
+        with pytest.raises(TimingError, match="could not be timed: it raised ZeroDivisionError"):
+            it.time(rows(), 1)
+        assert it.time(some, 1) > 0
+
+
+def test_many_rows_are_answered_in_their_order(tmp_path):
+    (tmp_path / "sign.py").write_text(
+        "import numpy as np\n\n\ndef f(rows):\n    return (rows[:, 4] > 0).astype(np.int8) - (rows[:, 4] < 0)\n"
+    )
+    some = rows(1 << 19)
+    with open_implementation(f"python:{tmp_path / 'sign.py'}:f") as it:
+        assert it.classify(some).answers.tolist() == np.sign(some[:, 4]).tolist()
+        assert it.stands == it.longest
+
+
+def test_a_change_of_the_rounding_mode_is_seen_and_undone():
+    import ctypes
+
+    guard, libm = RoundingMode(), ctypes.CDLL(None)
+    for mode, name in ((0x400, "downward"), (0x800, "upward"), (0xC00, "towards zero")):
+        if libm.fesetround(mode):
+            pytest.skip("this machine numbers its rounding modes in another way than x86")
+        found = mode_in_use()
+        with pytest.raises(Exception, match="left the rounding mode changed") as caught:
+            guard.restore()
+        assert found == name
+        assert name in str(caught.value)
+        assert mode_in_use() == "to nearest"
+        guard.restore()
+
+
+@pytest.mark.parametrize(
+    ("call", "line"), [("np.broadcast_arrays([1, 2], [1, 2, 3])", 6), ("json.loads('{')", 6), ("helper.f()", 4)]
+)
+def test_what_a_called_package_raises_is_told_with_the_line_that_calls_it(call, line, tmp_path):
+    (tmp_path / "helper.py").write_text("import numpy as np\n\ndef f():\n    np.broadcast_arrays([1, 2], [1, 2, 3])\n")
+    text = f"import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n    {call}\n"
+    (tmp_path / "calls.py").write_text(text, encoding="utf-8")
+    with open_implementation(f"python:{tmp_path / 'calls.py'}:f", LIMITS) as it:
+        (reason,) = set(it.classify(rows()[:1]).reasons.values())
+    where = "helper.py" if "helper" in call else "calls.py"
+    assert reason.endswith(f" ({where}, line {line})"), reason
+
+
+def test_the_worker_loads_neither_sympy_nor_mpmath_nor_fcl(tmp_path):
+    names = "{'sympy', 'mpmath', 'fcl', 'click', 'hypcheck.implementations.builtin'}"
+    (tmp_path / "seen.py").write_text(
+        f"import sys\n\nhypcheck = {{'name': 'x', 'version': str({names} & set(sys.modules))}}\n\n\n"
+        "def f(rows):\n    return [0] * len(rows)\n"
+    )
+    before = {"sympy", "mpmath", "fcl"} & set(sys.modules)
+    with open_implementation(f"python:{tmp_path / 'seen.py'}:f", LIMITS) as it:
+        assert it.declared.version == "set()"
+    assert {"sympy", "mpmath", "fcl"} & set(sys.modules) == before
+
+
+def test_the_unlucky_row_is_among_those_asked():
+    assert (rows()[:, 1] == 13.0).nonzero()[0].tolist() == [UNLUCKY]

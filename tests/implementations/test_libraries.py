@@ -1,0 +1,137 @@
+"""Shared libraries by their C ABI: answers, scenes, faults, and what is not one."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import platform
+import re
+import sys
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.implementations import foreign as libraries
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import Outcome, StartError
+from tests.tools.miniatures import LIMITS, compiled, only_unlucky, rows, signs
+
+SHARED = ("-shared", "-fPIC")
+FAULTS = {
+    "SEGFAULT": (Outcome.CRASH, "ended by SIGSEGV"),
+    "NOT_WRITTEN": (Outcome.PROTOCOL, "answered -86, which is what stands where a library writes nothing"),
+    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside of the 1 position that it was given"),
+    "CHANGES_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: upward"),
+    "CHANGES_SSE_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: downward"),
+}
+
+
+@pytest.fixture(scope="module")
+def right(tmp_path_factory):
+    return compiled("right", tmp_path_factory.mktemp("library") / "right.so", *SHARED)
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_costs_its_own_row_and_says_why(fault, tmp_path):
+    if "SSE" in fault and platform.machine() != "x86_64":
+        pytest.skip("only x86 has a rounding mode of SSE's own")
+    library = compiled("faulty", tmp_path / "faulty.so", *SHARED, f"-DFAULT={fault}")
+    some, (outcome, sentence) = rows(), FAULTS[fault]
+    with open_implementation(f"library:{library}", LIMITS) as it:
+        reason = only_unlucky(it.classify(some), outcome, signs(some))
+    assert re.search(sentence, reason), reason
+
+
+def test_what_a_library_prints_is_no_answer(tmp_path):
+    library = compiled("faulty", tmp_path / "faulty.so", *SHARED, "-DFAULT=PRINTS")
+    with open_implementation(f"library:{library}", LIMITS) as it:
+        assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
+        assert it.stderr == ("7 1", "1")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
+def test_a_library_may_lie_in_a_folder_whose_name_is_no_text(tmp_path):
+    folder = tmp_path / os.fsdecode(b"\xff \n")
+    folder.mkdir()
+    library = compiled("faulty", folder / "faulty.so", *SHARED, "-DFAULT=PRINTS")  # it exports no description
+    with open_implementation(f"library:{library}", LIMITS) as it:
+        assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
+    (folder / "broken.so").write_bytes(b"nothing")
+    with pytest.raises(StartError, match="file too short"):
+        open_implementation(f"library:{folder / 'broken.so'}", LIMITS)
+
+
+def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right):
+    some = rows(70_000)
+    with open_implementation(f"library:{right}", LIMITS) as it:
+        assert (it.description.name, it.description.language, it.description.precision) == ("sign", "c", "exact")
+        for n, batch in ((70_000, None), (70_000, 70_000), (50, 1), (700, 77)):
+            assert it.classify(some[:n], batch=batch).answers.tolist() == signs(some[:n]).tolist()
+        assert it.time(some[:1000], 3) > 0
+        assert 0 < it.time(some[:1000], 3, each=True)
+
+
+@pytest.mark.parametrize("loop", ["in C", "by ctypes"])
+def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_nothing(loop, tmp_path, monkeypatch):
+    if loop == "by ctypes":
+        monkeypatch.setattr(libraries, "compiled", lambda: (_ for _ in ()).throw(ImportError("not built")))
+    counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
+    calls = ctypes.c_long.in_dll(ctypes.CDLL(str(tmp_path / f"{loop[-1]}.so")), "calls_about_one_row")
+    some = rows(40)
+    took, total = counting.seconds_each(some, 25)
+    assert took > 0
+    assert total == sum(signs(some).tolist())
+    assert calls.value == 40 * 25
+    assert counting.seconds_each(some[:0], 25)[1] == 0
+    assert calls.value == 40 * 25
+
+
+def test_a_relative_path_is_relative_to_the_working_directory(right, monkeypatch):
+    monkeypatch.chdir(right.parent)
+    with open_implementation(f"library:{right.name}", LIMITS) as it:
+        assert it.classify(rows()).answered.all()
+
+
+def test_the_entry_for_scenes_is_asked_about_rows_of_one_size(right, tmp_path):
+    some = rows(2000)
+    one = some.copy()
+    one[:, :4] = some[0, :4]
+    with open_implementation(f"library:{right}", LIMITS) as it:
+        assert it.scene
+        assert it.classify(one, by_scene=True).answers.tolist() == signs(one).tolist()
+        assert it.time(one, 2, by_scene=True) > 0
+        with pytest.raises(InputError, match="rows of several sizes"):
+            it.classify(some, by_scene=True)
+    library = compiled("faulty", tmp_path / "faulty.so", *SHARED, "-DFAULT=NOT_WRITTEN")
+    with open_implementation(f"library:{library}", LIMITS) as it:
+        assert not it.scene
+        assert it.description.name == "faulty.so"
+        with pytest.raises(InputError, match="cannot be asked by scene"):
+            it.classify(one, by_scene=True)
+
+
+def test_what_is_no_library_of_ours_is_not_started(tmp_path):
+    text = tmp_path / "text.so"
+    text.write_text("this is a file of text, and longer than the head of a program that a system runs" * 10)
+    without = compiled("without_entry", tmp_path / "without.so", *SHARED)
+    silent = compiled("describes_nothing", tmp_path / "silent.so", *SHARED)
+    for path, sentence in (
+        (tmp_path / "none.so", "there is no file"),
+        (text, "cannot be loaded: it is not a shared library"),
+        (without, r"has no symbol hypcheck_classify; it must export void hypcheck_classify\(size_t n"),
+        (silent, "hypcheck_describe returned a null pointer; it must be a JSON text"),
+    ):
+        with pytest.raises(StartError, match=sentence):
+            open_implementation(f"library:{path}", LIMITS)
+
+
+def test_a_library_for_another_machine_is_not_started(right, tmp_path):
+    """The same file with another word size in its head, byte 4 of an ELF file."""
+    data = bytearray(right.read_bytes())
+    if data[:4] != b"\x7fELF":
+        pytest.skip("libraries of this system are not ELF files")
+    data[4] = 3 - data[4]  # 32 bits for 64
+    foreign = tmp_path / "foreign.so"
+    foreign.write_bytes(data)
+    with pytest.raises(StartError, match="it is built for another machine"):
+        open_implementation(f"library:{foreign}", LIMITS)

@@ -1,0 +1,38 @@
+"""The quadcopter's procedures in numpy: the programs as they are listed, asked where they are needed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.bench.claims import flight_of
+from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.implementations.procedures import PROCEDURES, rotors_at
+
+
+@pytest.fixture(scope="module")
+def flight():
+    return flight_of(3, 3000)
+
+
+@pytest.mark.parametrize("name", ["procedure-2a", "procedure-2b", "procedure-2a-repaired", "procedure-2b-repaired"])
+def test_a_procedure_is_the_program_that_is_listed(name, flight):
+    inputs = {**flight.craft, **flight.columns}
+    (right,) = outputs({**FORMULAS, **REPAIRED}[name].program, float_arithmetic("float64"), inputs, ("valid",))
+    assert (PROCEDURES[name](flight) == right).all()
+    assert 0 < right.sum() < len(right)
+
+
+def test_ours_calls_valid_what_fits_as_a_whole_or_by_its_rotors(flight):
+    ours, second = PROCEDURES["certified"](flight), PROCEDURES["procedure-2b"](flight)
+    assert np.count_nonzero(ours != second) <= 2  # along a flight nothing is near enough to matter
+
+
+def test_the_rotors_are_at_the_arms_ends_a_quarter_turn_apart(flight):
+    ends = rotors_at(flight.cosine, flight.sine, 0.135)
+    assert len(ends) == 4
+    for (x, y), (u, v) in zip(ends, ends[1:] + ends[:1], strict=True):
+        assert np.allclose(np.hypot(x, y), 0.135)
+        assert np.allclose((-y, x), (u, v))

@@ -1,0 +1,243 @@
+"""SPEC: what is one, how it is taken apart, and what is said where it is none."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.errors import InputError
+from hypcheck.implementations import description, implementation, spec
+from hypcheck.implementations.builtin import builtin
+from hypcheck.implementations.frames import KEPT, WIDTH, OutputTail, quoted, stderr_excerpt
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.spec import parse_spec
+from hypcheck.kernel.classify import classify
+from hypcheck.messages import escaped
+from hypcheck.runs import judge
+from tests.tools.miniatures import rows
+
+WORDS = [
+    ("builtin:fast", ("fast",)),
+    ("python:package.module:function", ("package.module", "function")),
+    ("python:dir/my kernel.py:classify", ("dir/my kernel.py", "classify")),
+    (r"python:C:\gate\kernel.py:classify", (r"C:\gate\kernel.py", "classify")),
+    ("python:/a:b/c.py:f", ("/a:b/c.py", "f")),
+    ("library:build/libgate.so", ("build/libgate.so",)),
+    ("library:libgate.so.1.2", ("libgate.so.1.2",)),
+    (r"library:C:\gate\gate.dll", (r"C:\gate\gate.dll",)),
+    ("library:/o:p/libgate.dylib", ("/o:p/libgate.dylib",)),
+    ("command:./gate --fast 'a b'", ("./gate", "--fast", "a b")),
+    ('command:["java", "-jar", "a b.jar", ""]', ("java", "-jar", "a b.jar", "")),
+    ("command:gate ; rm $HOME", ("gate", ";", "rm", "$HOME")),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), WORDS)
+def test_a_spec_is_taken_apart(text, words):
+    parsed = parse_spec(text)
+    assert (parsed.text, parsed.kind, parsed.words) == (text, text.partition(":")[0], words)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "begins with none of builtin:, python:, library:, command:$"),
+        ("gate --fast", "command: with its arguments"),
+        ("gate", "was builtin:gate meant, or command:gate"),
+        ("comand:./gate", "was command:./gate meant"),
+        ("libary:gate.so", "was library:gate.so meant"),
+        ("kernel.py:classify", "was python:kernel.py:classify meant"),
+        ("build/libgate.so", "was library:build/libgate.so meant"),
+        ("Python:kernel.py:f", "begins with none of .*; was python:kernel.py:f meant"),
+        ("builtin:", "names no method"),
+        ("python:kernel.py", "names no function; it must be python:package.module:function"),
+        ("python:kernel.py:", "names no function"),
+        ("python:kernel.py:a-b", "names no function"),
+        ("python::f", "names no function"),
+        ("python:a-b:f", "names 'a-b', neither a module nor a file"),
+        ("library:gate", "names no shared library"),
+        ("library:", "names no shared library"),
+        ("command:", "names no program"),
+        ("command:'' x", "names no program"),
+        ("command:gate 'a", "not quoted as a shell has it: no closing quotation"),
+        ('command:["gate"', "begins an array; it must be JSON texts"),
+        ('command:["gate", 1]', "begins an array; it must be JSON texts"),
+        ("command:[]", "names no program"),
+        ("command:gate\0x", "a character that no path or argument can have"),
+        (r'command:["gate", "\u0000"]', "a character that no argument can have"),
+        (r'command:["gate", "\ud800"]', "a character that no argument can have"),
+        ("\x1b[31m", r"'\\x1b\[31m' begins with none of"),
+    ],
+)
+def test_what_is_no_spec_is_refused_with_what_would_be_one(text, sentence):
+    with pytest.raises(InputError, match=sentence) as caught:
+        parse_spec(text)
+    assert str(caught.value).isprintable()
+    assert caught.value.exit_code == 2
+
+
+@given(st.sampled_from(["builtin:", "python:", "library:", "command:", "command:[", ""]), st.text())
+def test_any_text_is_a_spec_or_refused(kind, rest):
+    try:
+        parsed = parse_spec(kind + rest)
+    except InputError as error:
+        shown = str(error)
+    else:
+        assert parsed.words[0]
+        shown = str(parsed)
+    assert shown.isprintable()
+
+
+def test_every_kind_that_can_be_written_can_be_started():
+    assert set(implementation.STARTS) == set(spec._KINDS)
+
+
+def test_every_way_to_end_is_one_of_the_judge():
+    assert {each.label for each in Outcome} - {"answered"} <= {each.value for each in judge.Status}
+
+
+def test_a_built_in_method_goes_through_the_same_door():
+    some = rows(300)
+    with open_implementation("builtin:fast") as it:
+        answered = it.classify(some)
+        assert answered.answered.all()
+        assert answered.answers.tolist() == classify(some).tolist()
+        assert it.time(some, 3) > 0
+        it.fresh()
+        assert it.classify(some, batch=7).answers.tolist() == answered.answers.tolist()
+        assert (it.description.name, it.description.precision) == ("fast", "float64")
+        assert it.description.domain == builtin("fast").domain
+        assert (it.most, it.scene, it.restarts, it.stderr) == (None, False, 0, ())
+    with pytest.raises(InputError, match="there is no built-in method 'slow'"):
+        open_implementation("builtin:slow")
+
+
+def test_questions_grow_while_answers_are_quick_and_shrink_when_they_are_not():
+    """A tenth of the timeout, 1 s, is what a question should take."""
+    with open_implementation("builtin:fast") as it:
+        sizes = [it._batch]
+        for seconds, rows in (
+            (0.01, 3),
+            (0.01, 64),
+            (0.3, 1024),
+            (0.6, 2048),
+            (0.01, 2048),
+            (5.0, 32768),
+            (2.0, 16384),
+            (0.01, 500),
+            (0.01, 600),
+        ):
+            it._adapt(seconds, rows)
+            sizes.append(it.stands)
+    assert sizes == [64, 64, 1024, 2048, 2048, 32768, 16384, 8192, 8192, 9600]
+
+
+def test_a_foreign_spec_loads_none_of_our_methods():
+    code = (
+        "import sys; from hypcheck.implementations.implementation import open_implementation; "
+        "bad = {'sympy', 'mpmath', 'fcl', 'hypcheck.implementations.builtin', 'hypcheck.derivation'}; "
+        "bad &= set(sys.modules); "
+        "sys.exit(str(bad) if bad else 0)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+DEFAULTS = description.Description(name="it")
+
+
+def test_everything_can_be_said():
+    said = description.described_by_json(
+        '{"protocol":1,"name":"a\\u001b","version":"2","language":"go","precision":"x87","question":"contact",'
+        '"domain":{"regimes":["c2>=a"],"ratio":[1,1e9],"magnitude":[0,1e999]},"refuses":true,"binary":true,"time":false}',
+        DEFAULTS,
+    )
+    assert (said.name, said.version, said.language) == (r"a\x1b", "2", "go")
+    assert (said.precision, said.question) == ("x87", "contact")
+    assert (said.refuses, said.binary, said.time) == (True, True, False)
+    assert said.domain.regimes == ("c2>=a",)
+    assert said.domain.magnitude == (0.0, np.inf)
+
+
+def test_a_domain_may_have_no_end_as_python_and_toml_write_it_but_no_nan():
+    assert description.parse_domain('{"magnitude":[1e-6,Infinity]}').magnitude == (1e-6, np.inf)
+    with pytest.raises(InputError, match="NaN is not JSON"):
+        description.parse_domain('{"magnitude":[1e-6,NaN]}')
+
+
+def test_nothing_need_be_said():
+    assert description.described({}, DEFAULTS) == DEFAULTS
+
+
+@pytest.mark.parametrize(
+    ("said", "sentence"),
+    [
+        ({"name": ""}, "name is empty"),
+        ({"name": 5}, "name is 5; it must be a text"),
+        ({"version": 1.0}, "version is 1.0; it must be a text"),
+        ({"protocol": True}, "protocol is True; it must be 1"),
+        ({"question": ["position"]}, "question is .*; it must be one of position, exterior"),
+        ({"domain": [1, 2]}, r"domain is \[1, 2\]; it must be an object with regimes, ratio, magnitude"),
+        ({"domain": {"ratios": [1, 2]}}, "has the key 'ratios'; it may have regimes, ratio, magnitude"),
+        ({"domain": {"ratio": [1]}}, "must be two numbers"),
+        ({"domain": {"ratio": [1, "2"]}}, "holds '2'; it must be two numbers"),
+        ({"domain": {"ratio": [1, True]}}, "holds True"),
+        ({"domain": {"ratio": [1, 10**400]}}, "must be two numbers of float64"),
+        ({"domain": {"ratio": [float("nan"), 1]}}, r"ratio is \[nan, 1.0\]"),
+        ({"domain": {"regimes": "a>=1"}}, "must be a list of names"),
+        ({"domain": {"regimes": ["a>1"]}}, "the regime 'a>1'; it must be one of"),
+        ({1: 2}, "has the key '1'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(said, sentence):
+    with pytest.raises(InputError, match=sentence):
+        description.described(said, DEFAULTS)
+
+
+def test_a_domain_can_be_given_on_the_command_line():
+    assert description.parse_domain('{"ratio":[1,2]}').ratio == (1.0, 2.0)
+    with pytest.raises(InputError, match="the domain is '1 to 2'; it must be JSON"):
+        description.parse_domain("1 to 2")
+
+
+def test_overrides_are_checked_as_what_they_override():
+    with pytest.raises(InputError, match="the question is 'where'"):
+        DEFAULTS.overridden(question="where")
+
+
+@given(st.binary())
+def test_bytes_are_shown_whatever_they_are(data):
+    assert quoted(data).isprintable()
+
+
+@given(st.lists(st.binary(max_size=9000), max_size=30))
+def test_the_last_bytes_are_kept_and_no_more(chunks):
+    tail = OutputTail()
+    for chunk in chunks:
+        tail.add(chunk)
+    whole = b"".join(chunks)
+    assert bytes(tail._bytes[-KEPT:]) == whole[-KEPT:]
+    assert len(tail._bytes) <= 2 * KEPT
+
+
+def test_a_long_stream_is_held_in_little_memory():
+    tail = OutputTail()
+    for number in range(300):
+        tail.add(b"%04d" % number * 1024)
+        assert len(tail._bytes) <= 2 * KEPT
+    assert tail.lines() == (escaped("0296" * 1024 + "0297" * 1024 + "0298" * 1024 + "0299" * 1024, WIDTH),)
+
+
+def test_only_what_came_since_the_mark_is_recent():
+    tail = OutputTail()
+    tail.add(b"old\n")
+    tail.mark()
+    assert stderr_excerpt(tail.recent()) == ""
+    tail.add(b"a\nb\x1b\n\nc\nd")
+    assert stderr_excerpt(tail.recent()) == r"; stderr: b\x1b | c | d"
+    assert tail.lines() == ("old", "a", r"b\x1b", "c", "d")

@@ -1,0 +1,156 @@
+"""Emitted kernels: built with the compilers that the machine has, loaded, asked, and their worst errors.
+
+Emitted kernels, built with the compilers that the machine has, and loaded.
+
+How far off the answers of an emitted kernel are, over all families of its own sizes.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import json
+import shutil
+import subprocess
+import sys
+from collections import defaultdict
+from fractions import Fraction
+from uuid import uuid4
+
+import numpy as np
+import pytest
+
+from hypcheck.implementations.description import domain_of, representable
+from hypcheck.kernel.emission.kernel import EXTENSIONS, description, emitted
+from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.runs import judge
+from hypcheck.truth import float_filter
+from hypcheck.vectors.families import families_for
+
+STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
+LIBRARY = ("-O2", "-fPIC", "-shared")
+COMMANDS = {
+    "c": ("cc", "-std=c99", *STRICT, "-Wmissing-prototypes", *LIBRARY),
+    "cpp": ("c++", "-std=c++11", *STRICT, *LIBRARY),
+    "rust": ("rustc", "--edition", "2021", "-D", "warnings", "-O", "--crate-type", "cdylib"),
+}
+COMMAND = ["hypcheck", "emit", "--scene", "a scene"]
+
+
+def missing(language):
+    """What a language needs and is not here; None where all is."""
+    tool = {"javascript": "node", "python": sys.executable}.get(language) or COMMANDS[language][0]
+    return None if shutil.which(tool) else tool
+
+
+def needs(language):
+    """A mark for tests that build in a language."""
+    return pytest.mark.skipif(missing(language) is not None, reason=f"there is no {missing(language)}")
+
+
+def skip_without(language):
+    """Skip the test where what a language needs is not here."""
+    if missing(language):
+        pytest.skip(f"there is no {missing(language)}")
+
+
+def built(folder, scene, language, precision="float64", *options):
+    """The file of a kernel: a library, or the text itself where nothing compiles. Fails with the compiler's words."""
+    path = folder / f"kernel.{EXTENSIONS[language]}"
+    path.write_text(emitted(plan_of(scene, precision), language, COMMAND), encoding="utf-8")
+    if language not in COMMANDS:
+        return path
+    library = folder / f"{language}-{uuid4().hex}.so"  # a library is loaded once for each name
+    command = [*COMMANDS[language], *options, str(path), *(["-lm"] if language == "c" else []), "-o", str(library)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return library
+
+
+def pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+def answers(library, rows):
+    """What hypcheck_classify answers."""
+    found = np.full(len(rows), 99, np.int8)
+    queries = np.ascontiguousarray(rows)
+    ctypes.CDLL(str(library)).hypcheck_classify(ctypes.c_size_t(len(rows)), pointer(queries), pointer(found))
+    return found
+
+
+def asking(path, language):
+    """What answers rows: the built kernel in its own language, both entries of a library at once."""
+    if language == "python":
+        return lambda rows: np.array(_module(path).classify(rows.tolist()), np.int8)
+    if language == "javascript":
+        return lambda rows: _asked_of_node(path, rows)
+
+    def ask(rows):
+        found = answers(path, rows)
+        assert (found == answers_by_scene(path, rows)).all()
+        return found
+
+    return ask
+
+
+def _module(path):
+    spec = importlib.util.spec_from_file_location("kernel", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+_NODE = """
+import { predicate } from KERNEL;
+const chunks = [];
+for await (const chunk of process.stdin) chunks.push(chunk);
+const bytes = Buffer.concat(chunks);
+const rows = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+const found = new Int8Array(rows.length / 7).map((_, i) => predicate(...rows.subarray(7 * i, 7 * i + 7)));
+process.stdout.write(Buffer.from(found.buffer));
+"""
+
+
+def _asked_of_node(path, rows):
+    script = path.with_name("ask.mjs")
+    script.write_text(_NODE.replace("KERNEL", json.dumps(str(path))), encoding="utf-8")
+    node, sent = str(shutil.which("node")), np.ascontiguousarray(rows).tobytes()
+    done = subprocess.run([node, str(script)], input=sent, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return np.frombuffer(done.stdout, np.int8)
+
+
+def answers_by_scene(library, rows):
+    """What hypcheck_classify_scene answers; all rows have the sizes of the first."""
+    found = np.full(len(rows), 99, np.int8)
+    sizes, columns = rows[0, :4].copy(), [np.ascontiguousarray(column) for column in rows[:, 4:].T]
+    ctypes.CDLL(str(library)).hypcheck_classify_scene(
+        pointer(sizes), ctypes.c_size_t(len(rows)), *map(pointer, columns), pointer(found)
+    )
+    return found
+
+
+def worst_error(asked_of, plan, count):
+    """The largest backward error in units u of what `asked_of(rows)` answers, and how many rows were asked.
+
+    All rows of one pair of sizes are asked at once: for some languages a question starts a process.
+    """
+    domain = domain_of(description(plan, "c")["domain"], "the domain")
+    criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
+    tables = defaultdict(list)
+    for family in families_for(domain.settings):
+        rows = family.rows(0, count)
+        rows = rows[domain.holds(rows) & representable(rows, plan.format.name)]
+        if len(rows):
+            tables[tuple(rows[0, :4])].append(rows)
+    alike = [np.concatenate(parts) for parts in tables.values()]
+    return max((worst_of(asked_of, rows, criterion) for rows in alike), default=0.0), sum(map(len, alike))
+
+
+def worst_of(asked_of, rows, criterion):
+    """The largest backward error in units u of what `asked_of` answers to these rows."""
+    wrong = judge.wrong_cases(rows, float_filter.positions(rows), asked_of(rows), criterion)
+    return max(
+        (judge.in_units(judge.measured(case, criterion.question), criterion.unit) for case in wrong), default=0.0
+    )

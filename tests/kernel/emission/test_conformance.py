@@ -1,0 +1,82 @@
+"""Emitted kernels go to the gate as they are: `hypcheck emit`, a compiler, `hypcheck verify`."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.vectors import families
+from tests.kernel.emission.building import COMMANDS, skip_without
+
+pytestmark = pytest.mark.usefixtures("text_reports")
+
+
+def emit(path, language, *options, scene="tower"):
+    assert main(["emit", "--scene", scene, "--language", language, "--output", str(path), *options]) == 0
+
+
+def gated(folder, spec, count=60):
+    """What verify says of it, and how it ended; each setting has its own families, of so many cases."""
+    code = main(["verify", spec, "--out", str(folder / "out"), "--count", str(count)])
+    summary = json.loads((folder / "out" / "summary.json").read_text(encoding="utf-8"))
+    return code, summary["implementations"][0]
+
+
+@pytest.mark.parametrize(
+    ("language", "precision", "scene"),
+    [("c", "float64", "forest"), ("cpp", "float32", "tower"), ("rust", "float64", "tower-simplest")],
+)
+def test_a_library_is_gated_as_it_is(language, precision, scene, tmp_path, capsys, monkeypatch):
+    skip_without(language)
+    if scene == "forest":  # of 58 settings; test_scenes.py asks its kernel the rows that are searched for each
+        monkeypatch.setattr(families, "TRAPS", [trap for trap in families.TRAPS if trap.name != "razor"])
+    code, library = tmp_path / "kernel.source", tmp_path / "kernel.so"
+    emit(code, language, "--precision", precision, scene=scene)
+    kind = {"c": ["-x", "c"], "cpp": ["-x", "c++"], "rust": []}[language]
+    end = ["-lm"] if language == "c" else []
+    subprocess.run([*COMMANDS[language], *kind, str(code), *end, "-o", str(library)], check=True)
+    ended, found = gated(tmp_path, f"library:{library}", 3 if scene == "forest" else 60)
+    assert ended == 0, capsys.readouterr()
+    assert found["asked"] > 600
+    assert found["worst_backward_error_u"] <= 8
+
+
+def test_a_python_kernel_is_gated_as_it_is(tmp_path):
+    emit(tmp_path / "kernel.py", "python")
+    ended, found = gated(tmp_path, f"python:{tmp_path / 'kernel.py'}:classify")
+    assert (ended, found["precision"]) == (0, "float64")
+    assert found["asked"] > 600
+
+
+def test_a_javascript_kernel_takes_the_predicate_s_place(tmp_path):
+    skip_without("javascript")
+    assert main(["init", "--language", "javascript", "--directory", str(tmp_path)]) == 0
+    (adapter,) = tmp_path.rglob("adapter.mjs")
+    emit(adapter.with_name("predicate.mjs"), "javascript", "--precision", "float32")
+    ended, found = gated(tmp_path, f"command:{json.dumps([shutil.which('node'), str(adapter)])}")
+    assert (ended, found["precision"]) == (0, "float32")
+    assert found["asked"] > 600
+
+
+def test_a_kernel_that_is_wrong_is_found_out(tmp_path, capsys):
+    """The families of its own sizes judge it: a line moved inward by a millionth claims what touches."""
+    emit(tmp_path / "kernel.py", "python", "--question", "position")
+    text = (tmp_path / "kernel.py").read_text(encoding="utf-8")
+    (line,) = [line for line in text.splitlines() if line.strip().startswith("intercept_1 = ")][:1]
+    name, _, value = line.partition(" = ")
+    spoiled = text.replace(line, f"{name} = {float(value) * (1 - 1e-6)!r}", 1)
+    assert spoiled != text
+    (tmp_path / "kernel.py").write_text(spoiled, encoding="utf-8")
+    ended, found = gated(tmp_path, f"python:{tmp_path / 'kernel.py'}:classify")
+    assert ended == 1
+    assert found["wrong"] > 0
+
+
+def test_writing_to_standard_output_is_the_same(tmp_path, capsysbinary):
+    emit(tmp_path / "kernel.c", "c")
+    assert main(["emit", "--scene", "tower", "--language", "c"]) == 0
+    assert capsysbinary.readouterr().out == (tmp_path / "kernel.c").read_bytes()

@@ -1,0 +1,177 @@
+"""A scene asked as a whole: exact against rational arithmetic, whatever the grid leaves out."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.kernel.scene import Scene
+from hypcheck.kernel.scene_index import bodies_of, grid_of, reaches
+from hypcheck.scene import model
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
+from hypcheck.truth import exact
+
+
+def truth_about(body, mover, centre):
+    """The exact position of one spheroid, its centre given in the scene's coordinates."""
+    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
+    radial = integers(body.alpha, mover.b, *offset[:2])
+    axial = integers(body.gamma, mover.d, offset[2])
+    return exact.position(Lengths(*radial, *axial))
+
+
+def integers(*values):
+    exactly = [Fraction(value) for value in values]
+    unit = max(value.denominator for value in exactly)
+    return [int(value * unit) for value in exactly]
+
+
+def whole(scene, centre):
+    """The answer about all hyperboloids, each asked."""
+    said = [truth_about(body, scene.mover, centre) for body in scene.hyperboloids]
+    for position in (Position.CONTACT, Position.INTERIOR):
+        if position in said:
+            return position
+    return Position.EXTERIOR
+
+
+def forest(count, seed, side=30.0):
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    trees = tuple(
+        Hyperboloid(
+            f"tree {number}",
+            draw.uniform(0.2, 0.8),
+            draw.uniform(1, 4),
+            (draw.uniform(-side, side), draw.uniform(-side, side), draw.choice([0.0, 0.1, draw.uniform(-1, 1)])),
+        )
+        for number in range(count)
+    )
+    return model.SceneModel("forest", "position", trees, Mover(0.3, 0.9), Region(z=Span(-2.0, 2.0)))
+
+
+def centres_about(scene, count, seed):
+    """Half anywhere, half a radius off some tree, nearly."""
+    draw = np.random.default_rng(seed)
+    centres = draw.uniform([-32, -32, -2], [32, 32, 2], (count, 3))
+    for place in range(0, count, 2):
+        tree = scene.hyperboloids[draw.integers(len(scene.hyperboloids))]
+        turn, level = draw.uniform(0, 2 * np.pi), draw.uniform(-0.5, 0.5)
+        distance = tree.alpha + 0.3 * (1 + draw.choice([-1, 1]) * 10.0 ** draw.uniform(-17, 0))
+        centres[place] = np.add(tree.center, (distance * np.cos(turn), distance * np.sin(turn), level * (place % 4)))
+    return np.clip(centres, [-40, -40, -2], [40, 40, 2])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
+    scene = forest(60, seed)
+    centres = centres_about(scene, 120, seed)
+    asked = Scene(scene)
+    found = asked.classify(*centres.T)
+    assert found.dtype == np.int8
+    assert [asked.position(*centre) for centre in centres.tolist()] == found.tolist()
+    for centre, answer in zip(centres.tolist(), found.tolist(), strict=True):
+        assert answer == whole(scene, centre), centre
+
+
+def test_a_difference_that_rounds_to_contact_is_not_taken_for_it():
+    """One unit of the last place of a far centre is more than the clearance."""
+    tree = Hyperboloid("tree", 1.0, 4.0, (2.0**60, 0.0, 0.0))
+    scene = model.SceneModel("s", "position", (tree,), Mover(1.0, 1.0))
+    for x in (2.0**60 + 512, 2.0**60 - 256):
+        assert Scene(scene).classify(x, 0.0, 0.0)[0] == truth_about(tree, scene.mover, (x, 0.0, 0.0))
+        assert Scene(scene).position(x, 0.0, 0.0) == truth_about(tree, scene.mover, (x, 0.0, 0.0))
+    near = replace(tree, center=(1.0, 0.0, 0.0))
+    for x in (3 + 2.0**-51, 3.0, -1.0, -1 - 2.0**-52, 1e-30):
+        scene = model.SceneModel("s", "position", (near,), Mover(1.0, 1.0))
+        assert Scene(scene).classify(x, 1e-200, 0.0)[0] == truth_about(near, scene.mover, (x, 1e-200, 0.0))
+
+
+def test_what_is_left_out_is_out_of_reach():
+    scene = forest(80, 9)
+    bodies = bodies_of(scene.hyperboloids)
+    grid = grid_of(bodies.origins[:, 0], bodies.origins[:, 1], reaches(bodies, scene.mover, scene.region.z))
+    asked = 0
+    for centre in centres_about(scene, 200, 5).tolist():
+        near = set(grid.near(*centre[:2]))
+        asked += len(near)
+        for index, body in enumerate(scene.hyperboloids):
+            if index not in near:
+                assert truth_about(body, scene.mover, centre) is Position.EXTERIOR
+    assert asked < 200 * 80 / 4
+
+
+def test_a_tower_among_trees_and_one_without_end_are_always_asked():
+    trees = forest(40, 1)
+    tower = Hyperboloid("tower", 20.0, 30.0, (0.0, 0.0, 0.0))
+    scene = replace(trees, hyperboloids=(*trees.hyperboloids, tower))
+    assert Scene(scene).classify(20.0, 0.0, 0.0)[0] == 0
+    assert Scene(scene).classify(25.0, 0.0, 1.0)[0] == whole(scene, (25.0, 0.0, 1.0))
+    endless = replace(scene, region=Region())
+    assert Scene(endless).classify(0.0, 0.0, 50.0)[0] == whole(endless, (0.0, 0.0, 50.0))
+
+
+def test_outside_its_region_a_scene_is_asked_in_full():
+    scene = forest(30, 2)
+    for z in (-9.0, 2.5, 400.0):
+        assert Scene(scene).classify(5.0, 5.0, z)[0] == whole(scene, (5.0, 5.0, z))
+
+
+def test_parts_are_asked_where_the_mover_is_not_clear():
+    tree = Hyperboloid("tower", 2.0, 17.8)
+    rotors = tuple(MoverPart(0.1, 0.05, 0.135, angle) for angle in (0.0, 90.0, 180.0, 270.0))
+    body = model.SceneModel("s", "position", (tree,), Mover(0.25, 0.15))
+    parted = replace(body, mover=Mover(0.25, 0.15, rotors))
+    assert Scene(body).classify(1.76, 0.0, 0.0)[0] == 0
+    assert Scene(parted).classify(1.76, 0.0, 0.0, heading=45.0)[0] == -1
+    assert Scene(parted).classify(1.80, 0.0, 0.0, heading=0.0)[0] == 0
+    assert Scene(parted).classify(3.0, 0.0, 0.0)[0] == 1
+
+
+def test_beyond_the_modelled_height_nothing_is_said():
+    tree = Hyperboloid("stump", 1.0, 2.0, (0.0, 0.0, 1.0), Span(-1.0, 1.0))
+    scene = Scene(model.SceneModel("s", "position", (tree,), Mover(0.5, 0.5)))
+    assert scene.classify([0.0, 1.2, 0.0], 0.0, [2.0, 1.0, 2.5]).tolist() == [-1, 0, 2]
+    assert [scene.position(x, 0.0, z) for x, z in ((0.0, 2.0), (1.2, 1.0), (0.0, 2.5))] == [-1, 0, 2]
+    other = Hyperboloid("post", 1.0, 2.0)
+    both = Scene(model.SceneModel("s", "contact", (tree, other), Mover(0.5, 0.5)))
+    assert both.classify(1.2, 0.0, -0.1)[0] == 1
+
+
+@pytest.mark.parametrize(
+    ("question", "answers"), [("exterior", [1, 0, 0]), ("interior", [0, 0, 1]), ("contact", [0, 1, 0])]
+)
+def test_a_question_is_answered_yes_or_no(question, answers):
+    scene = model.SceneModel("s", question, (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5))
+    asked = Scene(scene)
+    assert asked.classify([9.0, 2.0, 0.0], 0.0, 0.0).tolist() == answers
+    assert [asked.position(x, 0.0, 0.0) for x in (9.0, 2.0, 0.0)] == answers
+
+
+def test_the_public_name_reads_a_file(tmp_path):
+    file = tmp_path / "scene.toml"
+    file.write_text('name = "s"\n[[hyperboloid]]\nalpha = 2\ngamma = 4\n[mover]\nb = 1\nd = 1\n', encoding="utf-8")
+    assert hypcheck.Scene.from_toml(file).classify(9.0, 0.0, 0.0).tolist() == [1]
+    assert hypcheck.Scene.from_toml("tower").classify([0.0], [0.0], [0.0]).tolist() == [1]
+
+
+@pytest.mark.parametrize(
+    ("centre", "sentence"),
+    [
+        ((np.inf, 0.0, 0.0), "row 0: x is inf"),
+        ((0.0, [0.0, np.nan], 0.0), "row 1: y is nan"),
+        ((np.eye(2), 0.0, 0.0), "have shapes that do not go together"),
+    ],
+)
+def test_bad_centres_are_refused(centre, sentence):
+    with pytest.raises(InputError, match=sentence):
+        Scene(forest(3, 3)).classify(*centre)
+    if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):
+        with pytest.raises(InputError, match=r"^x is inf; it must be finite"):
+            Scene(forest(3, 3)).position(*centre)

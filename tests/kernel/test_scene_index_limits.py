@@ -1,0 +1,153 @@
+"""A scene asked at its limits: heights, far centres, what is no number, and arrays of every shape."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.kernel.scene import Scene
+from hypcheck.kernel.scene_index import WIDEST, bodies_of, grid_of, levels_of
+from hypcheck.scene import model
+from hypcheck.scene.model import Hyperboloid, Mover, Region, Span
+from tests.kernel.test_scene_index import truth_about
+
+HILLS = (
+    Hyperboloid("low", 0.5, 4.0, (0.0, 0.0, 0.0), Span(-1.0, 5.0)),
+    Hyperboloid("high", 0.5, 4.0, (40.0, 0.0, 10.0), Span(-1.0, 5.0)),
+)
+
+
+def both(scene, centre):
+    """What a batch and a step say, which is one."""
+    (answer,) = scene.classify(*centre).tolist()
+    assert scene.position(*centre) == answer
+    return answer
+
+
+def test_a_height_at_which_something_stands_is_exterior_wherever_nothing_is_near():
+    """Whether the tree that is near, or none, is modelled at that height does not matter."""
+    for region in (Region(), Region(z=Span(-2.0, 30.0)), Region(z=Span(0.0, 1.0))):
+        scene = Scene(model.SceneModel("hills", "position", HILLS, Mover(0.3, 0.9), region))
+        for x in (0.0, 20.0, 40.0, 1e9):
+            assert both(scene, (x, 3.0, 12.0)) == 1
+            assert both(scene, (x, 3.0, 2.0)) == 1
+            assert both(scene, (x, 3.0, 7.0)) == 2
+            assert both(scene, (x, 3.0, -1.5)) == 2
+        assert both(scene, (0.0, 0.0, 12.0)) == 1
+        assert both(scene, (0.6, 0.0, 5.0)) == 0
+        assert both(scene, (0.6, 0.0, math.nextafter(5.0, 6.0))) == 2
+
+
+def test_heights_end_where_the_exact_sum_does():
+    draw = random.Random(4)  # noqa: S311 - nothing is secret
+    trees = [
+        Hyperboloid(
+            str(k), 1.0, 1.0, (0, 0, draw.uniform(-1, 1) * 10 ** draw.uniform(-9, 9)), Span(-1.0, draw.random())
+        )
+        for k in range(200)
+    ]
+    for tree, (low, high) in zip(trees, bodies_of(trees).heights.tolist(), strict=True):
+        bottom, top = (Fraction(tree.center[2]) + Fraction(end) for end in (tree.height.low, tree.height.high))
+        assert math.nextafter(low, -math.inf) < bottom <= low
+        assert high <= top < math.nextafter(high, math.inf)
+
+
+def test_levels_are_the_union_of_heights():
+    draw = np.random.default_rng(2)
+    spans = np.sort(draw.integers(0, 60, (12, 2)).astype(float), axis=1)
+    levels = levels_of(spans)
+    points = np.arange(-1, 62, 0.5)
+    wanted = ((points[:, None] >= spans[:, 0]) & (points[:, None] <= spans[:, 1])).any(axis=1)
+    assert [levels.hold(z) for z in points.tolist()] == wanted.tolist() == levels.hold_each(points).tolist()
+
+
+def test_a_difference_that_leaves_float64_is_taken_exactly():
+    far = Hyperboloid("far", 1.0, 2.0, (1e308, 0.0, -1e308))
+    vast = Hyperboloid("vast", 1e308, 1e300, (-1.5e308, 0.0, 0.0))
+    for body in (far, vast):
+        scene = model.SceneModel("s", "position", (body,), Mover(1.0, 1.0))
+        for centre in ((-1e308, 0.0, 1e308), (1.7e308, -1e308, 0.0), (-5e307, 0.0, 0.0)):
+            assert both(Scene(scene), centre) == truth_about(body, scene.mover, centre)
+
+
+def test_the_least_lengths_that_there_are_are_answered():
+    tiny = 5e-324
+    body = Hyperboloid("tiny", tiny, tiny)
+    scene = model.SceneModel("s", "position", (body,), Mover(tiny, tiny), Region(z=Span(-1, 1)))
+    for x in (0.0, tiny, 2 * tiny, 3 * tiny, 4 * tiny, 1.0, 1e308):
+        assert both(Scene(scene), (x, 0.0, 0.0)) == truth_about(body, scene.mover, (x, 0.0, 0.0))
+
+
+def test_the_grid_answers_a_step_as_it_does_a_batch():
+    draw = np.random.default_rng(3)
+    x, y = draw.uniform(-50, 50, (2, 300))
+    reaches = np.where(draw.random(300) < 0.02, np.inf, draw.uniform(0.1, 3, 300))
+    grid = grid_of(x, y, reaches)
+    px, py = draw.uniform(-60, 60, (2, 200))
+    px[:3] = 1e300, -1e300, 4.0 * WIDEST * grid.side
+    query, member = grid.near_each(px, py)
+    for place in range(200):
+        step = sorted(grid.near(float(px[place]), float(py[place])))
+        assert step == sorted(member[query == place].tolist())
+        touched = np.flatnonzero(np.hypot(x - px[place], y - py[place]) <= reaches)
+        assert set(touched.tolist()) <= set(step)
+
+
+def test_outside_its_region_only_what_is_in_reach_is_asked():
+    count = 20_000
+    trees = tuple(Hyperboloid(str(k), 0.4, 8.0, (5.0 * (k % 200), 5.0 * (k // 200), 0.0)) for k in range(count))
+    scene = Scene(model.SceneModel("f", "contact", trees, Mover(0.3, 0.9), Region(z=Span(0.0, 0.0))))
+    x, y = np.arange(40.0) + 0.5, np.full(40, 5.0)
+    (pairs,) = {len(scene._pairs(np.stack([x, y, np.full(40, 0.5)], axis=1))[0])}
+    assert pairs < 40 * 4
+    assert scene.classify(x, y, 0.5).tolist() == [int(k % 5 in (0, 4)) for k in range(40)]
+
+
+@pytest.mark.parametrize(
+    ("centre", "sentence"),
+    [
+        (("a", 0, 0), "x is 'a'; it must be a number"),
+        ((0, 1j, 0), "y is 1j; it must be a number"),
+        ((0, 0, [[1], [2, 3]]), r"z is \[\[1\], \[2, 3\]\]; it must be a number"),
+        ((10**400, 0, 0), "x is (1000000|an integer too large for float64)"),
+        (([0, 1], [0, 1, 2], 0), r"x \(2,\), y \(3,\), z \(1,\), heading \(1,\) have shapes that do not go together"),
+        ((0, 0, None), "z is None; it must be a number"),
+        (("1.5", 0, 0), "x is '1.5'; it must be a number"),
+        ((0, b"1.5", 0), "y is b'1.5'; it must be a number"),
+        ((True, 0, 0), "x is True; it must be a number"),
+        ((0, 0, 0, math.inf), "heading is inf; it must be finite"),
+    ],
+)
+def test_what_is_no_centre_gets_a_sentence(centre, sentence):
+    scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
+    with pytest.raises(InputError, match=sentence):
+        scene.classify(*centre)
+    if not any(isinstance(each, list) for each in centre):
+        with pytest.raises(InputError, match=f"^{sentence}"):
+            scene.position(*centre)
+
+
+def test_a_step_takes_every_kind_of_number_and_no_array_of_several():
+    scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
+    for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
+        assert scene.position(one, 0, 0) == -1  # the mover is narrower than the waist
+    with pytest.raises(InputError, match=r"x is of shape \(2,\); it must be a number \(classify takes arrays\)"):
+        scene.position(np.array([1.0, 2.0]), 0, 0)
+
+
+def test_nothing_asked_is_nothing_answered_and_every_layout_is_read():
+    scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
+    assert scene.classify([], [], []).tolist() == []
+    wide = np.arange(8.0)[::2]
+    assert scene.classify(wide, 0, 0).tolist() == scene.classify(wide.astype(np.float32), [0.0], 0.0).tolist()
+
+
+def test_a_scene_of_nothing_is_refused():
+    with pytest.raises(InputError, match="the scene has no hyperboloid"):
+        Scene(replace(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)), hyperboloids=()))

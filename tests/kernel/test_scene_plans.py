@@ -1,0 +1,117 @@
+"""Plans of scenes: which settings there are, what they do without, and what is said about it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
+from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.kernel.specialise.settings import settings_of
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from hypcheck.scene.reading import read_scene
+from tests.support.scenes import scene
+
+
+def test_pairs_of_the_same_sizes_share_a_setting():
+    tower = read_scene("tower")
+    body, rotors = settings_of(tower)
+    assert body.sizes == (2.0, 17.8, 0.25, 0.15)
+    assert rotors.sizes == (2.0, 17.8, 0.1, 0.05)
+    assert rotors.uses == tuple(f"part {number} and tower" for number in (1, 2, 3, 4))
+
+
+def test_the_region_is_seen_from_each_hyperboloid_and_wider_by_an_arm():
+    trees = (Hyperboloid("oak", 1.0, 2.0, (10.0, 0.0, 0.0)), Hyperboloid("elm", 1.0, 3.0, (-10.0, 5.0, 1.0)))
+    mover = Mover(0.5, 0.5, (MoverPart(0.1, 0.1, 0.25),))
+    settings = settings_of(SceneModel("s", "position", trees, mover, Region(Span(-20, 20), None, Span(0, 4))))
+    oak, arm, elm, _ = settings
+    assert (oak.box.x, oak.box.y, oak.box.z) == (Span(-30, 10), None, Span(0, 4))
+    assert (elm.box.x, elm.box.z) == (Span(-10, 30), Span(-1, 3))
+    assert arm.box.x is not None
+    assert -30.25001 < arm.box.x.low < -30.25
+
+
+def test_a_height_is_asked_for_only_where_the_region_does_not_end_before_it():
+    tree = Hyperboloid("oak", 1.0, 2.0, (0.0, 0.0, 0.0), Span(-1, 3))
+    for region, cut in ((Region(), Span(-1, 3)), (Region(z=Span(0, 2)), None), (Region(z=Span(0, 5)), Span(-1, 3))):
+        (setting,) = settings_of(SceneModel("s", "position", (tree,), Mover(1, 1), region))
+        assert setting.cut == cut
+    assert settings_of(SceneModel("s", "position", (tree,), Mover(1, 1), Region(z=Span(4, 5)))) == ()
+
+
+def test_a_constant_height_leaves_two_thresholds():
+    (stages,) = plan_of(scene(z=Span(0.0, 0.0))).settings
+    assert stages.thresholds is not None
+    assert stages.lines == ()
+    assert stages.search is None
+
+
+def test_a_one_sided_question_has_lines_of_its_side_alone():
+    for question, side in (("exterior", 1), ("interior", -1)):
+        (stages,) = plan_of(scene(question=question)).settings
+        assert {int(line.side) for line in stages.lines} == {side}
+        assert any("whatever tells" in omission.what for omission in stages.omitted)
+
+
+def test_where_a_positive_discriminant_is_not_clear_it_is_not_asked_so():
+    (stages,) = plan_of(scene((3.0, 1.0, 1.0, 1.0))).settings
+    assert stages.discriminant is not None
+    assert not stages.discriminant.clear_where_positive
+    assert any("Δ > 0" in omission.what for omission in stages.omitted)
+
+
+def test_the_tower_costs_a_third_of_table_2():
+    lines = list(plan_lines(plan_of(replace(read_scene("tower"), question="position"))))
+    averages = [float(line.split("search; ")[1].split()[0]) for line in lines if "before a search" in line]
+    assert len(averages) == 1  # the body and the rotors cost the same and are told together
+    assert averages[0] < printed_operations().rounded / 2
+    assert (printed_operations().additions, printed_operations().multiplications) == (9, 17)
+
+
+def test_a_plan_tells_all_settings_by_their_numbers_and_reasons_once():
+    plan = plan_of(read_scene("forest"))
+    lines = list(plan_lines(plan))
+    for number, stages in enumerate(plan.settings, start=1):
+        assert sum(line.startswith(f"{number}. alpha {stages.setting.sizes[0]!r}, ") for line in lines) == 1
+    assert lines.count("   each leaves out") == 1  # trees at one height; of two kinds two stand at several
+    assert len(lines) < 5 * len(plan.settings)
+
+
+def test_shares_add_up():
+    for precision in ("float32", "float64"):
+        for setting in plan_as_json(plan_of(read_scene("tower"), precision))["settings"]:
+            assert sum(setting["shares"].values()) == pytest.approx(1)
+
+
+def test_another_format_is_refused():
+    with pytest.raises(InputError, match="the precision is 'float16'; a kernel computes in float32 or float64"):
+        plan_of(scene(), "float16")
+
+
+def test_the_command_tells_and_writes_json(capsys):
+    assert main(["plan", "tower", "--precision", "float32"]) == 0
+    assert "in float32" in capsys.readouterr().out
+    assert main(["plan", "tower", "--question", "contact", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["question"], len(told["settings"])) == ("contact", 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["plan", "tower", "--question", "where"], "the question is 'where'; it must be one of position"),
+        (["plan", "nowhere.toml"], "nowhere.toml: there is no such file"),
+        (["plan", "tower", "--precision", "half"], "the precision is 'half'"),
+        (["emit", "--scene", "tower", "--language", "python", "--precision", "float32"], "python has no float32"),
+    ],
+)
+def test_bad_input_gets_a_sentence(words, sentence, capsys):
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert "Traceback" not in error

@@ -1,0 +1,156 @@
+"""Each stage of a plan against exact decisions: what it claims is true, and it claims enough to be worth having."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.evaluation import evaluate, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import FixedSizes
+from hypcheck.implementations.description import representable
+from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
+from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant
+from hypcheck.kernel.specialise.settings import FORMATS, Box, Setting, position_of_box, scaled
+from hypcheck.scene.model import Span
+from hypcheck.truth import exact, float_filter
+from hypcheck.vectors.families import families_for
+
+SIZES = [
+    (2.0, 17.8, 0.25, 0.15),
+    (1.0, 4.0, 1.0, 1.0),
+    (0.5, 3.0, 1.0, 1.0),  # a < 1: the intercept of an interior line is negative for small μ
+    (3.0, 1.0, 1.0, 1.0),  # c² < a
+    (0.01, 1e4, 10.0, 0.01),
+]
+
+
+def rows_for(sizes, count=1024):
+    return np.concatenate([family.rows(7, count) for family in families_for((FixedSizes(sizes),))])
+
+
+def at_entry(sizes, form, rows):
+    scale = scaled(sizes, form)
+    program, constants = entry(scale)
+    x, y, z = rows[:, 4:].T
+    values = evaluate(program, float_arithmetic(form.name), {"x": x, "y": y, "z": z, **constants})
+    return scale, program, constants, values
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+@pytest.mark.parametrize("sizes", SIZES)
+def test_a_centre_beyond_a_line_is_where_the_line_says(sizes, precision):
+    form, rows = FORMATS[precision], rows_for(sizes)
+    rows = rows[representable(rows, precision)]
+    scale, _, _, values = at_entry(sizes, form, rows)
+    told = 0
+    truth = float_filter.positions(rows)
+    for share in (Fraction(1, 64), Fraction(1, 3), Fraction(7, 8)):
+        for pole in (-scale.A, scale.B):
+            line = line_at(pole * share, scale, form, 1)
+            if line is None:
+                continue
+            inputs = {"R": values["R"], "zz": values["zz"], **line.constants}
+            (holds,) = outputs(line.program, float_arithmetic(precision), inputs, (line.holds,))
+            assert (truth[holds] == line.side).all(), (line.side, line.multiplier)
+            told += int(holds.sum())
+    assert told > 100
+
+
+def test_a_line_is_a_tangent_so_that_no_margin_can_be_left_out():
+    """Without the margin a line would claim centres that touch: its constants are at the limit."""
+    sizes, form = (1.0, 3.0, 1.0, 1.0), FORMATS["float64"]
+    scale = scaled(sizes, form)
+    line = line_at(Fraction(1), scale, form, 1)  # √A: the tangent of the waist, R > (a + 1)² at Z = 0
+    assert line is not None
+    assert 4 < line.constants["intercept_1"] <= 4 * (1 + 20 * 2.0**-53)
+
+
+@pytest.mark.parametrize("multiplier", [0, 64, -64, 10**6])
+def test_a_multiplier_outside_the_poles_is_no_line(multiplier):
+    with pytest.raises(ValueError, match="is not in"):
+        line_at(Fraction(multiplier), scaled((8.0, 8.0, 1.0, 1.0), FORMATS["float64"]), FORMATS["float64"], 1)
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+@pytest.mark.parametrize("sizes", SIZES[:4])
+def test_beyond_its_bound_the_discriminant_has_its_exact_sign(sizes, precision):
+    form, rows = FORMATS[precision], rows_for(sizes, 256)
+    alpha, gamma, b, d = map(Fraction, sizes)
+    corner = (2 * (alpha + b), 2 * (gamma + d))
+    rows = rows[(np.abs(rows[:, 4:6]) <= float(corner[0])).all(axis=1) & (np.abs(rows[:, 6]) <= float(corner[1]))]
+    scale, first, constants, values = at_entry(sizes, form, rows)
+    stage = discriminant(scale, form, first, constants, corner)
+    assert stage is not None
+    found = evaluate(stage.program, float_arithmetic(precision), {**values, **stage.constants})["delta_3"]
+    certain = np.abs(found) > stage.bound
+    assert certain.any()
+    for row, value in zip(rows[certain][:400].tolist(), found[certain].tolist(), strict=False):
+        n = exact.cubic(Pair.from_row(row).lengths)
+        h1, h2, h3 = n.n2**2 - 3 * n.n3 * n.n1, n.n2 * n.n1 - 9 * n.n3 * n.n0, n.n1**2 - 3 * n.n2 * n.n0
+        assert (4 * h1 * h3 - h2 * h2 > 0) == (value > 0), row
+
+
+def test_a_discriminant_that_leaves_the_format_is_left_out():
+    sizes, form = (1e6, 1e6, 1e-6, 1e-6), FORMATS["float32"]
+    scale = scaled(sizes, form)
+    first, constants = entry(scale)
+    assert discriminant(scale, form, first, constants, (Fraction(10**6), Fraction(10**6))) is None
+
+
+@pytest.mark.parametrize("sizes", SIZES[:4])
+@pytest.mark.parametrize("height", [0.0, 0.7, 40.0])
+def test_thresholds_part_the_positions(sizes, height):
+    form = FORMATS["float64"]
+    found = thresholds(sizes, height, scaled(sizes, form), form)
+    radial = float(scaled(sizes, form).radial)
+
+    def position(square):
+        return exact.position(Pair(*sizes, square**0.5 / radial, 0.0, height).lengths)
+
+    assert position(found.outer * (1 + 1e-14)) is Position.EXTERIOR
+    assert position(found.outer * (1 - 1e-14)) is Position.CONTACT
+    if found.inner is None:
+        assert position(0.0) is not Position.INTERIOR
+    else:
+        assert position(found.inner * (1 - 1e-14)) is Position.INTERIOR
+        assert position(found.inner * (1 + 1e-14)) is Position.CONTACT
+
+
+def test_a_region_of_one_answer_is_known_and_no_other():
+    sizes = (2.0, 17.8, 0.25, 0.15)
+
+    def found(x, z):
+        return position_of_box(Setting(sizes, Box(x, x, z), None, ()))
+
+    low = Span(-1.0, 1.0)
+    assert found(Span(5.0, 9.0), low) is Position.EXTERIOR
+    assert found(Span(-0.5, 0.5), None) is Position.INTERIOR
+    assert found(Span(0.0, 5.0), low) is None
+    assert found(Span(5.0, 9.0), None) is None
+    assert found(None, low) is None
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_numbers_are_rounded_to_the_format_in_the_direction_asked_for(name):
+    form = FORMATS[name]
+    dtype = np.dtype(name).type
+    for value in (Fraction(1, 3), Fraction(-7, 11), Fraction(10) ** 30, Fraction(1, 3 * 2**100)):
+        down, up, nearest = (form.rounded(value, way) for way in ("down", "up", "nearest"))
+        assert all(float(dtype(each)) == each for each in (down, up, nearest))
+        assert down < value < up
+        assert float(np.nextafter(dtype(down), dtype(np.inf))) == up
+        assert nearest in (down, up)
+        assert abs(Fraction(nearest) - value) <= min(value - Fraction(down), Fraction(up) - value)
+    assert form.rounded(Fraction(0)) == 0.0
+    for beyond in (Fraction(2) ** (form.greatest + 1), Fraction(2) ** (form.least - 1)):
+        with pytest.raises(OverflowError, match="is no normal number"):
+            form.rounded(beyond)
+
+
+def test_the_search_is_bounded_by_what_users_are_promised():
+    """The tolerance that verify grants unless told otherwise is 8 units."""
+    assert backward_bound() == 8

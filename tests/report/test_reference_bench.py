@@ -1,0 +1,84 @@
+"""The committed benchmark is whole, of these methods, and its reports and pictures are what its record says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.record import SCHEMA, read
+from hypcheck.record.measurements import AbsentLine, AccuracyLine, MethodLine
+from hypcheck.report import markdown
+from hypcheck.report.write import REPORTS, ReportContext
+from hypcheck.version import VERSION
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "reports" / "reference" / "bench"
+PICTURES = ("errors", "front", "pareto")
+AROUND = ReportContext([REPORTS[name].file for name in PICTURES])
+
+
+@pytest.fixture(scope="module")
+def record():
+    return read(FOLDER / "record.jsonl")
+
+
+def test_it_is_a_whole_run_of_this_version_that_held_within_five_minutes(record):
+    assert record.header.hypcheck == VERSION
+    assert record.header.schema.partition(".")[0] == SCHEMA.partition(".")[0]
+    assert (record.header.options["command"], record.header.options["quick"]) == ("bench", False)
+    assert record.footer.exit_code == 0
+    assert record.footer.seconds < 300
+
+
+def test_every_method_was_there_and_judged(record):
+    named = {line.method for line in record.of(MethodLine)}
+    assert named == set(contenders(BenchPlan()))
+    assert {line.method for line in record.of(AccuracyLine)} == named
+    assert not record.of(AbsentLine)
+
+
+def test_the_pages_are_those_of_the_record(record):
+    assert (FOLDER / "README.md").read_bytes() == markdown.render_overview(record, AROUND)
+    assert (FOLDER / "report.md").read_bytes() == markdown.render(record, AROUND)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_the_pictures_say_what_the_record_does(record, name):
+    """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
+    fresh, committed = REPORTS[name].render(record), (FOLDER / REPORTS[name].file).read_bytes()
+    assert said(fresh) == said(committed)
+    methods = {line.method for line in record.of(MethodLine)}
+    assert lettered(fresh) - methods == lettered(committed) - methods  # a point is named where there is room for it
+    assert len(said(committed)) > 50
+    assert len(lettered(committed)) > 20
+
+
+def said(picture):
+    """All titles, descriptions and tooltips of a picture, in order."""
+    return [text for tag, text in words(picture) if tag in ("title", "desc")]
+
+
+def lettered(picture):
+    """What can be read in it: names of axes, marks, points and curves."""
+    return {text for tag, text in words(picture) if tag == "text"}
+
+
+def words(picture):
+    elements = ElementTree.fromstring(picture).iter()  # noqa: S314
+    return [(each.tag.rpartition("}")[2], "".join(each.itertext()).strip()) for each in elements]
+
+
+def test_the_readme_shows_its_picture():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "](reports/reference/bench/front.svg)" in text
+    assert "](reports/reference/bench/README.md)" in text
+
+
+def test_all_of_it_is_small():
+    assert sum(REPORTS[name].file in {path.name for path in FOLDER.iterdir()} for name in PICTURES) == len(PICTURES)
+    kept = [FOLDER / name for name in ("record.jsonl", "README.md", "report.md", *(REPORTS[p].file for p in PICTURES))]
+    assert sum(path.stat().st_size for path in kept) < 3_000_000

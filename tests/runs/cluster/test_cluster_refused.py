@@ -1,0 +1,181 @@
+"""A cluster that is not there, is none, or is not like us here is told of in a sentence."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import os
+import shutil
+import signal
+import socket
+import sys
+import threading
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.implementations.session import Limits
+from hypcheck.runs import cluster as ways
+from hypcheck.runs.cluster import call_with_timeout, check_address, cluster_client
+from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
+from tests.runs.cluster.clusters import Cluster
+from tests.runs.crashing import rules_of, steps_of
+
+pytest.importorskip("distributed")
+
+from distributed.comm.core import CommClosedError
+
+from hypcheck.runs.dask_executor import execution_on_cluster
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    """A scheduler and one worker."""
+    found = Cluster(tmp_path_factory.mktemp("cluster"), {})
+    found.start_workers(1)
+    yield found
+    found.end()
+
+
+@contextlib.contextmanager
+def server(says):
+    """The address of one who answers every connection with these bytes, and then is silent."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        held = []
+
+        def serve():
+            with contextlib.suppress(OSError):
+                while True:
+                    held.append(listening.accept()[0])
+                    held[-1].sendall(says)
+
+        threading.Thread(target=serve, daemon=True).start()
+        yield f"tcp://127.0.0.1:{listening.getsockname()[1]}"
+        listening.shutdown(socket.SHUT_RDWR)
+        for each in held:
+            each.close()
+
+
+def refusal(address, monkeypatch):
+    """What is said of an address that must answer within a second."""
+    monkeypatch.setattr(ways, "CONNECT", 1)
+    with pytest.raises(InputError) as said, cluster_client(address):
+        pass
+    return str(said.value)
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["nonsense", "host", "host:", "host:65536", "local:0", "local:x", "http://host:8786", "tcp://host/a:1", ""],
+)
+def test_what_is_no_address(address):
+    with pytest.raises(InputError, match=r"it must be that of a dask\.distributed scheduler, such as"):
+        check_address(address)
+
+
+@pytest.mark.parametrize("address", ["host:8786", "tcp://10.0.0.1:8786", "tls://[::1]:65535", "local:1", "local:9999"])
+def test_what_is_an_address(address):
+    check_address(address)
+
+
+def test_a_call_is_waited_for_no_longer_than_said():
+    assert call_with_timeout(9, lambda: 3) == 3
+    with pytest.raises(ZeroDivisionError):
+        call_with_timeout(9, lambda: 1 // 0)
+    with pytest.raises(TimeoutError, match="it took longer than 1 s"):
+        call_with_timeout(1, threading.Event().wait)
+
+
+def test_nobody_is_there(monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        port = listening.getsockname()[1]
+    said = refusal(f"tcp://127.0.0.1:{port}", monkeypatch)
+    assert said == f"--cluster tcp://127.0.0.1:{port}: no dask scheduler answers there: connection refused"
+
+
+@pytest.mark.parametrize(
+    ("says", "reason"),
+    [(b"", "nothing was said within 1 s"), (b"HTTP/1.1 400 Bad Request\r\n\r\n" * 9, "what is said there is not")],
+)
+def test_somebody_else_is_there(monkeypatch, says, reason):
+    with server(says) as address:
+        assert reason in refusal(address, monkeypatch)
+
+
+def test_certificates_are_missing(monkeypatch):
+    assert "certificates are told by dask's settings" in refusal("tls://127.0.0.1:9", monkeypatch)
+
+
+def test_a_worker_is_there(cluster, monkeypatch):
+    with cluster_client(cluster.address) as client:
+        (worker,) = client.scheduler_info()["workers"]
+    assert "a dask worker is there, and no scheduler; name its scheduler" in refusal(worker, monkeypatch)
+
+
+def test_a_worker_that_cannot_write(cluster):
+    opening = ImplementationOpener("builtin:fast", Limits())
+    with (
+        cluster_client(cluster.address) as client,
+        opening.open() as it,
+        execution_on_cluster(client, opening, rules_of(it), it) as performing,
+    ):
+        client.run(lambda dask_worker: shutil.rmtree(dask_worker.local_directory))
+        with pytest.raises(InputError, match=r"worker tcp://\S+ cannot write into its folder \S+: no such file"):
+            list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
+
+
+def test_a_worker_that_says_nothing(tmp_path, monkeypatch):
+    """Its system goes on to say that it is there."""
+    found = Cluster(tmp_path, {})
+    try:
+        found.start_workers(1)
+        with cluster_client(found.address) as client:
+            (worker,) = client.run(os.getpid).values()
+        os.kill(worker, signal.SIGSTOP)
+        assert "not all of its workers answered within 1 s" in refusal(found.address, monkeypatch)
+    finally:
+        found.end()
+
+
+def test_a_scheduler_without_workers(tmp_path, monkeypatch):
+    empty = Cluster(tmp_path, {})
+    try:
+        assert "the scheduler has no workers; `dask worker tcp://" in refusal(empty.address, monkeypatch)
+    finally:
+        empty.end()
+
+
+@pytest.mark.parametrize(
+    ("package", "version", "said"), [("hypcheck", "0.0.1", "has hypcheck 0.0.1"), ("dask", None, "has no dask")]
+)
+def test_other_versions(cluster, package, version, said):
+    with cluster_client(cluster.address) as client:
+        found = client.get_versions(packages=["hypcheck"])
+    ways._require_versions(found, cluster.address)
+    for who in ("scheduler", "worker"):
+        other = copy.deepcopy(found)
+        machine = other[who] if who == "scheduler" else next(iter(other["workers"].values()))
+        machine["packages"][package] = version
+        with pytest.raises(InputError, match=rf"{who} (tcp\S+ )?{said}, and here it is .*; both must be one"):
+            ways._require_versions(other, cluster.address)
+
+
+def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
+    assert main([*words, "--cluster", "local:2"]) == 2
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        "hypcheck: error: --cluster needs dask.distributed (distributed is not installed): "
+        "pip install 'hypcheck[cluster]'"
+    )
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_worker_that_is_lost_before_it_tells_its_files_is_not_said_to_have_others():
+    """As dask tells of it; whoever comes in its place is looked at later."""
+    ours = ways.own_sha256()
+    ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": CommClosedError("in rpc")}, "tcp://c:3")
+    for there in ("another", ImportError("no module named hypcheck.runs.fingerprint")):
+        with pytest.raises(InputError, match="worker tcp://b:2 has other files of hypcheck"):
+            ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": there}, "tcp://c:3")

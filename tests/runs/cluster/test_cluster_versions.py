@@ -1,0 +1,96 @@
+"""A cluster of other versions, or of other files of ours, is refused in a sentence: by real schedulers and workers."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.implementations.session import Limits
+from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
+from hypcheck.version import VERSION
+from tests.runs.cluster.clusters import HOME, Cluster
+from tests.runs.crashing import rules_of, steps_of
+
+pytest.importorskip("distributed")
+
+from hypcheck.runs.cluster import cluster_client
+from hypcheck.runs.dask_executor import execution_on_cluster
+
+OTHER_DASK = """
+from importlib import metadata
+
+ours = metadata.version
+metadata.version = lambda name: "2020.1.0" if name == "distributed" else ours(name)
+"""
+OTHER_FILES = f"has other files of hypcheck {VERSION} than there are here; install the same there"
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler like us, and no workers yet."""
+    found = Cluster(tmp_path, {})
+    yield found
+    found.end()
+
+
+@pytest.fixture(scope="module")
+def another(tmp_path_factory):
+    """A folder with a hypcheck that differs from ours by a comment."""
+    home = tmp_path_factory.mktemp("another")
+    shutil.copytree(Path(hypcheck.__file__).parent, home / "hypcheck", ignore=shutil.ignore_patterns("__pycache__"))
+    (home / "cases").symlink_to(HOME / "cases")
+    with (home / "hypcheck" / "runs" / "judge.py").open("a") as file:
+        file.write("# one line more\n")
+    return home
+
+
+def refusal(address):
+    with pytest.raises(InputError) as said, cluster_client(address):
+        pass
+    return str(said.value)
+
+
+def test_a_scheduler_of_another_dask(tmp_path, monkeypatch):
+    """It is not even tried with dask's own client, which may wait long for one of other versions, and print errors."""
+    monkeypatch.setattr("distributed.Client", None)
+    (tmp_path / "sitecustomize.py").write_text(OTHER_DASK)
+    other = Cluster(tmp_path, {"PYTHONPATH": str(tmp_path)})
+    try:
+        said = refusal(other.address)
+    finally:
+        other.end()
+    assert "the scheduler has distributed 2020.1.0, and here it is " in said
+
+
+def test_a_worker_of_another_dask(cluster, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(OTHER_DASK)
+    cluster.start_workers(1, {"PYTHONPATH": str(tmp_path)})
+    said = refusal(cluster.address)
+    assert "worker tcp://127.0.0.1:" in said
+    assert " has distributed 2020.1.0, and here it is " in said
+
+
+def test_a_worker_with_other_files_of_the_same_version(cluster, another):
+    cluster.start_workers(1, home=another)
+    assert refusal(cluster.address).endswith(OTHER_FILES)
+
+
+def test_a_worker_with_other_files_that_comes_in_the_middle(cluster, another):
+    opening = ImplementationOpener("builtin:fast", Limits())
+    cluster.start_workers(1)
+    with (
+        cluster_client(cluster.address) as client,
+        opening.open() as it,
+        execution_on_cluster(client, opening, rules_of(it), it) as performing,
+    ):
+        passed = perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance))
+        next(passed)
+        cluster.start_workers(1, home=another)
+        client.wait_for_workers(2, timeout=60)
+        cluster.kill_workers(1)
+        with pytest.raises(InputError, match=rf"worker tcp://\S+ {OTHER_FILES}"):
+            list(passed)

@@ -1,0 +1,152 @@
+"""A cluster that a run starts here is for that run alone: for no other user, no network, and not for longer."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import socket
+import ssl
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from hypcheck.cli.main import main
+from tests.tools.miniatures import needs_proc
+
+pytest.importorskip("distributed")
+
+from distributed.core import rpc
+from distributed.security import Security
+
+from hypcheck.runs import local_cluster
+from hypcheck.runs.cluster import cluster_client
+
+pytestmark = needs_proc
+
+LISTENING = "0A"
+WORKERS = 2
+
+
+def descendants(process: int) -> set[int]:
+    """The numbers of a process and of all that it and its children started."""
+    found, todo = set(), [process]
+    while todo:
+        found.add(each := todo.pop())
+        for file in Path(f"/proc/{each}/task").glob("*/children"):
+            with contextlib.suppress(OSError):
+                todo += map(int, file.read_text().split())
+    return found
+
+
+def listening(processes: set[int]) -> set[tuple[str, int]]:
+    """Addresses, as the system writes them in hexadecimal, and ports on which these processes accept connections."""
+    sockets = set()
+    for process in processes:
+        for file in Path(f"/proc/{process}/fd").iterdir():
+            with contextlib.suppress(OSError):
+                sockets.add(os.readlink(file))
+    found = set()
+    for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+        for line in Path(table).read_text().splitlines()[1:] if Path(table).exists() else ():
+            _, local, _, state, *rest = line.split()
+            if state == LISTENING and f"socket:[{rest[5]}]" in sockets:
+                address, port = local.split(":")
+                found.add((address, int(port, 16)))
+    return found
+
+
+def answer_without_certificate(port: int) -> bytes:
+    """What a TLS server answers to one that has no certificate; raises where it lets nobody in without."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    with socket.create_connection(("127.0.0.1", port), timeout=5) as plain, context.wrap_socket(plain) as encrypted:
+        encrypted.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        return encrypted.recv(1)
+
+
+async def identity(address: str, security: Security) -> str:
+    """What a node of dask says that it is."""
+    async with rpc(address, timeout=5, connection_args=security.get_connection_args("client")) as there:
+        return str((await asyncio.wait_for(there.identity(), 5))["type"])
+
+
+@pytest.fixture(scope="module")
+def sockets():
+    """All on which a local cluster listens; the scheduler's address, and what our own client shows it."""
+    before = listening(descendants(os.getpid()))
+    with cluster_client(f"local:{WORKERS}") as client:
+        yield listening(descendants(os.getpid())) - before, client.scheduler.address, client.security
+
+
+def test_local_cluster_listens_on_loopback_alone_and_on_no_more_than_dask_needs(sockets):
+    """A socket for the scheduler, and two for each worker: its own and that of the process that begins it again."""
+    found, _, _ = sockets
+    assert {address for address, _ in found} == {"0100007F"}
+    assert len(found) == 1 + 2 * WORKERS
+    assert 8787 not in {port for _, port in found}
+
+
+def test_every_socket_of_a_local_cluster_refuses_whoever_has_no_certificate(sockets):
+    found, _, _ = sockets
+    for _, port in found:
+        with pytest.raises((ssl.SSLError, ConnectionError)):
+            answer_without_certificate(port)
+
+
+def test_scheduler_of_a_local_cluster_answers_only_with_the_certificate_of_the_run(sockets):
+    _, address, ours = sockets
+    assert asyncio.run(identity(address, ours)) == "Scheduler"
+    for strange, security in (
+        (address.replace("tls://", "tcp://"), Security()),
+        (address, Security.temporary()),
+    ):
+        with pytest.raises((OSError, asyncio.TimeoutError)):
+            asyncio.run(identity(strange, security))
+
+
+def test_local_cluster_says_that_cryptography_is_missing(monkeypatch, tmp_path, capsys):
+    monkeypatch.setitem(sys.modules, "cryptography", None)
+    words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
+    assert main([*words, "--cluster", "local:2"]) == 2
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        "hypcheck: error: --cluster local:N needs cryptography, for the certificate of its connections: "
+        "pip install 'hypcheck[cluster]'"
+    )
+    assert not list(tmp_path.iterdir())
+
+
+KILLED = """
+import os, signal
+from pathlib import Path
+from hypcheck.runs.cluster import connected
+if __name__ == "__main__":
+    with connected("local:1") as client:
+        os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_scratch_folder_of_a_killed_local_cluster_is_removed_when_the_next_one_starts(monkeypatch, tmp_path):
+    """That of one that runs is left, as are what a link leads to and what somebody else made."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    file = tmp_path / "killed.py"
+    file.write_text(KILLED)
+    ended = subprocess.run([sys.executable, file], env={**os.environ, "TMPDIR": str(tmp_path)}, check=False)
+    assert ended.returncode == -signal.SIGKILL
+    (left,) = tmp_path.glob("hypcheck-cluster-*")
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "file").write_text("")
+    link = tmp_path / f"{local_cluster.SCRATCH}link"
+    link.symlink_to(other)
+    with local_cluster._scratch_folder() as running:
+        assert not left.exists()
+        assert running.stat().st_mode & 0o077 == 0
+        with local_cluster._scratch_folder():
+            assert running.exists()
+    assert sorted(tmp_path.iterdir()) == [link, file, other]
+    assert (other / "file").exists()

@@ -1,0 +1,225 @@
+"""`verify SPEC`: what passes, what fails and with which code, and what the record says of it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.record.lines import GroupLine, NotStartedLine
+
+pytestmark = pytest.mark.usefixtures("text_reports")
+
+
+def gate(tmp_path, spec, *options, count="40"):
+    out = tmp_path / "out"
+    code = main(["verify", spec, "--out", str(out), "--count", count, *options])
+    return code, (read(out / "record.jsonl") if (out / "record.jsonl").exists() else None)
+
+
+def subject(name):
+    return f"python:tests.runs.faulty:{name}"
+
+
+def statuses(record):
+    total = {}
+    for line in record.of(GroupLine):
+        for status, number in line.counts.items():
+            total[status] = total.get(status, 0) + number
+    return total
+
+
+def test_an_exact_implementation_passes_with_no_tolerance(tmp_path):
+    code, record = gate(tmp_path, subject("exact"), "--tolerance", "0", "--families", "extreme,*", count="10")
+    assert code == 0
+    assert set(statuses(record)) <= {"right", "skipped"}
+
+
+def test_the_ring_fails_table_2_and_its_own_scenes_do_not(tmp_path):
+    assert gate(tmp_path, "builtin:table-2-float64", "--families", "ring")[0] == 1
+    assert gate(tmp_path, "builtin:table-2-float64", "--families", "forest-type-1,forest-type-2")[0] == 0
+
+
+def test_a_constant_fails(tmp_path):
+    code, record = gate(tmp_path, subject("contact_everywhere"))
+    assert code == 1
+    assert statuses(record)["wrong"] > 1000
+
+
+def test_false_clear_alone_can_be_asked_for(tmp_path):
+    families = ["--families", "near-tangent-outside"]
+    assert gate(tmp_path, subject("never_clear_by_a_little"), *families)[0] == 1
+    assert gate(tmp_path, subject("never_clear_by_a_little"), *families, "--fail-on", "false-clear")[0] == 0
+    assert gate(tmp_path, subject("too_clear"), *families, "--fail-on", "false-clear")[0] == 1
+
+
+def test_abstaining_is_allowed_as_far_as_it_was_said(tmp_path):
+    families = ["--families", "tower-body"]
+    code, record = gate(tmp_path, subject("cannot_say"), *families)
+    assert code == 1
+    number = statuses(record)["abstained"]
+    assert gate(tmp_path, subject("cannot_say"), *families, "--max-abstained", str(number - 1))[0] == 1
+    assert gate(tmp_path, subject("cannot_say"), *families, "--max-abstained", str(number))[0] == 0
+
+
+def test_answers_that_change_fail(tmp_path):
+    code, record = gate(tmp_path, subject("forgetful"), "--families", "tower-*,uniform", "--tolerance", "0")
+    assert code == 1
+    assert statuses(record).get("nondeterministic", 0) + statuses(record).get("wrong", 0) > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "families"),
+    [("dies_on_the_axis", "crash", "small-integers,tower-body"), ("raises_at_the_waist", "error", "waist,tower-body")],
+)
+def test_a_fault_costs_its_own_cases(tmp_path, name, status, families):
+    code, record = gate(tmp_path, subject(name), "--families", families, "--restarts", "200", count="10")
+    assert code == 1
+    found = {line.family: line for line in record.of(GroupLine)}
+    assert found["tower-body"].counts.get("right", 0) > 100
+    (other,) = set(found) - {"tower-body"}
+    assert found[other].counts[status] > 0
+    assert found[other].faults[0].reason
+
+
+def test_a_hang_ends_as_timeout(tmp_path):
+    code, record = gate(
+        tmp_path, subject("hangs_on_the_ring"), "--families", "ring", "--timeout", "0.4", "--restarts", "2", count="3"
+    )
+    assert code == 1
+    assert statuses(record)["timeout"] > 0
+    assert statuses(record)["not-run"] > 0
+
+
+def test_what_cannot_be_started_ends_with_5(tmp_path):
+    code, record = gate(tmp_path, "command:/nowhere/at/all", "--families", "ring")
+    assert code == 5
+    assert record.of(NotStartedLine)
+
+
+def test_a_domain_that_skips_everything_is_no_pass(tmp_path, capsys):
+    code, record = gate(tmp_path, subject("exact"), "--domain", '{"magnitude": [1e5, 1e5]}', "--families", "tower-body")
+    assert code == 2
+    assert record is None
+    assert "no case was judged" in capsys.readouterr().err
+
+
+def test_refusing_is_tested_where_it_is_declared(tmp_path):
+    families = ["--families", "tower-body"]
+    code, record = gate(tmp_path, "python:tests.runs.refusing:keeps_its_word", *families)
+    assert code == 0
+    assert statuses(record)["refused"] > 50
+    code, record = gate(tmp_path, "python:tests.runs.refusing:does_not", *families)
+    assert code == 1
+    (line,) = [line for line in record.of(GroupLine) if line.family == "invalid"]
+    assert line.counts["wrong"] > 50
+
+
+LIST = """
+[[known_failure]]
+family = "ring"
+reason = "the discriminant vanishes there"
+[[known_failure]]
+family = "ring-neighbourhood"
+max_u = 1e17
+reason = "likewise"
+"""
+
+
+def test_known_failures_excuse_and_bite_back(tmp_path, capsys):
+    path = tmp_path / "known.toml"
+    path.write_text(LIST, encoding="utf-8")
+    table_2 = ("builtin:table-2-float64", "--known-failures", str(path), "--families")
+    code, record = gate(tmp_path, *table_2, "ring,ring-neighbourhood")
+    assert code == 0
+    assert statuses(record)["excused"] > 50
+    exact = (subject("exact"), "--known-failures", str(path), "--families")
+    assert gate(tmp_path, *exact, "ring")[0] == 1
+    assert "no longer fails" in capsys.readouterr().out
+    assert gate(tmp_path, *exact, "tower-body")[0] == 0  # the entries' families were not asked
+    path.write_text(LIST.replace("1e17", "8.5"), encoding="utf-8")
+    assert gate(tmp_path, *table_2, "ring-neighbourhood")[0] == 1  # further off than what is excused
+
+
+def test_known_failures_are_rewritten_from_a_whole_run_only(tmp_path, capsys):
+    path = tmp_path / "known.toml"
+    update = ["--known-failures", str(path), "--update"]
+    assert gate(tmp_path, "builtin:table-2-float64", *update, "--families", "ring")[0] == 2
+    assert not path.exists()
+    assert gate(tmp_path, "builtin:table-2-float64", *update)[0] == 1
+    assert 'family = "ring"' in path.read_text(encoding="utf-8")
+    assert gate(tmp_path, "builtin:table-2-float64", "--known-failures", str(path))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[[known_failure]]\nfamily = 'ring'", "has no reason"),
+        ("[[known_failure]]\nreason = 'x'", "must name either a case or a family"),
+        ("[[known_failure]]\nfamily = 'ring'\nreason = 'x'\nmax = 3", "has the key 'max'"),
+        ("[[known_failure]]\nfamily = 'ring'\nreason = 'x'\nmax_u = nan", "must be a number of units"),
+        ("[known", "is no TOML"),
+        ("other = 1", "other is not an array"),
+    ],
+)
+def test_a_bad_list_is_refused(tmp_path, capsys, text, message):
+    path = tmp_path / "known.toml"
+    path.write_text(text, encoding="utf-8")
+    code, _ = gate(tmp_path, subject("exact"), "--known-failures", str(path), "--families", "ring")
+    assert code == 2
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["builtin:fast", "--oracles", "exact"],
+        ["--self", "--fail-on", "false-clear"],
+        ["nonsense"],
+        ["builtin:nothing"],
+        ["builtin:fast", "--memory", "much"],
+        ["builtin:fast", "--precision", "float8"],
+        ["builtin:fast", "--domain", "{"],
+    ],
+)
+def test_wrong_usage_ends_with_2(tmp_path, options):
+    assert main(["verify", "--out", str(tmp_path), *options]) == 2
+
+
+def test_the_summary_keeps_its_contract(tmp_path):
+    gate(tmp_path, "builtin:table-2-float32", "--families", "ring,tower-body")
+    (found,) = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))["implementations"]
+    assert found["spec"] == "builtin:table-2-float32"
+    assert found["asked"] == found["right"] + found["tolerated"] + found["wrong"] + found["excused"]
+    assert found["worst_backward_error_u"] > 1e6
+    assert set(found["families"]) == {"ring", "tower-body"}
+
+
+def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
+    arguments = ["verify", subject("exact"), "--families", "ring", "--out", str(tmp_path)]
+    program = (
+        "import sys; sys.modules.update(matplotlib=None, jinja2=None)\nfrom hypcheck.cli.main import main\n"
+        f"code = main({arguments})\n"
+        "loaded = {'sympy', 'mpmath', 'fcl'} & set(sys.modules)\n"
+        "assert code == 0 and not loaded, (code, loaded)\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+
+
+def test_the_worst_cancellations_are_asked_where_nothing_else_was_chosen(tmp_path):
+    _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
+    asked = {line.family: line for line in record.of(GroupLine)}
+    assert asked["worst-cancellation"].counts["wrong"] > 10
+
+
+def test_more_rows_than_distances_are_recorded_of(tmp_path):
+    code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
+    assert code == 0
+    (line,) = record.of(GroupLine)
+    assert line.asked == line.counts["right"] > 70000
+    assert sum(number for counts in line.octaves.values() for number in counts.values()) == 2000
+    assert sum(cell[2] for cell in line.size_bins) == line.asked

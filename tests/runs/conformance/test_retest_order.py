@@ -1,0 +1,76 @@
+"""Cases that are asked again stand in questions of every length, and in every place with each position."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.runs import retest
+from hypcheck.runs.retest import ALONE, FULL_QUESTION, LARGE_QUESTION, LENGTHS, MANY, retest_questions
+
+N = 1100
+TRUTH = np.resize(np.array([1, 0, -1, 1], dtype=np.int8), N)
+STILL = np.full(N, -1)
+LONGEST = 20_000
+
+
+def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0):
+    return list(retest_questions(truth, moments, lambda: stands, 1, number, part))
+
+
+@pytest.mark.parametrize("part", [0, 1])
+@pytest.mark.parametrize("stands", [1, 64, LARGE_QUESTION, FULL_QUESTION, LONGEST])
+@pytest.mark.parametrize("n", [0, 1, 15, 31, 33, 40, 700])
+def test_every_case_is_asked_again(stands, n, part):
+    again = asked(stands, TRUTH[:n], STILL[:n], part=part)
+    assert set(np.concatenate([places for places, _ in again])) == set(range(n))
+
+
+def test_two_parts_of_a_round_share_the_small_questions_and_leave_the_many_to_another():
+    shares = [asked(LONGEST, np.resize(TRUTH, 3 * N), np.full(3 * N, -1), part=part) for part in (1, 2)]
+    for share in shares:
+        assert [len(places) for places, batch in share if batch == 1] == [ALONE // 2]
+        assert {len(places) for places, batch in share if batch and batch > 1} >= set(LENGTHS)
+    assert shares[0][0][0].tolist() != shares[1][0][0].tolist()
+
+
+def test_who_is_slow_is_asked_hardly_more_than_once():
+    once = N + 4 * retest.TWINS
+    assert sum(len(places) for places, _ in asked(LARGE_QUESTION - 1)) == once
+
+
+def test_the_rounds_after_the_first_cost_little():
+    once = N + 4 * retest.TWINS
+    assert sum(len(places) for places, _ in asked(LONGEST, number=1)) < once + FULL_QUESTION
+
+
+def test_each_place_of_full_and_of_longest_questions_has_each_position():
+    for size, fewest in ((FULL_QUESTION, FULL_QUESTION - 2), (LONGEST, LONGEST - 2)):
+        large = [places for places, _ in asked(LONGEST) if fewest <= len(places) <= size][-3:]
+        assert [len(places) for places in large] == [size, size, size - 2]
+        positions = np.stack([TRUTH[places[: size - 2]] for places in large])
+        assert (np.sort(positions, axis=0) == [[-1], [0], [1]]).all()
+        assert TRUTH[large[0][-1]] != TRUTH[large[1][-1]]
+
+
+def test_who_takes_long_over_full_questions_is_not_asked_the_longest(monkeypatch):
+    monkeypatch.setattr(retest, "SOON_S", 0.0)
+    assert max(len(places) for places, _ in asked(LONGEST)) == FULL_QUESTION
+
+
+def test_small_questions_leave_every_rest_of_a_vector():
+    lengths = {len(places) for places, batch in asked(LONGEST) if batch and batch > 1}
+    assert lengths >= set(LENGTHS)
+    for lanes in (2, 4, 8, 16):
+        assert {length % lanes for length in LENGTHS} == set(range(lanes))
+
+
+@pytest.mark.parametrize(("limit", "count"), [(1.0, [ALONE, MANY]), (0.0, [ALONE])])
+def test_who_is_quick_over_a_question_is_asked_many_lone_ones(monkeypatch, limit, count):
+    monkeypatch.setattr(retest, "QUICK_S", limit)
+    assert [len(places) for places, batch in asked(LONGEST) if batch == 1] == count
+
+
+def test_objects_that_move_are_asked_moment_by_moment():
+    moments = np.tile(np.arange(8), 4)
+    assert [(len(places), batch) for places, batch in asked(64, TRUTH[:32], moments)][-9:] == [(8, 1), *[(4, None)] * 8]

@@ -1,0 +1,138 @@
+"""Processes of ours may end: it costs nothing, or the cases that go on ending them, or the run where none begins."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from contextlib import nullcontext, suppress
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.implementations.session import Limits
+from hypcheck.record import read
+from hypcheck.record.lines import GroupLine
+from hypcheck.runs import cases, executors, schedule
+from hypcheck.runs.executors import WorkerPool, execution_in_pool
+from hypcheck.runs.resume import saved_state
+from hypcheck.runs.schedule import ImplementationOpener, RunState, WorkerLost, WorkersLostError, perform_steps
+from tests.runs.crashing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
+from tests.support.without_drawing import COMMAND
+
+RIGHT = ImplementationOpener("builtin:table-2-float32", Limits())
+
+
+def started(performing):
+    """The processes of a pool, once all of them are started."""
+    while len(performing.executor.processes) < performing.workers:
+        pass
+    return list(performing.executor.processes)
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Chunks and rounds small enough that a test has many."""
+    monkeypatch.setattr(cases, "CHUNK_ROWS", 1024)
+    monkeypatch.setattr(schedule, "RETEST_AFTER", 3000)
+
+
+def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(monkeypatch):
+    some = steps_of(["uniform", "tower-body"], 4000)
+    culprit, others = without_culprit(some)
+    expected = here(KILLS, others).total
+    for name, value in ENVIRONMENT.items():
+        monkeypatch.setenv(name, value)
+    with KILLS.open() as it, execution_in_pool(2, KILLS, rules_of(it), it) as performing:
+        *_, (_, state) = perform_steps(some, performing, RunState(it.allowance))
+    require_one_crash(state.total, expected, culprit, "3 processes of hypcheck ended while they asked these cases")
+    assert state.left == replace(it.allowance, hangs=None)  # it has answered
+
+
+def _ends_at_once(*_):
+    os._exit(9)
+
+
+def test_processes_that_cannot_begin_end_the_run(monkeypatch):
+    """Nothing is known of any case then, so that none may be called a crash."""
+    monkeypatch.setattr(executors, "_serve", _ends_at_once)
+    some = steps_of(["uniform"], 2000)
+    with (
+        KILLS.open() as it,
+        pytest.raises(
+            WorkersLostError, match=r"3 processes of hypcheck ended before they had asked anything, .* status 9"
+        ),
+        execution_in_pool(2, KILLS, rules_of(it), it) as performing,
+    ):
+        list(perform_steps(some, performing, RunState(it.allowance)))
+
+
+def test_one_worker_may_end_as_well(tmp_path):
+    """Who asks for one has it in a process of its own, so that the run does not end with it."""
+    words = ["verify", KILLS.spec, "--families", "uniform", "--count", "2501", "--workers", "1", "--out", str(tmp_path)]
+    command = [*COMMAND, *words]
+    done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
+    assert done.returncode == 1, done.stderr
+    (group,) = read(tmp_path / "record.jsonl").of(GroupLine)
+    assert group.counts["crash"] == 2501
+    assert "3 processes of hypcheck ended while they asked these cases" in group.faults[0].reason
+
+
+STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us who was stopped")
+
+
+@STOPS
+def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
+    monkeypatch.setattr(executors, "LOOK_S", 0.01)
+    monkeypatch.setattr(executors, "STOPPED_LOOKS", 3)
+    some = steps_of(["uniform"], 6000)
+    expected = here(RIGHT, some)
+    with RIGHT.open() as it, execution_in_pool(2, RIGHT, rules_of(it), it) as performing:
+        found = perform_steps(some, performing, RunState(it.allowance))
+        next(found)
+        first = started(performing)
+        for process in first:
+            os.kill(process.pid, signal.SIGSTOP)
+        *_, (_, state) = found  # one that has no task when it is stopped is ended with the pool
+    assert [process.exitcode for process in first] == [-signal.SIGKILL] * 2
+    assert saved_state(state) == saved_state(expected)
+
+
+@STOPS
+def test_a_process_that_is_continued_in_time_is_not_ended(monkeypatch):
+    """Looks that find it stopped are counted from the beginning when one finds it running."""
+    looks = iter([True, True, False] * 3)
+    done = []
+    monkeypatch.setattr(executors, "LOOK_S", 0.01)
+    monkeypatch.setattr(executors, "STOPPED_LOOKS", 3)
+    monkeypatch.setattr(executors, "is_stopped", lambda _: next(looks, None) or done.append(None))
+    with WorkerPool(1, nullcontext) as running:
+        future = running.submit(signal.pause)
+        while len(done) < 3:
+            pass
+        (process,) = running.processes
+        assert process.is_alive()
+        process.kill()
+        with pytest.raises(WorkerLost):
+            future.result()
+
+
+@STOPS
+def test_a_process_tells_whether_it_is_stopped():
+    with WorkerPool(1, nullcontext) as running:
+        assert running.submit(os.getpid).result() == running.processes[0].pid
+        for number in (signal.SIGSTOP, signal.SIGCONT):
+            os.kill(running.processes[0].pid, number)
+            while executors.is_stopped(running.processes[0]) != (number == signal.SIGSTOP):
+                pass
+
+
+@STOPS
+def test_a_run_that_is_interrupted_does_not_wait_for_who_was_stopped():
+    with RIGHT.open() as it, suppress(KeyboardInterrupt), execution_in_pool(2, RIGHT, rules_of(it), it) as performing:
+        processes = started(performing)
+        for process in processes:
+            os.kill(process.pid, signal.SIGSTOP)
+        raise KeyboardInterrupt
+    assert [process.exitcode for process in processes] == [-signal.SIGKILL] * 2

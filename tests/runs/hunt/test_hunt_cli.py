@@ -1,0 +1,180 @@
+"""`hypcheck hunt` and `hypcheck minimise`: options in, words and an exit code out."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import Exit
+from hypcheck.vectors.format import read_vectors
+from hypcheck.vectors.labels import faults_of_vectors
+
+RIGHT = """
+import hypcheck as project
+
+def classify(rows):
+    return project.classify(rows)
+"""
+OTHERS = """
+import os
+import numpy as np
+
+def contact(rows):
+    return np.zeros(len(rows), dtype=np.int8)
+
+def seven(rows):
+    return np.full(len(rows), 7)
+
+def silent(rows):
+    return np.full(len(rows), 2)
+
+def dies(rows):
+    os._exit(3)
+"""
+
+
+@pytest.fixture
+def others(tmp_path):
+    path = tmp_path / "others.py"
+    path.write_text(OTHERS)
+    return lambda name: f"python:{path}:{name}"
+
+
+def told(capsys, *arguments):
+    code = main(list(arguments))
+    output, errors = capsys.readouterr()
+    return code, output, errors
+
+
+def test_a_hunt_tells_the_worst_first_and_how_to_go_on(capsys):
+    code, output, _ = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "3000", "--show", "2")
+    assert code == Exit.WRONG
+    lines = output.splitlines()
+    assert lines[0].startswith("table-2-float64 (exterior, float64): 3,000 rows asked in ")
+    assert "z = 0 and Δ = 0 (the ring)" in output
+    assert [line[:2] for line in lines if line[1:2] == "."] == ["1.", "2."]
+    assert "more kinds" in output
+    row = next(line for line in lines if line.startswith("   row")).split()[1]
+    hexes = next(line for line in lines if line.startswith("   hex")).split()[1]
+    assert [float(text) for text in row.split(",")] == [float.fromhex(text) for text in hexes.split(",")]
+    simplify = next(line for line in lines if line.startswith("   simplify")).split()[1:]
+    assert simplify == ["hypcheck", "minimise", "builtin:table-2-float64", row]
+    code, output, _ = told(capsys, *simplify[1:])
+    assert code == Exit.HELD
+    assert "the right answer: exterior" in output
+    assert "proof " in output
+    replay = next(line for line in lines if line.startswith("   replay")).split()[1:]
+    assert replay == ["hypcheck", "replay", row, "builtin:table-2-float64"]
+    assert told(capsys, *replay[1:])[0] == Exit.WRONG
+
+
+def test_the_options_stand_for_what_is_declared(capsys):
+    arguments = ("hunt", "builtin:procedure-1-float64", "--queries", "2600")
+    everywhere = told(capsys, *arguments, "--regimes", "any", "--tolerance", "9")[1]
+    assert "c² < a" in everywhere
+    again = next(line for line in everywhere.splitlines() if line.startswith("   simplify")).split()[2:]
+    assert again[-4:] == ["--regimes", "any", "--tolerance", "9.0"]
+    assert told(capsys, *again)[0] == Exit.HELD
+    replay = next(line for line in everywhere.splitlines() if line.startswith("   replay")).split()[2:]
+    assert replay[-2:] == ["--tolerance", "9.0"]
+    assert told(capsys, *replay)[0] == Exit.WRONG
+    assert "c² < a" not in told(capsys, *arguments, "--domain", '{"regimes": ["c2>=a"]}')[1]
+    _, output, _ = told(capsys, *arguments, "--precision", "float32", "--tolerance", "1e6")
+    assert "(exterior, float32)" in output
+    assert "1e+06 u" in output
+
+
+def test_nothing_wrong_is_0(capsys, tmp_path):
+    (tmp_path / "right.py").write_text(RIGHT)
+    code, output, _ = told(
+        capsys, "hunt", f"python:{tmp_path}/right.py:classify", "--queries", "2000", "--tolerance", "0"
+    )
+    assert (code, output.splitlines()[1][:9]) == (Exit.HELD, "0 answers")
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "sentence"),
+    [
+        ("contact", Exit.WRONG, "false-contact"),
+        ("seven", Exit.NOT_STARTED, "protocol: "),
+        ("silent", Exit.USAGE, ""),
+        ("dies", Exit.WRONG, "crash: "),
+        ("missing", Exit.NOT_STARTED, ""),
+    ],
+)
+def test_however_an_implementation_behaves_the_hunt_ends_as_contracted(capsys, others, name, code, sentence):
+    found, output, errors = told(capsys, "hunt", others(name), "--queries", "200", "--restarts", "2")
+    assert found == code
+    assert sentence in output
+    assert (code in (Exit.USAGE, Exit.NOT_STARTED) and not sentence) == bool(errors)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("hunt",),
+        ("hunt", "table-2-float64"),
+        ("hunt", "builtin:none-such"),
+        ("hunt", "builtin:fast", "--queries", "0"),
+        ("hunt", "builtin:fast", "--budget", "0"),
+        ("hunt", "builtin:fast", "--regimes", "b>=1"),
+        ("hunt", "builtin:fast", "--memory", "much"),
+        ("hunt", "builtin:fast", "--domain", "here"),
+        ("hunt", "builtin:fast", "--domain", '{"magnitude": [1e300, 1e301]}', "--queries", "50"),
+        ("minimise", "builtin:table-2-float64"),
+        ("minimise", "builtin:table-2-float64", "1,2,3"),
+        ("minimise", "builtin:table-2-float64", "nothing/1/0/0"),
+        ("minimise", "builtin:table-2-float64", "1,2,1,1,5,0,0"),
+    ],
+)
+def test_wrong_usage_is_2_and_one_sentence(capsys, arguments):
+    code, _, errors = told(capsys, *arguments)
+    assert code == Exit.USAGE
+    assert errors.startswith("hypcheck: error: ")
+
+
+def test_what_is_found_is_added_to_a_vector_file(capsys, tmp_path):
+    path = str(tmp_path / "ours.json")
+    hunt = ("hunt", "builtin:table-2-float64", "--queries")
+    _, output, _ = told(capsys, *hunt, "2500", "--out", path)
+    before = read_vectors(path)
+    kinds = int(next(line for line in output.splitlines() if line.startswith("kinds of wrong")).split()[4].strip(","))
+    assert len(before.cases) == kinds > 1
+    assert faults_of_vectors(before) == []
+    _, output, _ = told(capsys, *hunt, "2500", "--out", path)
+    assert "0 rows added" in output
+    assert read_vectors(path).cases == before.cases
+    told(capsys, *hunt, "2500", "--seed", "2", "--out", path)
+    after = read_vectors(path)
+    assert after.cases[: len(before.cases)] == before.cases
+    assert len(after.cases) > len(before.cases)
+    assert after.head == before.head
+
+
+def test_where_nothing_can_be_kept_nothing_is_asked(capsys, tmp_path):
+    for path in (tmp_path / "none" / "ours.json", tmp_path):
+        code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "10", "--out", str(path))
+        assert (code, output) == (Exit.USAGE, "")
+        assert str(path) in errors
+
+
+def test_a_file_that_is_no_vector_file_is_left_alone(capsys, tmp_path):
+    path = tmp_path / "notes.json"
+    path.write_text("not vectors")
+    code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "2500", "--out", str(path))
+    assert (code, output) == (Exit.USAGE, "")  # nothing was asked in vain
+    assert str(path) in errors
+    assert path.read_text() == "not vectors"
+
+
+def test_a_hunt_loads_no_library_that_it_does_not_use(others):
+    code = (
+        "import sys; from hypcheck.cli.main import main;"
+        f"main(['hunt', {others('contact')!r}, '--queries', '300']);"
+        "print(*sorted({'sympy', 'mpmath', 'fcl', 'matplotlib'} & set(sys.modules)), 'loaded', file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[-1] == "loaded"

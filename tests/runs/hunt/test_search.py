@@ -1,0 +1,294 @@
+"""What a hunt finds without being told where, what it does not find, and how it ends."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import CANNOT_SAY, FixedSizes
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import Outcome
+from hypcheck.runs import hunt as hunting
+from hypcheck.runs import hunt_search
+from hypcheck.runs.hunt import Hunt, HuntPlan, RowPlace, target_of
+from hypcheck.runs.hunt_search import neighbours, run_hunt
+from hypcheck.runs.judge import Mistake, Status, flip_exponents
+from hypcheck.truth import float_filter
+from hypcheck.vectors.draw import Draw
+from tests.support.fractions_truth import exact_position
+
+
+class Double:
+    """An implementation that answers by a function, and notes what it was asked."""
+
+    def __init__(self, answer, status=Outcome.ANSWERED, **claims):
+        self.description = Description(name="double", **claims)
+        self.rows = []
+        self._answer, self._status = answer, status
+
+    def classify(self, rows):
+        """What becomes of rows: all of them the same."""
+        self.rows.append(rows)
+        status = np.full(len(rows), self._status, dtype=np.int8)
+        reasons = {} if self._status is Outcome.ANSWERED else dict.fromkeys(range(len(rows)), "it left")
+        return Answered(self._answer(rows).astype(np.int8), status, reasons)
+
+
+def hunted(spec, queries, seed=1, **claims):
+    with open_implementation(f"builtin:{spec}") as implementation:
+        run = Hunt(target_of(spec, implementation, **claims), HuntPlan(None, queries, seed))
+        run_hunt(run)
+    return run
+
+
+def kinds(run):
+    """The worst error in units of each kind of wrong answers beyond tolerance."""
+    return {
+        (cluster.worst.case.mistake, cluster.worst.case.truth, cluster.worst.place.kind): cluster.worst.error_u
+        for cluster in run.findings.worst_first()
+    }
+
+
+def test_the_ring_in_table_2():
+    found = kinds(hunted("table-2-float64", 2500))
+    assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "the ring"] > 1e14
+
+
+def test_the_gap_in_the_condition_of_procedure_2a():
+    found = kinds(hunted("procedure-2a-spheroid-float64", 4000))
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c1 = 0"] > 1e14
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c2 = 0"] > 1e14
+
+
+def test_the_unsafe_answers_of_procedure_1_outside_its_regimes():
+    asked_all = kinds(hunted("procedure-1-float64", 3000, regimes=()))
+    assert asked_all[Mistake.FALSE_CLEAR, Position.CONTACT, "c² < a"] > 1e14
+    inside = kinds(hunted("procedure-1-float64", 3000))
+    assert "c² < a" not in {place for _, _, place in inside}
+
+
+def test_the_loss_of_the_local_maximum_where_a_is_about_1_and_where_c2_is_about_a():
+    found = kinds(hunted("local-maximum-float64", 8000))
+    assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "a = 1"] > 3e6
+    assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "c² = a"] > 1e4
+
+
+def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
+    ordinary = tuple(each for each in hunt_search.strata() if "near-tangent" in each.name)
+    assert len(ordinary) == 2
+    monkeypatch.setattr(hunt_search, "strata", lambda _: ordinary)
+    first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK)
+    assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
+    grown = hunted("local-maximum-float64", 25_000)
+    worst = grown.findings.worst_first()[0].worst
+    assert worst.error_u > 1e7
+    assert worst.source.startswith("local search")
+
+
+def test_a_search_that_finds_nothing_worse_halves_its_step_and_comes_to_rest(monkeypatch):
+    """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone."""
+    ring, steps = np.array([1, 2, 1, 1, 2.5, 0, 0]), []
+    block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
+
+    def watched(draw, climbers):
+        steps.extend(climber.step for climber in climbers)
+        return neighbours(draw, climbers)
+
+    def answer(rows):
+        return np.where((rows == ring).all(axis=1), 0, float_filter.positions(rows))
+
+    monkeypatch.setattr(
+        hunt_search, "strata", lambda _: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
+    )
+    monkeypatch.setattr(hunt_search, "neighbours", watched)
+    monkeypatch.setattr(hunt_search, "LAST_STEP", 2.0**-8)
+    run = Hunt(target_of("double", Double(answer)), HuntPlan(None))
+    hunt_for(run, rounds=30)
+    assert steps == [2.0**-power for power in range(1, 9)]
+    (cluster,) = run.findings.worst_first()
+    assert cluster.worst.case.row == tuple(ring)
+
+
+def test_a_search_goes_on_from_the_worst_and_begins_anew_with_the_first_step(monkeypatch):
+    """Exterior rows are called contact: the farther off, the worse. All places count as one."""
+    clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
+    block, stood = np.array([clear, *[crossing] * 1000]), []
+
+    def watched(draw, climbers):
+        (climber,) = climbers
+        stood.append((climber.row, climber.error, climber.step))
+        return neighbours(draw, climbers)
+
+    monkeypatch.setattr(
+        hunt_search, "strata", lambda _: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
+    )
+    monkeypatch.setattr(hunt_search, "neighbours", watched)
+    monkeypatch.setattr(hunting, "place_of", lambda pair: RowPlace("anywhere", "anywhere", "any"))
+    run_hunt(
+        Hunt(
+            target_of("double", Double(lambda rows: np.minimum(float_filter.positions(rows), 0))),
+            HuntPlan(None, 16_000),
+        )
+    )
+    assert stood[0][0] == clear
+    assert len({row for row, _, _ in stood}) > 2
+    for (row, error, step), (next_row, next_error, next_step) in pairwise(stood):
+        if next_row == row:
+            assert (next_error, next_step) == (error, step / 2)
+        else:
+            assert next_error > error
+            assert next_step == hunt_search.FIRST_STEP
+
+
+def hunt_for(run, rounds):
+    """Hunt until progress was told that many times."""
+
+    class EnoughError(Exception):
+        pass
+
+    def progress(run):
+        nonlocal rounds
+        rounds -= 1
+        if not rounds:
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        run_hunt(run, progress)
+
+
+def test_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_lead_away_from_contact():
+    row = (3.0, 4.0, 1.5, 2.0, 7.0, 1.0, 5.0)
+    around = neighbours(Draw("test"), [hunt_search.Climber(row, 1.0, 0.25)])
+    single = np.bincount(around.ladders)[around.ladders] == 1
+    factors = around.rows[single] / np.array(row)
+    stepped = np.isclose(factors[..., None], (1.25, 0.8), rtol=1e-15).any(axis=2)
+    one_length = (stepped | (factors == 1)).all(axis=1) & (stepped.sum(axis=1) == 1)
+    assert one_length.sum() == 10  # α, γ, b, d, z up and down; x and y go together
+    surfaces = around.rows[single][-4:]
+    assert (surfaces[0, 4:6] == 0).all()
+    assert surfaces[1, 6] == 0
+    assert surfaces[2, 0] == surfaces[2, 2]
+    assert (surfaces[3, 1] / surfaces[3, 3]) ** 2 == pytest.approx(surfaces[3, 0] / surfaces[3, 2], rel=1e-15)
+    for number in set(around.ladders[~single].tolist()):
+        rungs = flip_exponents(around.rows[around.ladders == number])
+        assert rungs[0] < -40
+        assert rungs[-1] > -20
+    assert set(around.owners.tolist()) == {0}
+
+
+@pytest.mark.parametrize(("spec", "claims"), [("fast", {"tolerance": Fraction(0)}), ("dual-float64", {})])
+def test_nothing_is_found_where_nothing_is_wrong(spec, claims):
+    run = hunted(spec, 5_000, **claims)
+    assert run.findings.worst_first() == []
+    assert run.asked == run.answered == 5_000
+
+
+def test_findings_are_true_and_the_worst_stand_first():
+    run = hunted("table-2-float32", 3000)
+    found = run.findings.worst_first()
+    assert len(found) > 3
+    errors = [cluster.worst.error for cluster in found]
+    assert errors == sorted(errors, reverse=True)
+    for cluster in found:
+        case = cluster.worst.case
+        assert case.status is Status.WRONG
+        assert exact_position(case.row) == case.truth
+        assert case.answer == (0 if case.truth == 1 else 1)
+        assert run.target.claimed(np.array([case.row])).tolist() == [0]
+
+
+def test_a_budget_of_queries_is_kept_and_the_same_is_found_again():
+    def summary(run):
+        return [
+            (cluster.beyond, cluster.tolerated, cluster.worst.case.row, cluster.worst.error)
+            for cluster in run.findings.worst_first()
+        ]
+
+    one, two = hunted("shared-float64", 6500), hunted("shared-float64", 6500)
+    assert one.asked == two.asked == 6500
+    assert any(cluster.worst.source.startswith("local search") for cluster in one.findings.worst_first())
+    assert summary(one) == summary(two)
+    assert summary(hunted("shared-float64", 3000, seed=2)) != summary(hunted("shared-float64", 3000))
+
+
+def test_a_budget_of_seconds_ends_the_hunt():
+    run = Hunt(target_of("double", Double(float_filter.positions)), HuntPlan(0.3))
+    run_hunt(run)
+    assert run.over
+    assert 0.3 <= run.seconds < 5
+    assert run.asked > 100
+
+
+def test_only_rows_that_are_claimed_are_asked():
+    double = Double(float_filter.positions, precision="float32")
+    target = target_of("double", double, regimes=("a>=1", "c2>=a"))
+    run_hunt(Hunt(target, HuntPlan(None, 3000)))
+    rows = np.concatenate(double.rows)
+    assert len(rows) == 3000
+    assert (rows[:, 0] >= rows[:, 2]).all()
+    assert (np.abs(rows[rows != 0]) >= 2.0**-126).all()
+    assert len(target.claimed(rows)) == len(rows)
+
+
+def test_who_always_answers_contact_is_wrong_in_every_way_that_is():
+    run = Hunt(target_of("double", Double(lambda rows: np.zeros(len(rows)))), HuntPlan(None, 3000))
+    run_hunt(run)
+    worst = {(cluster.worst.case.mistake, cluster.worst.case.truth) for cluster in run.findings.worst_first()}
+    assert worst == {(Mistake.FALSE_CONTACT, Position.EXTERIOR), (Mistake.FALSE_CONTACT, Position.INTERIOR)}
+
+
+def test_an_answer_that_no_change_makes_right_is_the_worst_of_all():
+    run = Hunt(target_of("double", Double(lambda rows: np.ones(len(rows)))), HuntPlan(None, 3500))
+    run_hunt(run)
+    worst = run.findings.worst_first()[0].worst
+    assert worst.error == math.inf
+    assert worst.case.row[4:6] == (0, 0)
+
+
+def test_cannot_say_is_counted_and_never_wrong():
+    run = Hunt(target_of("double", Double(lambda rows: np.full(len(rows), CANNOT_SAY))), HuntPlan(None, 1000))
+    run_hunt(run)
+    assert (run.asked, run.counts) == (1000, {"abstained": 1000})
+    assert run.findings.clusters == {}
+
+
+def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_hunt():
+    nothing = lambda rows: np.full(len(rows), CANNOT_SAY)  # noqa: E731
+    crashing = Hunt(target_of("double", Double(nothing, Outcome.CRASH)), HuntPlan(None, 1000))
+    run_hunt(crashing)
+    assert crashing.counts == {"crash": 1000}
+    assert crashing.faults[Status.CRASH].reason == "it left"
+    assert crashing.answered == 0
+    lost = Hunt(target_of("double", Double(nothing, Outcome.NOT_RUN)), HuntPlan(None, 1000))
+    run_hunt(lost)
+    assert lost.asked < 1000
+
+
+ONE_SCENE = Domain(settings=(FixedSizes((2.5, 9.0, 0.5, 0.25), z=(-4.0, 4.0)),))
+
+
+def test_a_kernel_made_for_one_scene_is_asked_about_its_sizes_alone():
+    double = Double(lambda rows: np.zeros(len(rows)), domain=ONE_SCENE)
+    run = Hunt(target_of("double", double), HuntPlan(None, 4000))
+    run_hunt(run)
+    asked = np.concatenate(double.rows)
+    assert ONE_SCENE.holds(asked).all()
+    assert len(asked) == 4000
+    assert {cluster.worst.case.mistake for cluster in run.findings.worst_first()} == {Mistake.FALSE_CONTACT}
+
+
+def test_what_is_wrong_near_contact_alone_is_found_for_given_sizes():
+    def grown(rows):
+        rows = rows * [1, 1, 1 + 2.0**-44, 1 + 2.0**-44, 1, 1, 1]
+        return float_filter.positions(rows)
+
+    run = Hunt(target_of("double", Double(grown, domain=ONE_SCENE)), HuntPlan(None, 20_000))
+    run_hunt(run)
+    assert run.findings.worst_first()

@@ -1,0 +1,99 @@
+"""A gating run of many small steps that keeps its progress at every one: to be interrupted, and gone on with."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from contextlib import suppress
+
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.record.reader import FILE, GROWING
+from hypcheck.runs import cases, resume, schedule
+
+SPECS = ("builtin:hessian-float32", "python:tests.runs.faulty:dies_on_the_axis")
+WORDS = ("--families", "tower-body,axis", "--count", "300", "--restarts", "1", "--precision", "float32")
+CODE = 1
+"""How it ends: the first is wrong beyond the tolerance, and the second dies more often than it may."""
+
+
+def in_small_steps(put):
+    """Let `put(owner, name, value)` make the steps of runs small, and their progress kept at each."""
+    put(resume, "PROGRESS_EVERY_S", 0.0)
+    put(resume, "PROGRESS_SHARE", 0)
+    put(cases, "CHUNK_ROWS", 64)
+    put(schedule, "RETEST_AFTER", 600)
+
+
+def with_little_patience(put):
+    """Let it be soon lost when a scheduler is silent."""
+    from hypcheck.runs import dask_executor
+
+    put(dask_executor, "CONNECT", 1)
+    put(dask_executor, "SILENCES", 2)
+
+
+def words(out, *more):
+    return ["verify", *SPECS, *WORDS, "--out", str(out), *more]
+
+
+def started(out, *more, **how):
+    """A process that performs the run."""
+    command = [sys.executable, "-m", "tests.runs.interruption", *words(out, *more)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
+
+
+def ended(out, *more, **how):
+    """Its exit code and what it said."""
+    process = started(out, *more, **how)
+    said = "".join(process.communicate())
+    assert "Traceback" not in said
+    return process.returncode, said
+
+
+def kept(out):
+    """The bytes of the record that grows in a folder, none before there is one."""
+    with suppress(FileNotFoundError):
+        return (out / GROWING).read_bytes()
+    return b""
+
+
+def wait_for(process, out, what, patience=60.0):
+    """Wait until `what` is in the growing record, or its process has ended."""
+    until = time.monotonic() + patience
+    while what not in kept(out) and process.poll() is None:
+        assert time.monotonic() < until
+        time.sleep(0.002)
+
+
+def paused_bytes(out):
+    """The bytes of the record of a run that was killed within its second implementation."""
+    process = started(out)
+    wait_for(process, out, b'"number": 1')
+    time.sleep(0.05)
+    process.kill()
+    process.communicate()
+    return (out / GROWING).read_bytes()
+
+
+def came_to(out):
+    """What a run came to: the lines of its record and its summary as they are written, but for times and workers."""
+    assert not list(out.glob("*.part*"))
+    assert read(out / FILE).footer
+    lines = [json.loads(line) for line in (out / FILE).read_text(encoding="utf-8").splitlines()]
+    for line in lines:
+        del line["crc32"]
+    del lines[0]["started"], lines[0]["options"]["workers"], lines[0]["options"]["cluster"], lines[-1]["seconds"]
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    del summary["started"], summary["seconds"]
+    return [json.dumps(line).encode() for line in (*lines, summary)]
+
+
+if __name__ == "__main__":
+    sys.modules["matplotlib"] = sys.modules["jinja2"] = None  # whose reports are no part of what is looked at
+    in_small_steps(setattr)
+    if "--cluster" in sys.argv:
+        with_little_patience(setattr)
+    sys.exit(main())

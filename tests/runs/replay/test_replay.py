@@ -1,0 +1,276 @@
+"""`hypcheck replay`: what it shows of a case, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.implementations.builtin import builtin
+from hypcheck.record import read
+from hypcheck.record.reader import recorded_cases
+from hypcheck.runs.replay import case_of
+from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.families import FAMILIES, row_of
+from tests.report import record_samples
+from tests.support.records import resealed
+
+FREE = "1,99,1,1,5,0,0"
+"""Exterior, far off, beside what is nearly a cylinder."""
+
+HIT = "1,2,1,1,2,-0.0,0"
+"""A tangency at (1, 0, 0)."""
+
+
+def subject(name):
+    return f"python:tests.runs.replay.faulty:{name}"
+
+
+def replayed(capsys, *words, code=0):
+    assert main(["replay", *words, "--json"]) == code
+    return json.loads(capsys.readouterr().out)
+
+
+def test_right(capsys):
+    found = replayed(capsys, FREE, subject("exact"))
+    assert found["status"] == "right"
+    assert (found["answer"], found["truth"]["label"], found["mistake"]) == (1, "exterior", None)
+    assert found["values"]["formula"] == "table-2"
+    assert (found["values"]["answer"], found["values"]["exact_answer"]) == (1, 1)
+
+
+def test_wrong_by_how_much(capsys):
+    """With α 1, γ 99 and a unit ball, x = 5: contact begins where x (1 − ε) = (α + b)(1 + ε), at ε = 3/7."""
+    found = replayed(capsys, FREE, subject("contact"), code=1)
+    assert (found["status"], found["mistake"], found["answer"]) == ("wrong", "false-contact", 0)
+    assert found["backward_error"] == pytest.approx(3 / 7, rel=1e-3)
+    assert found["backward_error_u"] == pytest.approx(3 / 7 * 2**53, rel=1e-3)
+    assert found["truth"]["flips"]["contact"] == found["backward_error"]
+    assert found["truth"]["flips"]["interior"] > found["backward_error"]
+
+
+def test_tolerated_is_within_the_tolerance_and_not_beyond(capsys):
+    row = f"1,2,1,1,{2 + 2**-50!r},0,0"
+    found = replayed(capsys, row, subject("contact"))
+    assert found["status"] == "tolerated"
+    assert 0.5 < found["backward_error_u"] < 2.1
+    assert replayed(capsys, row, subject("contact"), "--tolerance", "0", code=1)["status"] == "wrong"
+    assert replayed(capsys, row, subject("contact"), "--precision", "x87", code=1)["backward_error_u"] > 1000
+
+
+def test_a_question_with_two_answers(capsys):
+    words = (subject("never_interior"), "--question", "exterior")
+    assert replayed(capsys, FREE, *words)["answer"] == 1
+    assert replayed(capsys, "4,4,1,1,0,0,0", *words)["status"] == "right"
+    found = replayed(capsys, "4,4,1,1,0,0,0", subject("never_interior"), "--question", "interior", code=1)
+    assert (found["status"], found["used"]["question"], found["declared"]["question"]) == (
+        "wrong",
+        "interior",
+        "position",
+    )
+    assert FORMULAS[found["values"]["formula"]].question in ("interior", "position")
+
+
+def test_a_formula_is_shown_as_itself(capsys):
+    found = replayed(capsys, "ring-0003", "builtin:hessian-float32")
+    assert found["values"]["formula"] == "hessian"
+    assert found["values"]["format"] == "float32"
+    assert "evaluates" in found["values"]["why"]
+    other = replayed(capsys, "ring-0003", "builtin:hessian-float32", "--formula", "shared", "--precision", "float16")
+    assert (other["values"]["formula"], other["values"]["format"]) == ("shared", "float32")
+
+
+def test_a_stranger_gets_the_formula_that_errs_as_it_does(capsys):
+    """On the ring Table 2 sees a contact where there is none; far off no formula does."""
+    found = replayed(capsys, ring_where_table_2_errs(), subject("contact"), code=1)
+    assert found["values"]["formula"] == "table-2"
+    assert "answers as" in found["values"]["why"]
+    far = replayed(capsys, FREE, subject("contact"), code=1)
+    assert far["values"]["formula"] == "table-2"
+    assert "though no formula" in far["values"]["why"]
+
+
+def ring_where_table_2_errs():
+    frozen = vectors.frozen_rows("ring")
+    answers = builtin("table-2-float64").answer(frozen.rows)
+    return next(name for name, answer in zip(frozen.ids, answers.tolist(), strict=True) if answer == 0)
+
+
+@pytest.mark.parametrize(
+    ("precision", "shown"),
+    [("float16", "float16"), ("bfloat16", "float32"), ("exact", "float64"), ("binary128", "longdouble")],
+)
+def test_every_precision_has_a_format(capsys, precision, shown):
+    found = replayed(capsys, FREE, "builtin:fast", "--precision", precision)
+    assert found["values"]["format"] == shown
+    assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
+
+
+def test_cannot_say_is_no_pass(capsys):
+    found = replayed(capsys, FREE, subject("cannot_say"), code=1)
+    assert (found["status"], found["answer"]) == ("abstained", 2)
+
+
+def test_a_crash_is_told(capsys):
+    found = replayed(capsys, FREE, subject("dies"), code=1)
+    assert (found["status"], found["answer"]) == ("crash", None)
+    assert "3" in found["reason"]
+    assert found["truth"]["label"] == "exterior"
+    assert found["values"]["formula"] == "table-2"
+
+
+def test_an_answer_that_depends_on_its_company(capsys):
+    found = replayed(capsys, FREE, subject("forgets_the_tail"), code=1)
+    assert found["status"] == "nondeterministic"
+    assert "at place 33: it answers -1" in found["reason"]
+
+
+def test_a_zero_keeps_its_sign(capsys):
+    assert replayed(capsys, HIT, subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
+    assert replayed(capsys, HIT.replace("-0.0", "0"), subject("minds_the_sign_of_zero"))["answer"] == 0
+    assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
+
+
+def test_a_row_outside_the_domain_is_judged_and_the_skip_is_told(capsys):
+    found = replayed(capsys, FREE, "builtin:fast", "--domain", '{"magnitude": [1e-3, 4]}')
+    assert found["status"] == "right"
+    assert "domain" in found["skipped"]
+    assert "float16" in replayed(capsys, "1,2,1,1,1e6,0,0", "builtin:fast", "--precision", "float16")["skipped"]
+
+
+def test_rows_to_be_refused(capsys):
+    assert replayed(capsys, "invalid-0003", "python:tests.runs.refusing:keeps_its_word")["status"] == "refused"
+    found = replayed(capsys, "invalid-0003", "python:tests.runs.refusing:does_not", code=1)
+    assert (found["status"], found["truth"], found["values"]) == ("wrong", None, None)
+    assert main(["replay", "invalid-0003", subject("exact")]) == 2
+    assert "does not declare" in capsys.readouterr().err
+
+
+def test_ids_name_what_they_name_elsewhere():
+    frozen = vectors.load("ring").cases[4]
+    assert case_of(frozen.id).row == frozen.row
+    family = FAMILIES["ring"]
+    for index in (0, 1023, 1024):
+        assert case_of(f"ring/{family.version}/42/{index}").row == tuple(family.rows(42, 1025)[index].tolist())
+    assert row_of(f"ring/{family.version}/42/3").row == case_of(f"ring/{family.version}/42/3").row
+    assert case_of("0x1.8p+1,2, 1,1,-0x1p-3,0,0").row == (3.0, 2.0, 1.0, 1.0, -0.125, 0.0, 0.0)
+
+
+def test_cases_of_a_record_are_numbered(tmp_path, capsys):
+    out = tmp_path / "out"
+    assert main(["verify", subject("contact"), "--families", "ring,tangent", "--count", "5", "--out", str(out)]) == 1
+    capsys.readouterr()
+    record = read(out / "record.jsonl")
+    kept = recorded_cases(record)
+    assert [each.number for each in kept] == list(range(1, len(kept) + 1))
+    for each in kept[::4]:
+        case = case_of(f"{out / 'record.jsonl'}:{each.number}")
+        assert case.name == each.case.case
+        assert case.row == case_of(case.name).row
+        assert case == case_of(f"{out}:{each.number}")
+        found = replayed(capsys, f"{out / 'record.jsonl'}:{each.number}", subject("contact"), code=1)
+        assert found["backward_error"] == each.case.backward_error
+    assert main(["replay", f"{out / 'record.jsonl'}:{len(kept) + 1}", subject("contact")]) == 2
+    assert f"they are 1 to {len(kept)}" in capsys.readouterr().err
+
+
+def test_the_text_marks_the_first_wrong_decision(capsys):
+    assert main(["replay", "ring-0003", "builtin:table-2-float32"]) == 0
+    text = capsys.readouterr().out
+    assert [line for line in text.splitlines() if line.startswith(">>")] == [
+        ">>  distinct         delta > 0                        yes             no"
+    ]
+    (number,) = [line for line in text.splitlines() if line.startswith(" > ")]
+    assert number.split()[1] == "delta"
+    assert "judged      right" in text
+    assert "0x1.34p-3" in text
+    assert "proof       λ = 1/16" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "about", "own"),
+    [
+        (["builtin:table-2-float64"], "table-2", True),
+        (["builtin:table-2-float64", "--formula", "shared"], "shared", False),
+        (["builtin:fast"], "procedure-2a-spheroid", False),
+        ([subject("contact")], "table-2", False),
+    ],
+)
+def test_what_another_formula_gets_wrong_is_no_finding_about_the_implementation(capsys, words, about, own):
+    main(["replay", "ring-0007", *words])
+    text = capsys.readouterr().out
+    found = text[text.index("\nfinding ") :].splitlines()[1:]
+    assert any(f"the answer of {about} in float64" in line for line in found)
+    assert (" not about " not in found[0]) is own
+    assert ("these are not the values of " not in text) is own
+    main(["replay", "ring-0007", *words, "--json"])
+    assert json.loads(capsys.readouterr().out)["values"]["own"] is own
+
+
+def test_text_of_every_formula_can_be_printed(capsys):
+    for name in ("shared", "local-maximum", "dual", "procedure-2a-spheroid"):
+        assert main(["replay", "tangent/1/1/5", "builtin:fast", "--formula", name, "--precision", "float32"]) == 0
+        assert f"of {name}, as --formula asks" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([FREE, "builtin:nothing"], "there is no built-in method"),
+        (["1,2,3", "builtin:fast"], "has 3 numbers; it must have 7"),
+        (["0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0"),
+        (["0x0p+0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0.0"),
+        (
+            ["builtin:fast", "ring-0007"],
+            "CASE is 'builtin:fast', which names an implementation; replay takes CASE SPEC",
+        ),
+        (["0x1p+2000,2,1,1,5,0,0", "builtin:fast"], "too large for float64"),
+        (["0xg,2,1,1,5,0,0", "builtin:fast"], "it must be a number"),
+        (["nan,2,1,1,5,0,0", "builtin:fast"], "it must be finite"),
+        (["ring-9999", "builtin:fast"], "there is no case"),
+        (["ring/99/1/1", "builtin:fast"], "by generator"),
+        (["nowhere.jsonl:1", "builtin:fast"], "cannot read nowhere.jsonl: no such file"),
+        ([FREE, "builtin:fast", "--formula", "table-3"], "there is no formula 'table-3'"),
+        ([FREE, "builtin:fast", "--formula", "procedure-2b"], "there is no formula 'procedure-2b'"),
+        ([FREE, "builtin:fast", "--memory", "much"], "--memory"),
+        ([FREE, "builtin:fast", "--question", "where"], "the question"),
+    ],
+)
+def test_bad_input_ends_with_2(words, message, capsys):
+    assert main(["replay", *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_what_cannot_be_started_ends_with_5():
+    assert main(["replay", FREE, "command:/nowhere/at/all"]) == 5
+
+
+def test_a_record_whose_row_is_no_row(tmp_path, capsys):
+    path = tmp_path / "record.jsonl"
+    for row, said in (
+        (["0x1p+0"] * 6, "worst[0].row is "),
+        (["x"] * 7, 'worst[0].row[0] is "x"; it must be a text matching'),
+        (3, "worst[0].row is 3; it must be a list"),
+        (["0x1p+9999"] * 7, "case 1 has a number that is too large for float64"),
+    ):
+        worst = {**record_samples.worst("a", "wrong", 3.0), "row": row}
+        text, _ = record_samples.text_and_record([record_samples.group("m", "float64", "ring", {"wrong": 1})])
+        header, group, footer = map(json.loads, text.splitlines())
+        path.write_bytes(resealed([header, {**group, "worst": [worst]}, footer]))
+        assert main(["replay", f"{path}:1", "builtin:fast"]) == 2
+        assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("spec", ["builtin:table-2-float64", subject("exact")])
+def test_no_sympy_mpmath_or_fcl_is_loaded(spec):
+    program = (
+        "import sys; from hypcheck.cli.main import main\n"
+        f"code = main(['replay', 'ring-0003', {spec!r}])\n"
+        "loaded = {'sympy', 'mpmath', 'fcl', 'matplotlib'} & set(sys.modules)\n"
+        "assert code in (0, 1) and not loaded, (code, loaded)\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60, stdout=subprocess.DEVNULL)

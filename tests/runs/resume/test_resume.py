@@ -1,0 +1,227 @@
+"""A run that was interrupted, whenever and however, comes to the same as one that was not."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.record.fields import as_json
+from hypcheck.record.progress import ProgressLine
+from hypcheck.record.reader import FILE
+from hypcheck.runs.resume import ProgressWriter, finished_part
+from tests.report.test_schemas import RECORD
+from tests.runs.interruption import CODE, SPECS, came_to, ended, in_small_steps, paused_bytes, started, wait_for, words
+from tests.support.records import resealed, violations
+
+MOMENTS = int(os.environ.get("HYPCHECK_MOMENTS", "3"))
+"""Random moments to interrupt a run at; fifty are for whoever changes how progress is kept."""
+
+SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
+
+
+@pytest.fixture
+def here(monkeypatch, capsys, text_reports):
+    """Performs the run in this process, which saves the time to load everything; its exit code and what it said."""
+    in_small_steps(monkeypatch.setattr)
+
+    def run(out, *more):
+        code = main(words(out, *more))
+        return code, "".join(capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """What a run comes to that is never interrupted, and how many seconds it takes to begin and then to end."""
+    out = tmp_path_factory.mktemp("whole")
+    start = time.monotonic()
+    process = started(out)
+    wait_for(process, out, b"header")
+    begun = time.monotonic()
+    process.communicate()
+    assert process.returncode == CODE
+    found = came_to(out)
+    kinds = [json.loads(line)["type"] for line in found[:-1]]
+    assert (kinds.count("group"), kinds.count("implementation"), kinds.count("progress")) == (4, 2, 0)
+    assert json.loads(found[-1])["implementations"][1]["statuses"]["not-run"] > 100
+    return found, begun - start, time.monotonic() - begun
+
+
+@pytest.fixture(scope="module")
+def paused(tmp_path_factory):
+    return paused_bytes(tmp_path_factory.mktemp("paused"))
+
+
+def interrupted(out, whole, dice, number, *more):
+    """Begin a run and send it a signal: now and then before it has a record, else at any moment of it."""
+    process = started(out, *more)
+    if dice.random() < 0.15:
+        time.sleep(dice.uniform(0, whole[1]))
+    else:
+        wait_for(process, out, b"header")
+        time.sleep(dice.uniform(0, whole[2]))
+    process.send_signal(number)
+    said = "".join(process.communicate())
+    assert process.returncode in (CODE, -number, 128 + number)
+    assert "Traceback" not in said or number == signal.SIGINT  # Python itself may still be starting
+    if process.returncode > CODE and (out / FILE).exists():
+        record = read(out / FILE)
+        goes_on = f"the same command {f'with --resume {out} goes on' if record.of(ProgressLine) else ''}"
+        assert (f"hypcheck report {out} --out {out} makes its reports" if record.footer else goes_on) in said
+
+
+@pytest.mark.parametrize("moment", range(MOMENTS))
+def test_killed_at_any_moment(whole, tmp_path, moment, here):
+    dice = random.Random(moment)  # noqa: S311
+    interrupted(tmp_path, whole, dice, SIGNALS[moment % 3], *["--workers", "2"][: 2 * (moment % 7 == 1)])
+    resume = ["--resume", str(tmp_path)] if any(tmp_path.glob("record.jsonl*")) else []
+    code, said = here(tmp_path, *resume, *["--workers", "2"][: 2 * (moment % 7 == 2)])
+    assert code == CODE, said
+    assert came_to(tmp_path) == whole[0]
+
+
+def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_path, here, monkeypatch):
+    def interrupts(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("hypcheck.report.write.write_reports", interrupts)
+        code, said = here(tmp_path)
+    assert code == 130
+    assert f"{tmp_path / FILE} is whole; hypcheck report {tmp_path} --out {tmp_path} makes its reports" in said
+    assert read(tmp_path / FILE).footer
+    assert main(["report", str(tmp_path), "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "summary.json").exists()
+
+
+def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_path, here, monkeypatch):
+    def keeps_late(*some):
+        signal.raise_signal(signal.SIGINT)
+        return keep(*some)
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    keep = ProgressWriter.keep
+    with monkeypatch.context() as patch:
+        patch.setattr(ProgressWriter, "offer", interrupted)
+        patch.setattr(ProgressWriter, "keep", keeps_late)
+        code, said = here(tmp_path)
+    assert code == 130
+    assert f"the same command with --resume {tmp_path} goes on" in said
+    assert read(tmp_path / FILE).of(ProgressLine)
+    assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
+    assert came_to(tmp_path) == whole[0]
+
+
+def test_killed_twice(whole, tmp_path, here):
+    for more in ([], ["--resume", str(tmp_path)]):
+        process = started(tmp_path, *more)
+        wait_for(process, tmp_path, b'"number": 1' if more else b'"progress"')
+        process.kill()
+        process.communicate()
+    assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
+    assert came_to(tmp_path) == whole[0]
+
+
+def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused, whole, tmp_path, here):
+    path = tmp_path / FILE
+    path.write_bytes(paused)
+    kept = read(path).lines[-1]
+    assert kept.number == 1
+    assert kept.state.done > 0
+    assert violations(as_json(kept), RECORD, closed=True) == []
+    assert here(tmp_path, "--resume", str(path))[0] == CODE
+    assert came_to(tmp_path) == whole[0]
+
+
+def test_a_record_cut_at_any_byte_goes_on_or_is_refused(paused, whole, tmp_path, here):
+    dice = random.Random(7)  # noqa: S311
+    last = paused.rindex(b"\n", 0, -1) + 1
+    for cut in (5, last, *(dice.randrange(len(paused)) for _ in range(max(1, MOMENTS // 5)))):
+        (tmp_path / "cut.jsonl").write_bytes(paused[:cut])
+        code, said = here(tmp_path / str(cut), "--resume", str(tmp_path / "cut.jsonl"))
+        if b"\n" not in paused[:cut]:
+            assert (code, "first line" in said) == (2, True)
+            assert not (tmp_path / str(cut)).exists()
+        else:
+            assert code == CODE, said
+            assert came_to(tmp_path / str(cut)) == whole[0]
+        assert (tmp_path / "cut.jsonl").read_bytes() == paused[:cut]
+
+
+def test_a_damaged_record_goes_on_once_it_is_repaired(paused, whole, tmp_path, here):
+    damaged, good = tmp_path / "damaged.jsonl", tmp_path / "good.jsonl"
+    damaged.write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
+    code, said = here(tmp_path / "out", "--resume", str(damaged))
+    assert (code, "is damaged in line 5, at byte" in said) == (2, True)
+    assert main(["record", "repair", str(damaged), "--out", str(good)]) == 0
+    assert here(tmp_path / "out", "--resume", str(good))[0] == CODE
+    assert came_to(tmp_path / "out") == whole[0]
+
+
+@given(st.data())
+def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_on(paused, data):
+    """Also of a finished record, and of one that was interrupted with lines of an unfinished implementation."""
+    lines = [
+        {name: value for name, value in json.loads(line).items() if name != "crc32"} for line in paused.splitlines()
+    ]
+    header, (*groups, first), progress = lines[0], lines[1:-1], lines[-1]
+    second = [{**line, "spec": SPECS[1]} for line in (*groups, first)]
+    behind = [*second[:-1], {**second[-1], "finished": False}]
+    footer = {"type": "footer", "lines": 7, "exit_code": 1, "seconds": 1.0}
+    form = data.draw(st.sampled_from([[progress], [progress, *behind], [*second, footer], [progress, *second]]))
+    content = resealed([header, *groups, first, *form])
+    start = len(resealed([header, *groups, first]))
+    cut = data.draw(st.integers(start, len(content) - 1))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / FILE
+        path.write_bytes(content[:cut])
+        record = read(path)
+        carried, kept = finished_part(record)
+    whole_second = len(record.lines) - len(record.of(ProgressLine)) >= 6 and form[-1].get("finished", True)
+    assert [as_json(line) for line in carried] == [*groups, first, *(second if whole_second else [])]
+    assert (kept and as_json(kept)) == (progress if record.of(ProgressLine) and not whole_second else None)
+
+
+@pytest.mark.parametrize("most", [3000, 12000])
+def test_no_file_may_grow_any_more(whole, tmp_path, here, most):
+    code, said = ended(tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+    assert (code, "cannot write: file too large" in said) == (2, True)
+    assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
+    assert came_to(tmp_path) == whole[0]
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A folder on a disk of 24 KiB."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount, umount = shutil.which("mount"), shutil.which("umount")
+    words = [mount, "-t", "tmpfs", "-o", "size=24k", "tmpfs", disk]
+    if not (mount and umount) or subprocess.run(words, capture_output=True, check=False).returncode:
+        pytest.skip("only root of a Linux may mount a disk")
+    yield disk
+    subprocess.run([umount, "--lazy", disk], check=True)
+
+
+def test_a_full_disk(whole, small_disk, tmp_path, here):
+    code, said = ended(small_disk)
+    assert (code, "cannot write: no space left on device" in said) == (2, True)
+    assert here(tmp_path, "--resume", str(small_disk))[0] == CODE
+    assert came_to(tmp_path) == whole[0]

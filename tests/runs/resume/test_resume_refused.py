@@ -1,0 +1,210 @@
+"""What is no record of an interrupted run of just this kind is refused in a sentence, and nothing changes."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.record import Recorder, read
+from hypcheck.record.fields import as_json
+from hypcheck.record.reader import FILE, GROWING
+from hypcheck.record.writer import FolderInUseError, folder_locked
+from tests.report.record_samples import text_and_record
+from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
+from tests.runs.resume.test_interrupted import needs_proc
+from tests.support.records import resealed
+
+
+@pytest.fixture(scope="module")
+def paused(tmp_path_factory):
+    return paused_bytes(tmp_path_factory.mktemp("paused"))
+
+
+@pytest.fixture
+def small_steps(monkeypatch):
+    """The steps of the run that was paused."""
+    in_small_steps(monkeypatch.setattr)
+
+
+def files_in(folder):
+    """Every file with its content and when it was written."""
+    return {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.rglob("*") if path.is_file()}
+
+
+def refused(out, capsys, *more):
+    """The sentence with which the run is refused."""
+    before = files_in(out)
+    assert main(words(out, *more)) == 2
+    assert files_in(out) == before
+    said, errors = capsys.readouterr()
+    assert said == ""
+    (line,) = errors.splitlines()
+    return line
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda lines: lines[0]["options"].update(seed=2), "--seed was 2, and is 1 now"),
+        (lambda lines: lines[0]["options"].update(families=["ring"]), '--families was ["ring"], and is'),
+        (lambda lines: lines[0]["options"].update(specs=["builtin:fast"]), 'specs was ["builtin:fast"], and is'),
+        (lambda lines: lines[0].update(schema="1.2.0"), 'schema was "1.2.0", and is "1.4.0" now'),
+        (lambda lines: lines[0].update(schema="2.0.0"), "has schema 2.0.0; this program reads 1.x"),
+        (lambda lines: lines[0].update(hypcheck="0.0.1"), 'hypcheck was "0.0.1", and is'),
+        (lambda lines: lines[0]["versions"].update(numpy="1.0"), 'numpy was "1.0", and is'),
+        (lambda lines: lines[-1].update(cases=7), "the number of cases was 7, and is"),
+        (lambda lines: lines[-1].update(program="00"), 'the sha256 of hypcheck\'s own files was "00", and is'),
+        (lambda lines: lines[-1]["declared"].update(version="9"), "the version that python:tests.runs.faulty"),
+        (lambda lines: lines[0]["files"].update(dict.fromkeys(lines[0]["files"], "00")), "the sha256 of "),
+        (lambda lines: lines[-1].pop("state"), "line 5, progress: it lacks state"),
+        (lambda lines: lines[-1].update(state={}), "line 5, progress: state lacks done"),
+    ],
+)
+def test_another_run(paused, tmp_path, capsys, change, said):
+    lines = [json.loads(line) for line in paused.splitlines()]
+    change(lines)
+    (tmp_path / GROWING).write_bytes(resealed(lines))
+    assert said in refused(tmp_path, capsys, "--resume", str(tmp_path))
+
+
+def test_an_edited_line(paused, tmp_path, capsys):
+    (tmp_path / "other.jsonl").write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
+    assert "is damaged in line 5, at byte" in refused(tmp_path, capsys, "--resume", str(tmp_path / "other.jsonl"))
+
+
+def test_what_is_no_record(tmp_path, capsys):
+    (tmp_path / "empty").touch()
+    (tmp_path / "notes").write_text("all is well\n", encoding="utf-8")
+    for name, said in (
+        ("empty", "is empty; a record begins with a header"),
+        ("notes", "is no record: its first line is no header"),
+        ("nowhere", "no such file"),
+        ("", "record.jsonl: no such file"),
+        ("/dev/null", "/dev/null is empty"),
+    ):
+        assert said in refused(tmp_path, capsys, "--resume", str(tmp_path / name)).lower()
+
+
+def test_standard_input(tmp_path, capsys):
+    assert "--resume - " in refused(tmp_path, capsys, "--resume", "-")
+
+
+def test_the_record_of_a_run_of_another_kind(tmp_path, capsys):
+    (tmp_path / "ours.jsonl").write_text(text_and_record()[0], encoding="utf-8")
+    said = refused(tmp_path, capsys, "--resume", str(tmp_path / "ours.jsonl"))
+    assert "it is the record of a run of `verify without SPEC`, which begins anew" in said
+    header = {**as_json(read(tmp_path / "ours.jsonl").header), "options": {"command": "bench"}}
+    (tmp_path / "bench.jsonl").write_bytes(resealed([header]))
+    said = refused(tmp_path, capsys, "--resume", str(tmp_path / "bench.jsonl"))
+    assert "it is the record of a run of `bench`, which begins anew" in said
+
+
+def test_an_implementation_that_was_changed_after_it_had_been_asked(tmp_path, capsys):
+    code = tmp_path / "subject.py"
+    code.write_text("def zero(rows):\n    return [0] * len(rows)\n", encoding="utf-8")
+    specs = [f"python:{code}:zero", "builtin:fast"]
+    options = ["--families", "ring", "--count", "3", "--out", str(tmp_path / "out")]
+    assert main(["verify", *specs, *options]) == 1
+    path = tmp_path / "out" / FILE
+    path.write_bytes(path.read_bytes()[:-9])
+    code.write_text("def zero(rows):\n    return [1] * len(rows)\n", encoding="utf-8")
+    capsys.readouterr()
+    assert main(["verify", *specs, *options, "--resume", str(path)]) == 2
+    assert f"{path} cannot be resumed: the sha256 of {code} was " in capsys.readouterr().err
+
+
+@needs_proc
+def test_a_folder_in_which_a_run_is_at_work(tmp_path, capsys):
+    process = started(tmp_path / "out")
+    wait_for(process, tmp_path / "out", b"progress")
+    process.send_signal(signal.SIGSTOP)
+    try:
+        for more in ([], ["--resume", str(tmp_path / "out")]):
+            assert "out: another run is writing its record there" in refused(tmp_path / "out", capsys, *more)
+        said = refused(tmp_path, capsys, "--resume", str(tmp_path / "out" / GROWING))
+        assert "out: another run is writing its record there" in said
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_a_folder_has_one_owner_at_a_time(tmp_path):
+    with folder_locked(tmp_path), pytest.raises(FolderInUseError), folder_locked(tmp_path):
+        pass
+    with folder_locked(tmp_path):
+        pass
+
+
+@pytest.mark.usefixtures("small_steps")
+def test_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
+    (tmp_path / FILE).write_bytes(paused)
+    said = refused(tmp_path, capsys, "--resume", str(tmp_path), "--out", "/proc/nowhere")
+    assert "--out /proc/nowhere cannot be written" in said
+
+
+@pytest.mark.usefixtures("small_steps")
+def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_path):
+    (tmp_path / "kept").mkdir()
+    path = tmp_path / "kept" / FILE
+    path.write_bytes(paused)
+    path.chmod(0o400)
+    path.parent.chmod(0o500)
+    before = files_in(path.parent)
+    try:
+        assert main(words(tmp_path / "out", "--resume", str(path))) == 1
+        assert files_in(path.parent) == before
+    finally:
+        path.parent.chmod(0o700)
+
+
+@pytest.mark.usefixtures("small_steps")
+def test_without_out_it_goes_on_where_the_record_is(paused, tmp_path):
+    (tmp_path / FILE).write_bytes(paused)
+    command = words(tmp_path, "--resume", str(tmp_path / FILE))
+    at = command.index("--out")
+    assert main([*command[:at], *command[at + 2 :]]) == 1
+    assert read(tmp_path / FILE).footer
+    assert (tmp_path / "summary.json").is_file()
+
+
+def test_a_finished_record_says_so_and_stays(tmp_path, capsys):
+    words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
+    assert main(words) == 0
+    before = files_in(tmp_path)
+    capsys.readouterr()
+    assert main([*words, "--resume", str(tmp_path)]) == 0
+    assert "is the record of a finished run, which ended with 0" in capsys.readouterr().out
+    assert files_in(tmp_path) == before
+    for lost in ("summary.json", "measurements.csv"):
+        (tmp_path / lost).unlink()
+        assert main([*words, "--resume", str(tmp_path)]) == 0
+        assert (tmp_path / lost).is_file()
+    shutil.move(tmp_path / FILE, tmp_path / GROWING)  # killed before it was renamed
+    assert main([*words, "--resume", str(tmp_path)]) == 0
+    assert sorted(path.name for path in tmp_path.glob("record*")) == [FILE]
+    assert os.path.getmtime(tmp_path / "summary.json") >= os.path.getmtime(tmp_path / FILE)
+
+
+@pytest.mark.parametrize("name", [FILE, GROWING])
+def test_a_folder_in_the_place_of_the_record_is_refused_before_anything_is_asked(tmp_path, capsys, name):
+    (tmp_path / name).mkdir()
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
+    assert f"--out {tmp_path} cannot be written: {name} in it is a folder" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_folder_that_takes_the_place_of_the_record_meanwhile_costs_nothing(tmp_path, capsys, monkeypatch):
+    def settle(recorder, path):
+        path.mkdir()
+        kept(recorder, path)
+
+    kept = Recorder.settle
+    monkeypatch.setattr(Recorder, "settle", settle)
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
+    assert f"is a directory; what was finished is in {tmp_path / GROWING}" in capsys.readouterr().err
+    assert read(tmp_path / GROWING).footer

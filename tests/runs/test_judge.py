@@ -1,0 +1,141 @@
+"""Judging: what counts as wrong, how far, and which mistake it is."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Position
+from hypcheck.runs import judge
+from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.truth import float_filter
+from tests.support.pairs import ordinary_pairs
+
+CLEAR = (2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0)  # r − a = 2
+TOUCH = (2.0, 5.0, 1.0, 1.0, 3.0, 0.0, 0.0)  # r − a = 1
+CROSS = (2.0, 5.0, 1.0, 1.0, 2.5, 0.0, 0.0)
+INSIDE = (4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+
+
+def judged(row, answer, criterion=Criterion()):  # noqa: B008  frozen
+    rows = np.array([row])
+    return judge.wrong_cases(rows, float_filter.positions(rows), np.array([answer], dtype=np.int8), criterion)
+
+
+@pytest.mark.parametrize(
+    ("row", "answer", "question", "mistake"),
+    [
+        (CLEAR, 0, "position", Mistake.FALSE_CONTACT),
+        (CLEAR, -1, "position", Mistake.WRONG_SIDE),
+        (CROSS, 1, "position", Mistake.FALSE_CLEAR),
+        (INSIDE, 1, "position", Mistake.WRONG_SIDE),
+        (CLEAR, 0, "exterior", Mistake.FALSE_CONTACT),
+        (CROSS, 1, "exterior", Mistake.FALSE_CLEAR),
+        (INSIDE, 1, "exterior", Mistake.WRONG_SIDE),
+        (CROSS, 1, "interior", Mistake.FALSE_CLEAR),
+        (INSIDE, 0, "interior", Mistake.FALSE_CONTACT),
+        (CROSS, 0, "contact", Mistake.FALSE_CLEAR),
+        (CLEAR, 1, "contact", Mistake.FALSE_CONTACT),
+    ],
+)
+def test_a_mistake_is_named_for_what_it_does(row, answer, question, mistake):
+    (case,) = judged(row, answer, Criterion(question))
+    assert case.mistake is mistake
+    assert case.status is Status.WRONG
+
+
+@pytest.mark.parametrize(
+    ("row", "answer", "question"),
+    [
+        (CLEAR, 1, "position"),
+        (CLEAR, 0, "interior"),
+        (CROSS, 0, "exterior"),
+        (TOUCH, 1, "contact"),
+        (CROSS, 2, "position"),
+    ],
+)
+def test_right_answers_and_abstentions_are_not_wrong(row, answer, question):
+    assert judged(row, answer, Criterion(question)) == []
+
+
+def test_a_wrong_answer_at_a_tangency_is_tolerated_unless_nothing_is():
+    assert judged(TOUCH, 1)[0].status is Status.TOLERATED
+    assert judged(TOUCH, 1, Criterion(tolerance=Fraction(0)))[0].status is Status.WRONG
+
+
+@pytest.mark.parametrize(
+    ("units", "status"), [(Fraction(799, 100), Status.WRONG), (Fraction(801, 100), Status.TOLERATED)]
+)
+def test_the_tolerance_is_met_to_the_last_digit(units, status):
+    """x = 3 (1 + δ) with δ = 8 u · (6/3): contact is right after a change of 8 u, since 3(1+δ)(1−ε) = 3(1+ε)."""
+    row = (2.0, 5.0, 1.0, 1.0, 3.0 + 48 * 2.0**-53, 0.0, 0.0)
+    assert judged(row, 0, Criterion(tolerance=units))[0].status is status
+
+
+def test_units_are_those_of_the_declared_precision():
+    row = (2.0, 5.0, 1.0, 1.0, 3.0 + 48 * 2.0**-53, 0.0, 0.0)
+    (case,) = judged(row, 0)
+    error = judge.measured(case, "position")
+    assert judge.in_units(error, Criterion(precision="float64").unit) == pytest.approx(8, rel=1e-3)
+    assert judge.in_units(error, Criterion(precision="float32").unit) == pytest.approx(8 * 2.0**-29, rel=1e-3)
+    assert judge.in_units(error, Criterion(precision="exact").unit) == math.inf
+    assert judged(row, 0, Criterion(precision="exact"))[0].status is Status.WRONG
+
+
+@pytest.mark.parametrize("units", [256, 1000])
+def test_a_tolerance_of_the_whole_input_excuses_all_but_what_no_change_makes_right(units):
+    """256 u of bfloat16 are a relative change of 1."""
+    criterion = Criterion(precision="bfloat16", tolerance=Fraction(units))
+    assert judged((2.0, 5.0, 1.0, 1.0, 90.0, 0.0, 0.0), -1, criterion)[0].status is Status.TOLERATED
+    assert judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1, criterion)[0].status is Status.WRONG
+
+
+def test_no_change_makes_the_axis_exterior():
+    (case,) = judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1)
+    assert case.exponent == math.inf
+    assert judge.measured(case, "position") == math.inf
+
+
+@pytest.mark.parametrize("bad", [{"question": "where"}, {"precision": "float8"}, {"tolerance": Fraction(-1)}])
+def test_a_criterion_that_makes_no_sense_is_refused(bad):
+    with pytest.raises(InputError, match=r"must be"):
+        Criterion(**bad)
+
+
+@given(st.lists(ordinary_pairs, min_size=1, max_size=10), st.integers(0, 2**32))
+def test_recorded_octaves_contain_the_measured_error(some, seed):
+    rows = np.array([pair.row for pair in some])
+    answers = np.random.default_rng(seed).integers(-1, 2, len(rows)).astype(np.int8)
+    for case in judge.wrong_cases(rows, float_filter.positions(rows), answers, Criterion()):
+        error = judge.measured(case, "position")
+        assert case.truth != case.answer
+        if math.isfinite(case.exponent):
+            assert 2.0**case.exponent <= error <= 2.0 ** (case.exponent + 1)
+
+
+def test_octaves_of_rows_are_distances_to_the_nearest_other_position():
+    """CROSS: exterior after 1/11 (see test_flip), interior only later; TOUCH: 0."""
+    assert judge.flip_exponents(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
+    assert Position.CONTACT not in judge.right_positions(Position.CONTACT, 0, "contact")
+
+
+@pytest.mark.parametrize(
+    ("answer", "question", "words"),
+    [
+        (1, "position", "exterior"),
+        (0, "position", "contact"),
+        (-1, "position", "interior"),
+        (1, "contact", "contact: yes"),
+        (0, "exterior", "exterior: no"),
+        (7, "position", "7"),
+        (-1, "interior", "-1"),
+    ],
+)
+def test_an_answer_has_words_and_what_is_none_stays_a_number(answer, question, words):
+    assert judge.in_words(answer, question) == words

@@ -1,0 +1,34 @@
+"""An interrupted run keeps what it finished, says that it is no pass, and ends as a process told to stop does."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+from hypcheck.record import read
+from hypcheck.record.lines import ProofLine
+from tests.support.without_drawing import COMMAND
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_what_was_finished_is_written(tmp_path, number, code):
+    command = [*COMMAND, "verify", "--self", "--out", str(tmp_path), "--count", "400"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    part = tmp_path / "record.jsonl.part"
+    deadline = time.monotonic() + 60
+    while not (part.exists() and '"proof"' in part.read_text(encoding="utf-8")):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, number)  # as a terminal and a supervisor do, to all its processes
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == code
+    assert b"Traceback" not in errors
+    record = read(tmp_path / "record.jsonl")
+    assert record.footer is None
+    assert record.of(ProofLine)
+    assert "TRUNCATED" in (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert not part.exists()

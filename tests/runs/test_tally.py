@@ -1,0 +1,141 @@
+"""Tallies: each case is in the bin of its sizes and place, and parts add up to the whole in any order."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.session import Outcome
+from hypcheck.runs import judge, tally
+from hypcheck.runs.judge import Criterion
+from hypcheck.runs.score import score
+from hypcheck.runs.tally import UnansweredCase
+from hypcheck.truth import float_filter
+
+CRITERION = Criterion(tolerance=Fraction(0))
+
+
+def rows_near_contact(n):
+    rng = np.random.default_rng(4)
+    rows = np.column_stack([np.tile([2.0, 17.8, 0.25, 0.15], (n, 1)), rng.uniform(1, 3, n), rng.uniform(0, 1, (n, 2))])
+    rows[::3, 4] += 1
+    return rows
+
+
+class Numbered:
+    """Cases that are named and placed by their numbers."""
+
+    def name(self, index):
+        """The id of a case."""
+        return f"case-{index}"
+
+    def place(self, index):
+        """Where it stands."""
+        return 1, index
+
+
+def answered(rows, numbers):
+    """Every third of the rows answered otherwise than is right, some without an answer."""
+    truth = float_filter.positions(rows)
+    answers = np.where(numbers % 3 == 0, np.where(truth == 0, 1, 0), truth).astype(np.int8)
+    status = np.full(len(rows), Outcome.ANSWERED, dtype=np.int8)
+    status[numbers % 7 == 1], status[numbers % 49 == 2] = Outcome.CRASH, Outcome.TIMEOUT
+    lost = np.flatnonzero(status != Outcome.ANSWERED)
+    answers[lost] = CANNOT_SAY
+    return Answered(answers, status, dict.fromkeys(lost.tolist(), "why"))
+
+
+def tallied(rows, start=0, stop=None):
+    """The tally of a stretch of the rows; some exponents are known."""
+    numbers = np.arange(len(rows))[start:stop]
+    part = rows[start:stop]
+    exponents = np.floor(numbers[numbers < 50] / 9.0)
+    scored = score(part, float_filter.positions(part), answered(part, numbers), CRITERION)
+    return scored.tally(Numbered(), numbers, exponents, skipped=3)
+
+
+def test_bins_count_what_a_plain_loop_counts():
+    rng = np.random.default_rng(4)
+    rows = 2.0 ** rng.uniform(-9, 9, (500, 7))
+    amiss = rng.random(500) < 0.3
+    for found, key in (
+        (
+            tally.by_size(rows, amiss),
+            lambda r: (math.floor(math.log2(r[0] / r[2])), math.floor(math.log2(r[1] / r[3]))),
+        ),
+        (
+            tally.by_place(rows, amiss),
+            lambda r: (min(63, int(8 * math.hypot(r[4], r[5]) / r[0])), min(63, int(8 * abs(r[6]) / r[1]))),
+        ),
+    ):
+        asked = Counter(map(key, rows.tolist()))
+        wrong = Counter(key(row) for row, bad in zip(rows.tolist(), amiss, strict=True) if bad)
+        assert found.as_lists() == [[*at, asked[at], wrong[at]] for at in sorted(asked)]
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1.0, 1e300])
+def test_places_of_any_magnitude_are_told(scale):
+    rows = np.array([[1.0, 1, 1, 1, 1.5, 2, 0.25], [1.0, 1, 1, 1, 0, 0, 1e9]]) * [1, 1, 1, 1, scale, scale, 1]
+    rows[:, 0] = scale
+    assert tally.by_place(rows, np.array([True, False])).as_lists() == [[0, 63, 1, 0], [20, 2, 1, 1]]
+
+
+def test_many_bins_are_counted_as_few_are():
+    rng = np.random.default_rng(5)
+    rows = np.ones((3000, 7))
+    rows[:, :4] = np.ldexp(1.0, rng.integers(-500, 500, (3000, 4)).astype(np.int32))
+    amiss = rng.random(3000) < 0.5
+    found = tally.by_size(rows, amiss)
+    assert found == tally.added(tally.by_size(rows[i::3], amiss[i::3]) for i in range(3))
+    assert found.table[:, 2:].sum(axis=0).tolist() == [3000, amiss.sum()]
+    assert tally.Histogram.of_lists(found.as_lists()) == found
+    assert tally.added([]) == tally.Histogram()
+
+
+def line_of(tallied):
+    """The line about an implementation under test."""
+    return tally.group_line(tallied, "family", CRITERION, method="mine", title="mine", spec="python:mine:f", failing=[])
+
+
+def test_parts_add_up_to_the_whole_in_any_order():
+    rows = rows_near_contact(300)
+    whole = tallied(rows)
+    cuts = [0, 1, 90, 91, 200, 300]
+    parts = [tallied(rows, *cut) for cut in pairwise(cuts)]
+    rng = np.random.default_rng(6)
+    expected = line_of(whole)
+    expected.counts["skipped"] *= len(parts)
+    assert expected.counts["wrong"] > 50
+    for _ in range(5):
+        order = rng.permutation(len(parts))
+        first = tally.merged_tally(parts[i] for i in order[:2])
+        total = tally.merged_tally([tally.merged_tally(parts[i] for i in order[2:]), first])
+        assert line_of(total) == expected
+    assert tally.merged_tally([]) == tally.Tally()
+
+
+def test_the_worst_cases_are_those_with_the_largest_errors():
+    rows = rows_near_contact(120)
+    answers = answered(rows, np.arange(120)).answers
+    wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != float_filter.positions(rows)))
+    assert len(wrong) > 20
+    errors = sorted((judge.error_of(rows[n].tolist(), int(answers[n]), "position") for n in wrong), reverse=True)
+    assert [case.error for case in tallied(rows).worst] == errors[:3]
+
+
+def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
+    faults = [UnansweredCase((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
+    faults += [
+        UnansweredCase((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why")
+        for n, name in enumerate(("crash", "timeout"))
+    ]
+    tallied = tally.merged_tally([tally.Tally(faults=(fault,)) for fault in reversed(faults)])
+    shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
+    assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]

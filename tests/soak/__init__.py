@@ -1,5 +1,0 @@
-"""Verify for a long time against implementations that fail in every way: `python -m tests.soak --help`.
-
-What is looked at between two runs is the process itself: memory, handles, processes, temporary files. Each may be
-of any size, but must not grow.
-"""

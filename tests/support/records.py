@@ -1,0 +1,47 @@
+"""Records made of any lines, with their checksums, and JSON values held to a published schema.
+
+Records made of any lines, with checksums as a Recorder would write them, whatever the lines are.
+
+JSON values held to a published schema by the library that implements JSON Schema.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from jsonschema import Draft202012Validator
+from jsonschema.validators import extend
+
+from hypcheck.record.integrity import sealed
+
+
+def resealed(lines):
+    """The bytes of a record that has these lines."""
+    data, check = b"", 0
+    for line in lines:
+        part, check = sealed({name: value for name, value in line.items() if name != "crc32"}, check)
+        data += part
+    return data
+
+
+_INTEGERS = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
+_Checker = extend(Draft202012Validator, type_checker=_INTEGERS)
+"""Takes 500.0 for no integer, as whatever reads JSON or TOML here does."""
+
+
+def violations(value: Any, schema: dict[str, Any], *, closed: bool = False) -> list[str]:
+    """What is wrong with the value, a sentence each; with `closed`, so is a property that the schema does not name."""
+    checker = _Checker(_closed(schema) if closed else schema)
+    return [f"{error.json_path}: {error.message[:300]}" for error in checker.iter_errors(value)]
+
+
+def _closed(schema: Any) -> Any:
+    """The schema without room for properties that it does not name; of a choice, in each of its parts."""
+    if isinstance(schema, list):
+        return [_closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {key: _closed(part) for key, part in schema.items()}
+    if isinstance(schema.get("properties"), dict) and "oneOf" not in schema:
+        found.setdefault("additionalProperties", False)
+    return found

@@ -1,0 +1,109 @@
+"""A long table is answered by several processes, and comes to the same as by one, errors included."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from itertools import chain
+
+import numpy as np
+import pytest
+
+from hypcheck import answers
+from hypcheck.answers import classify_table
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.processes import in_order
+from hypcheck.tables.chunk import CHUNK
+from hypcheck.tables.streams import Route
+
+ROWS = 5 * CHUNK + 7
+
+
+@pytest.fixture
+def rows():
+    found = np.tile([2.0, 17.8, 0.25, 0.15, 0.0, 0.0, 0.0], (ROWS, 1))
+    found[:, 4:] = np.random.default_rng(1).uniform(-3, 3, (ROWS, 3))
+    return found
+
+
+@pytest.fixture
+def classify(tmp_path, monkeypatch):
+    """Classifies a table by so many processes, which begin after the first chunk; the bytes of the answers."""
+
+    def run(source, kind, workers):
+        monkeypatch.setattr(answers, "ALONE", 1)
+        monkeypatch.setattr(answers, "usable_processors", lambda: workers)
+        target = tmp_path / f"answers-{workers}.{kind}"
+        classify_table(Route(str(source), source.suffix[1:], str(target), kind), mark=False)
+        return target.read_bytes()
+
+    return run
+
+
+@pytest.mark.parametrize(("kind", "target"), [("npy", "npy"), ("npy", "csv"), ("csv", "csv"), ("jsonl", "jsonl")])
+def test_the_answers_are_the_same(rows, classify, tmp_path, kind, target):
+    source = tmp_path / f"rows.{kind}"
+    if kind == "npy":
+        np.save(source, rows)
+    else:
+        source.write_text(text_of(rows, kind))
+    assert classify(source, target, 2) == classify(source, target, 1)
+
+
+def text_of(rows, kind):
+    if kind == "csv":
+        return "\n".join([",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows.tolist()), ""])
+    return "".join(json.dumps(dict(zip(COLUMNS, row, strict=True))) + "\n" for row in rows.tolist())
+
+
+def test_the_first_bad_row_is_told_whatever_stands_behind_it(rows, classify, tmp_path):
+    source = tmp_path / "rows.csv"
+    bad = 2 * CHUNK + 3
+    rows[bad, 2] = -0.25
+    lines = text_of(rows, "csv").splitlines()
+    lines[bad + CHUNK] += ",8"
+    lines[-1] = "\udcff"
+    source.write_bytes("\n".join(lines).encode("utf-8", "surrogateescape"))
+    said = []
+    for workers in (1, 2):
+        with pytest.raises(InputError) as told:
+            classify(source, "csv", workers)
+        said.append(str(told.value))
+        assert sorted(path.name for path in tmp_path.iterdir()) == ["rows.csv"]
+    assert said[0] == said[1]
+    assert f"row {bad + 1} (line {bad + 2}): b is -0.25" in said[0]
+
+
+def double(number):
+    if number == 40:
+        raise InputError("40 is too much")
+    return 2 * number
+
+
+def killed_elsewhere(number):
+    """Ends any process but the one that is told."""
+    if number[0] != os.getpid():
+        os.kill(os.getpid(), signal.SIGKILL)
+    return number[1]
+
+
+def failing(some):
+    yield from some
+    raise InputError("no more")
+
+
+def test_results_come_in_order_and_so_do_errors():
+    assert list(in_order(double, range(30), 2, 3)) == [2 * number for number in range(30)]
+    assert list(in_order(double, range(2), 2, 3)) == [0, 2]
+    for tasks, said in ((chain(range(35), range(40, 90)), "40 is too much"), (failing(range(35)), "no more")):
+        found = []
+        with pytest.raises(InputError, match=said):
+            found.extend(in_order(double, tasks, 2, 3))  # keeps what came before the error
+        assert found[:35] == [2 * number for number in range(35)]
+
+
+def test_what_a_process_was_killed_over_is_done_here():
+    tasks = [(os.getpid(), number) for number in range(20)]
+    assert list(in_order(killed_elsewhere, tasks, 2, 3)) == list(range(20))

@@ -1,0 +1,47 @@
+"""Foreign text is shown without anything that a terminal, a parser or an encoding would obey."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.messages import counted, escaped, shortened
+from tests.report import record_samples
+
+
+@given(record_samples.FOREIGN)
+def test_visible_text_is_printable_and_stays(foreign):
+    assert escaped(foreign).isprintable()
+    assert escaped(escaped(foreign)) == escaped(foreign)
+
+
+@pytest.mark.parametrize(
+    ("foreign", "shown"),
+    [
+        ("λ² − 1", "λ² − 1"),
+        ("a\nb\t\u2028 c\x85", "a b c"),
+        ("\x1b[31m\x00\x7f\x8d", "\\x1b[31m\\x00\\x7f\\x8d"),
+        ("\u202e\ufffe\ud800", "\\u202e\\ufffe\\ud800"),
+        ("  a   b ", "a b"),
+    ],
+)
+def test_what_cannot_be_seen_is_written_out(foreign, shown):
+    assert escaped(foreign) == shown
+
+
+@given(st.text(), st.integers(1, 60))
+def test_no_more_is_shown_than_there_is_room_for(foreign, width):
+    shown = escaped(foreign, width)
+    assert shown.isprintable()
+    assert len(shown) <= width
+    assert shown == shortened(escaped(foreign), width)
+
+
+def test_longer_text_ends_with_an_ellipsis():
+    assert [shortened("abc def", width) for width in (7, 6, 5, 2)] == ["abc def", "abc d…", "abc…", "a…"]
+
+
+def test_a_number_has_its_noun_in_the_singular_of_one_alone():
+    assert [counted(number, "row") for number in (0, 1, 2, 5600)] == ["0 rows", "1 row", "2 rows", "5,600 rows"]
+    assert [counted(number, "box", "boxes") for number in (1, 2)] == ["1 box", "2 boxes"]

@@ -1,0 +1,142 @@
+"""The collection is whole and told as it is; the gate rejects a sample of it, and passes what is right."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hypcheck.kernel import numpy_kernel
+from hypcheck.vectors.families import select
+from tests.tools.mutants import __main__, exactly, table
+from tests.tools.mutants.collection import MODULES, Mutant, imported, mutants, public_functions, sentence
+from tests.tools.mutants.expectation import Expectation, expectation_of
+from tests.tools.mutants.gating import Result, Ruling, gate
+
+HERE = Path(__file__).parent
+PAGE = HERE.parents[2] / "docs" / "mutants.md"
+MACHINERY = {"__init__", "__main__", "collection", "exactly", "expectation", "gating", "table", "test_mutants"}
+BY_NAME = {mutant.name: mutant for mutant in mutants()}
+
+SAMPLE = {
+    "signs.c0": "uniform,forest-type-1",
+    "slips.equation_12_as_printed": "near-tangent-outside",
+    "lengths.z_ignored": "out-of-regime",
+    "shapes.many_points": "tangent-ladder",
+    "answers.cannot_say_when_it_is_hard": "tower-body",
+    "regimes.without_the_ring": "ring,waist",
+    "regimes.procedure_2a_as_printed": "coefficient-zero",
+    "thresholds.double_root_is_clear": "degenerate-crossing",
+    "thresholds.tangency_is_clear": "tangent",
+    "rounding.shrunk_by_64_u": "near-axis",
+    "floats.nan_is_contact": "tiny-spheroids",
+    "ranges.no_negative_zero": "symmetric-images",
+    "lookups.frozen_vectors": "flight",
+    "memory.question_before": "flight,tower-body",
+    "batches.rounds_at_random": "tangent",
+    "refusals.forgets_nan": "axis",
+    "correct.whole_numbers": "ring,tangent,waist,osculation",
+    "correct.dual_form_in_float32": "ring,tangent,tiny-spheroids",
+    "correct.procedure_1_mended": "ring,regime-borders",
+    "refusals.refuses_what_is_invalid": "axis",
+}
+"""What the test suite gates, and the families that suffice for it."""
+
+
+@pytest.mark.parametrize("name", SAMPLE)
+def test_the_gate_judges_a_sample_as_it_must(name):
+    result = gate(BY_NAME[name], ("--count", "60", "--seed", "2", "--families", SAMPLE[name]))
+    assert result.as_expected, result.ruling.said
+    assert bool(result.ruling.killed_by) is not BY_NAME[name].expectation.right or name == "batches.rounds_at_random"
+    assert result.ruling.judged > 50
+
+
+def test_what_the_mutants_are_made_of_is_right():
+    for family in select(["*", "extreme"]):
+        rows = family.rows(3, 60)
+        assert exactly.position(rows).tolist() == numpy_kernel.positions(rows).tolist(), family.name
+
+
+def test_every_module_of_the_folder_is_in_the_collection():
+    assert {path.stem for path in HERE.glob("*.py")} - MACHINERY == set(MODULES)
+    assert len(set(MODULES)) == len(MODULES)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_function_has_an_expectation_and_a_sentence(name):
+    module = imported(name)
+    assert sentence(module).endswith(".")
+    for function, value in public_functions(module).items():
+        assert expectation_of(value) is not None, f"{name}.{function} says not what must become of it"
+        assert sentence(value).endswith("."), f"{name}.{function} has no sentence"
+
+
+def test_there_are_enough_and_no_two_are_called_alike():
+    assert len(BY_NAME) == len(mutants())
+    assert sum(not mutant.expectation.right for mutant in BY_NAME.values()) >= 40
+    assert sum(mutant.expectation.right for mutant in BY_NAME.values()) >= 10
+
+
+def test_every_answer_has_the_length_of_the_question():
+    row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
+    for name, mutant in BY_NAME.items():
+        answers = getattr(imported(mutant.module), mutant.function)(row.copy())
+        assert np.asarray(answers).shape == (1,), name
+
+
+def test_the_page_tells_of_this_collection():
+    rows = [line[2:-2].split(" | ") for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    told = [tuple(row[: len(table.stable_cells(mutant))]) for row, mutant in zip(_tables(rows), mutants(), strict=True)]
+    assert told == [table.stable_cells(mutant) for mutant in mutants()]
+
+
+def _tables(rows):
+    """The rows of the tables that begin like table.HEAD."""
+    return [row for row in rows if len(row) == len(table.HEAD) and row[0] not in {table.HEAD[0], "---"}]
+
+
+WRONG = Mutant("signs", "c0", "It is wrong.", Expectation(right=False))
+RIGHT = replace(WRONG, expectation=Expectation(right=True))
+MORE = replace(WRONG, expectation=Expectation(right=False, asked=("--tolerance", "0")))
+PASSED, REJECTED, NOT_JUDGED = Ruling(0, {}, 9), Ruling(1, {"ring": 4}, 9), Ruling(5, {}, 0)
+
+
+@pytest.mark.parametrize(
+    ("result", "expected"),
+    [
+        (Result(WRONG, REJECTED), True),
+        (Result(WRONG, PASSED), False),
+        (Result(WRONG, NOT_JUDGED), False),
+        (Result(RIGHT, PASSED), True),
+        (Result(RIGHT, REJECTED), False),
+        (Result(RIGHT, NOT_JUDGED), False),
+        (Result(MORE, REJECTED, without=PASSED), True),
+        (Result(MORE, REJECTED, without=REJECTED), False),
+        (Result(MORE, PASSED, without=PASSED), False),
+    ],
+)
+def test_whoever_escapes_is_told_everywhere(monkeypatch, result, expected):
+    assert result.as_expected is expected
+    monkeypatch.setattr(__main__, "gated", lambda some, jobs: iter([result]))
+    said = CliRunner().invoke(__main__.main, ["signs.c0"])
+    assert said.exit_code == (0 if expected else 1)
+    assert ("✗" in said.output) is not expected
+    assert ("✗" in table.render([result])) is not expected
+
+
+def test_a_right_one_that_is_declared_wrong_is_found_out():
+    liar = replace(BY_NAME["correct.whole_numbers"], expectation=Expectation(right=False))
+    assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
+
+
+def test_a_wrong_one_that_is_declared_right_is_found_out():
+    liar = replace(BY_NAME["answers.contact_always"], expectation=Expectation(right=True))
+    assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
+
+
+@pytest.mark.parametrize("arguments", [["nothing"], ["signs", "--out", "page.md"]])
+def test_wrong_usage_ends_with_2(arguments):
+    assert CliRunner().invoke(__main__.main, arguments).exit_code == 2

@@ -1,0 +1,54 @@
+"""The pictures of docs/figures.md, redrawn from simulations: `python -m tests.tools.paper_figures` (`make figures`)."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+from hypcheck.paper.forest import ForestPlan, simulate_forest
+from hypcheck.paper.tower import TowerPlan, simulate_tower
+from hypcheck.report.plots import forest_walk, paper_figures
+from hypcheck.report.plots.style import styled
+from hypcheck.report.plots.svg import standalone
+from hypcheck.report.plots.tower import flights
+from hypcheck.scene.reading import read_scene
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+DRAWN_WITH = DOCS / "figures" / "drawn-with.txt"
+SEED = 3
+
+
+def versions() -> str:
+    """What decides how a picture's bytes come out."""
+    return f"matplotlib {matplotlib.__version__}, numpy {np.__version__}\n"
+
+
+@cache
+def pictures() -> dict[str, bytes]:
+    """Every picture that takes seconds, by its path below docs/; Table 5's takes minutes and is not among them."""
+    walked = simulate_forest(ForestPlan(read_scene("forest"), SEED, None, continuous=True))
+    flown = simulate_tower(TowerPlan(read_scene("tower"), 1, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
+    with styled():
+        drawn = {
+            plot.name: plot
+            for plot in (*forest_walk.plots(walked), flights(flown), *paper_figures.plots(walked, flown))
+        }
+        return {
+            f"{'figures' if name.startswith('figure') else 'simulate'}/{name}.svg": standalone(plot)
+            for name, plot in drawn.items()
+        }
+
+
+def main() -> None:
+    """Write them."""
+    DRAWN_WITH.parent.mkdir(exist_ok=True)
+    for name, content in pictures().items():
+        (DOCS / name).write_bytes(content)
+    DRAWN_WITH.write_text(versions(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

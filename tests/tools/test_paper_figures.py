@@ -1,0 +1,57 @@
+"""The figures of docs/figures.md are fresh, have nothing cut off, and show what their captions say."""
+
+from __future__ import annotations
+
+import math
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from hypcheck.report.plots import paper_figures
+from tests.tools.paper_figures import DOCS, DRAWN_WITH, pictures, versions
+
+PAGE = (DOCS / "figures.md").read_text(encoding="utf-8")
+
+
+def test_each_picture_of_the_page_exists_and_each_drawn_one_is_shown():
+    shown = set(re.findall(r"\]\((\w+/[\w-]+\.svg)\)", PAGE))
+    assert all((DOCS / name).is_file() for name in shown)
+    assert shown == {*pictures(), "simulate/tower-table-5.svg"}
+
+
+@pytest.mark.skipif(
+    DRAWN_WITH.read_text(encoding="utf-8") != versions(),
+    reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
+)
+@pytest.mark.parametrize("name", ["figure-1", "figure-2", "figure-3"])
+def test_a_figure_is_fresh(name):
+    """`make figures` draws it anew."""
+    assert (DOCS / "figures" / f"{name}.svg").read_bytes() == pictures()[f"figures/{name}.svg"]
+
+
+@pytest.mark.skipif(
+    DRAWN_WITH.read_text(encoding="utf-8") != versions(),
+    reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
+)
+@pytest.mark.parametrize("name", ["forest-space", "forest-walk", "tower-flights"])
+def test_a_picture_of_a_simulation_is_fresh(name):
+    """`make figures` draws it anew."""
+    assert (DOCS / "simulate" / f"{name}.svg").read_bytes() == pictures()[f"simulate/{name}.svg"]
+
+
+def test_each_picture_has_a_title_and_a_description():
+    for content in pictures().values():
+        root = ElementTree.fromstring(content)  # noqa: S314 - our own
+        texts = {element.tag.rpartition("}")[2]: element.text for element in root}
+        assert texts["title"]
+        assert len(texts["desc"]) > 40
+
+
+def test_two_discs_overlap_in_a_lens_between_their_centres_or_not_at_all():
+    apart = 0.1415 * math.sqrt(2)
+    assert paper_figures._lens((0, 0), (apart, 0), 0.1) == []
+    lens = paper_figures._lens((0, 0), (0.19, 0), 0.1)
+    assert all(math.hypot(x, y) <= 0.1 + 1e-12 and math.hypot(x - 0.19, y) <= 0.1 + 1e-12 for x, y in lens)
+    assert min(x for x, _ in lens) == pytest.approx(0.09)
+    assert max(x for x, _ in lens) == pytest.approx(0.1)

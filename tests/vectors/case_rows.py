@@ -1,0 +1,31 @@
+"""What tests of the casebook ask of rows, exactly."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+from hypcheck.geometry.pair import Lengths, Pair
+from hypcheck.geometry.rows import Rows
+from hypcheck.truth import exact
+from hypcheck.truth.kinds import Kind
+
+COUNT = 1500
+"""Rows of a family that is looked at as a whole."""
+
+
+def lengths_of(rows: Rows) -> list[Lengths]:
+    return [Pair.from_row(row.tolist()).lengths for row in rows]
+
+
+def kinds(rows: Rows) -> Counter[Kind]:
+    return Counter(exact.decide(lengths).kind for lengths in lengths_of(rows))
+
+
+def fractions(rows: Rows) -> list[tuple[Fraction, ...]]:
+    return [tuple(map(Fraction, row)) for row in rows.tolist()]
+
+
+def ratios(rows: Rows) -> list[tuple[Fraction, Fraction]]:
+    """Exact a and c."""
+    return [(alpha / b, gamma / d) for alpha, gamma, b, d, *_ in fractions(rows)]

@@ -1,0 +1,50 @@
+"""Files of rows that must be refused: as strict as the others, and not to be taken for them."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.vectors import frozen
+from hypcheck.vectors.frozen import read_invalid_rows
+from tests.vectors.frozen.test_reading import SOUND, refused
+
+BAD_ROWS = frozen.path_of("invalid").read_text(encoding="utf-8").splitlines()
+BAD_FIRST = BAD_ROWS.index('"cases": [') + 1
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda case: case.update(expected="answered"), "it must be 'refused'"),
+        (lambda case: case.update(columns=[]), "one or more"),
+        (lambda case: case.update(columns=["y", "x"]), "one or more"),
+        (lambda case: case.update(columns=["w"]), "one or more"),
+        (lambda case: case.update(columns="x"), "must be a list"),
+        (lambda case: case["bits"].__setitem__(1, "4000000000000001"), "the bits of gamma"),
+        (lambda case: case["bits"].__setitem__(0, "7ff8000000000000"), "the bits of alpha"),
+        (lambda case: case["bits"].__setitem__(1, "0x40"), "16 hexadecimal digits"),
+        (lambda case: case["row"].__setitem__(0, "infinity"), "must be a number"),
+        (lambda case: case["row"].__setitem__(0, "nan"), "the bits of alpha"),
+        (lambda case: case.pop("bits") and None, "lacks bits"),
+        (lambda case: case.update(position=0), "has the key 'position'"),
+    ],
+)
+def test_a_row_to_be_refused_that_is_wrongly_written_is_refused(tmp_path, change, message):
+    lines = list(BAD_ROWS)
+    case = json.loads(lines[BAD_FIRST].removesuffix(","))
+    assert case["row"][0] == "inf"
+    change(case)
+    lines[BAD_FIRST] = json.dumps(case) + ","
+    found = refused(tmp_path, lines, read_invalid_rows)
+    assert f", line {BAD_FIRST + 1}, case invalid-0000" in found
+    assert message in found
+
+
+def test_the_two_contents_are_told_apart(tmp_path):
+    assert "here it must be 'positions'" in refused(tmp_path, BAD_ROWS)
+    assert "here it must be 'refusals'" in refused(tmp_path, SOUND, read_invalid_rows)
+    with pytest.raises(InputError, match="have no answers"):
+        frozen.load("invalid")

@@ -1,0 +1,295 @@
+"""How cases are made: short proofs, flags with witnesses computed by hand, ids that are kept, searches that repeat."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hypcheck.answer import DisagreementError
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.implementations.description import Domain, representable
+from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_shortest, rational_of
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.prove import prove
+from hypcheck.vectors import freezing
+from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.cancellation import BEGINNINGS, STRATA, CancellationSearch, searches, worst_row
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.flags import DEFEATED, FLAGS, flags_of, in_range
+from hypcheck.vectors.format import read_vectors, vectors_text
+from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
+from hypcheck.vectors.frozen import invalid_rows_text, read_invalid_rows
+from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
+from tests.support.pairs import pairs
+
+# flag → rows that have it and rows that have it not, by hand. A row is α, γ, b, d, x, y, z.
+BY_HAND = {
+    "tangent": (
+        [(1, 2, 1, 1, 2, 0, 0), (4, 4, 1, 1, 3, 0, 0)],
+        [(1, 2, 1, 1, 2.0000001, 0, 0), (1, 2, 1, 1, 2.5, 0, 0)],
+    ),
+    "ring": ([(1, 2, 1, 1, 2.5, 0, 0), (7, 7, 1, 1, 10, 0, 0)], [(1, 2, 1, 1, 2, 0, 0), (1, 2, 1, 1, 2.5, 0, 0.5)]),
+    "delta=0": ([(1, 2, 1, 1, 2.5, 0, 0), (1, 2, 1, 1, 2, 0, 0)], [(1, 2, 1, 1, 2.4, 0, 0)]),
+    "c2=0": ([(3, 3, 1, 1, 1, 0, 0)], [(3, 3, 1, 1, 1.5, 0, 0)]),
+    "c1=0": ([(4, 1, 1, 1, 1, 0, 0)], [(4, 1, 1, 1, 1.5, 0, 0)]),
+    "a<1": ([(1, 2, 1.5, 1, 9, 0, 0)], [(1, 2, 1, 1, 9, 0, 0), (2, 2, 1, 1, 9, 0, 0)]),
+    "a=1": ([(1, 2, 1, 1, 9, 0, 0)], [(1, 2, 1 + 2.0**-52, 1, 9, 0, 0)]),
+    "c^2<a": ([(5, 2, 1, 1, 9, 0, 0)], [(4, 2, 1, 1, 9, 0, 0), (3, 2, 1, 1, 9, 0, 0)]),
+    "c^2=a": ([(4, 2, 1, 1, 9, 0, 0)], [(4, 2, 1, 1 + 2.0**-52, 9, 0, 0)]),
+    "axis": ([(4, 2, 1, 1, 0, -0.0, 3)], [(4, 2, 1, 1, 0, 5e-324, 3)]),
+    "waist": ([(4, 2, 1, 1, 1, 1, -0.0)], [(4, 2, 1, 1, 1, 1, 5e-324)]),
+    "on-surface": ([(3, 4, 1, 1, 5, 0, 16 / 3 + 1), (3, 4, 1, 1, 3, 0, 0)], []),
+    "negative-zero": ([(4, 2, 1, 1, -0.0, 1, 1)], [(4, 2, 1, 1, 0.0, -1, 1)]),
+    "extreme": (
+        [(4e8, 2, 1, 1, 1, 1, 1), (4, 2, 1e-7, 1, 1, 1, 1), (4, 2, 1, 1, 1e7, 1, 1), (1e-5, 1, 1e4, 1, 0, 0, 0)],
+        [(1e6, 1e-6, 1, 1, 1e-7, 1e6, 0)],
+    ),
+    "float32-exact": (
+        [(4, 2, 1, 1, 0.5, 16777215, 2.0**-126)],
+        [(4, 2, 1, 1, 0.5, 16777217, 1), (4, 2, 1, 1, 0.1, 1, 1), (4, 2, 1, 1, 2.0**-127, 1, 1)],
+    ),
+    "float16-exact": ([(4, 2, 1, 1, 65504, 2.0**-14, 0)], [(4, 2, 1, 1, 65505, 0, 0), (4, 2, 1, 1, 2.0**-15, 0, 0)]),
+    "subnormal-float16": ([(4, 2, 1, 1, 2.0**-15, 0, 0)], [(4, 2, 1, 1, 2.0**-14, 0, 0), (4, 2, 1, 1, 2.0**-25, 0, 0)]),
+    "subnormal-float32": (
+        [(4, 2, 1, 1, 2.0**-149, 0, 0)],
+        [(4, 2, 1, 1, 2.0**-126, 0, 0), (4, 2, 1, 1, 2.0**-150, 0, 0)],
+    ),
+    "subnormal-float64": ([(4, 2, 1, 1, 5e-324, 0, 0)], [(4, 2, 1, 1, 2.0**-1022, 0, 0)]),
+    # (α/b)² is 2¹⁸, 2¹²⁸, 2¹⁰²⁴; 27 c0² and c2³ of smaller ratios overflow too.
+    "overflow-float16": (
+        [(512, 1, 1, 1, 1, 1, 1), (1, 1, 1, 1, 32, 1, 1)],
+        [(1, 1, 1, 1, 1, 1, 1), (70000, 1, 1, 1, 1, 1, 1)],
+    ),
+    "overflow-float32": ([(2.0**64, 1, 1, 1, 1, 1, 1)], [(2.0**10, 1, 1, 1, 1, 1, 1), (2.0**200, 1, 1, 1, 1, 1, 1)]),
+    "overflow-float64": ([(2.0**512, 1, 1, 1, 1, 1, 1)], [(2.0**64, 1, 1, 1, 1, 1, 1)]),
+    "underflow-float16": ([(1, 1, 1, 1, 2.0**-8, 1, 1)], [(1, 1, 1, 1, 1, 1, 1), (1, 1, 1, 1, 2.0**-16, 1, 1)]),
+    "underflow-float32": ([(1, 1, 1, 1, 2.0**-64, 1, 1)], [(1, 1, 1, 1, 2.0**-8, 1, 1)]),
+    "underflow-float64": ([(1, 1, 1, 1, 2.0**-512, 1, 1)], [(1, 1, 1, 1, 2.0**-64, 1, 1)]),
+    # The witnesses of docs/mathematics.md, "Where the paper is wrong".
+    "proposition-3-false": ([(1, 2, 1, 1, 2.5, 0, 0), (2, 0.5, 1, 1, 4, 0, 0)], [(1, 2, 1, 1, 2.4, 0, 0)]),
+    "proposition-5-false": ([(3, 3, 1, 1, 1, 0, 0), (4, 1, 1, 1, 1, 0, 0)], [(3, 3, 1, 1, 1.5, 0, 0)]),
+}
+
+
+def flags_at(*rows):
+    return flags_of(rows, [exact.decide(Pair.from_row(row).lengths) for row in rows])
+
+
+@pytest.mark.parametrize("flag", BY_HAND)
+def test_a_flag_is_where_a_hand_puts_it(flag):
+    with_it, without = ([tuple(map(float, row)) for row in rows] for rows in BY_HAND[flag])
+    if flag == "on-surface":
+        with_it = with_it[1:]  # 5² / 3² − (16/3 + 1)²/4² − 1 is not 0 in floats
+    assert [flag in flags for flags in flags_at(*with_it)] == [True] * len(with_it)
+    if without:
+        assert [flag in flags for flags in flags_at(*without)] == [False] * len(without)
+
+
+def test_the_flags_of_rounding_agree_with_the_judge():
+    """What judge.py calls wrong at 8 u of a built-in method, where exact arithmetic has it right."""
+    from hypcheck.derivation.evaluation import EXACT
+    from hypcheck.derivation.formulas import FORMULAS, answers
+    from hypcheck.geometry.pair import COLUMNS
+    from hypcheck.implementations.builtin import builtin_methods
+    from hypcheck.runs.judge import Criterion, Status, expected, wrong_cases
+
+    names = ("osculation", "near-axis", "ring-neighbourhood", "extreme-float32", "worst-cancellation")
+    rows = np.concatenate([vectors.load(name).rows[:60] for name in names])
+    flags = flags_at(*map(tuple, rows.tolist()))
+    positions = np.asarray([exact.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8)
+    for formula, precision in DEFEATED:
+        method = builtin_methods()[f"{formula}-{precision}"]
+        asked = np.flatnonzero(representable(rows, precision))
+        criterion = Criterion(method.question, precision)
+        wrong = wrong_cases(rows[asked], positions[asked], method.answer(rows[asked]), criterion)
+        right = expected(positions, method.question)
+        wanted = {
+            place
+            for place in (int(asked[case.index]) for case in wrong if case.status is Status.WRONG)
+            if int(answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, rows[place].tolist(), strict=True))))
+            == right[place]
+        }
+        assert wanted
+        assert {place for place, found in enumerate(flags) if f"{formula}-{precision}" in found} == wanted
+
+
+def test_the_default_domain_and_the_formats_ranges_are_those_of_the_methods():
+    rows = np.concatenate([vectors.load(name).rows for name in vectors.NAMES])
+    flagged = ["extreme" in case.flags for name in vectors.NAMES for case in vectors.load(name).cases]
+    assert flagged == (~Domain().holds(rows)).tolist()
+    for precision in ("float16", "float32", "float64"):
+        assert (in_range(rows, precision) == representable(rows, precision)).all()
+
+
+def test_flags_come_in_the_order_of_the_table():
+    for flags in flags_at(*[case.row for case in vectors.load("ring").cases[:20]]):
+        assert list(flags) == [name for name in FLAGS if name in flags]
+
+
+@given(pairs)
+@settings(max_examples=60)
+def test_a_proof_is_short_and_still_one(pair):
+    decision = exact.decide(pair.lengths)
+    found = stored_certificate(pair, prove(pair, decision))
+    crosses = decision.position is Position.CONTACT and not decision.tangent
+    assert bool(found.offsets) == crosses
+    if crosses:
+        assert shows_crossing(pair, found.offsets)
+
+
+def test_proofs_of_ordinary_crossings_are_of_few_digits():
+    for name in ("uniform", "tower-rotors", "on-surface", "out-of-regime"):
+        lengths = sorted(
+            max(len(exact_text(part)) for point in case.witness.offsets for part in point)
+            for case in vectors.load(name).cases
+            if case.witness.offsets
+        )
+        assert lengths[len(lengths) // 2] <= 8
+        assert lengths[-1] <= 40
+
+
+@pytest.mark.parametrize("outward", [True, False])
+def test_a_proof_that_ends_on_the_spheroids_own_surface_is_led_inside(outward):
+    """The point 3/5 up, 4/5 out (or in) of a unit sphere lies on the hyperboloid, and the two cross there."""
+    # (3/5, 4/5) from the centre, on x² − z² = 1 where x = 5/4, z = 3/4: the normal (5/4, −3/4) is not (4/5, 3/5).
+    side = Fraction(1 if outward else -1)
+    reach = (side * Fraction(4, 5), Fraction(0), Fraction(3, 5))
+    center = (Fraction(5, 4) - reach[0], Fraction(0), Fraction(3, 4) - reach[2])
+    scaled = [float(20 * value) for value in center]
+    pair = Pair(20.0, 20.0, 20.0, 20.0, *scaled)
+    assert [Fraction(value) for value in scaled] == [20 * value for value in center]
+    touched = tuple(20 * (value + step) for value, step in zip(center, reach, strict=True))
+    plain = Certificate(Position.CONTACT, points=(tuple(20 * value for value in center), touched))
+    assert not shows_crossing(pair, ((Fraction(0),) * 3, reach))
+    found = stored_certificate(pair, plain)
+    assert shows_crossing(pair, found.offsets)
+    assert max(len(exact_text(part)) for part in found.offsets[1]) < 20
+
+
+def test_points_outside_the_spheroid_show_nothing():
+    """x = 4 is beyond the waist of x² + y² − z² = 1 and x = 0 inside it; a unit sphere at (3, 0, 0) has neither."""
+    pair = Pair(1.0, 1.0, 1.0, 1.0, 3.0, 0.0, 0.0)
+    inside, outside = (Fraction(-3), Fraction(0), Fraction(0)), (Fraction(1), Fraction(0), Fraction(0))
+    assert not shows_crossing(pair, (inside, outside))
+    wider = Pair(1.0, 1.0, 3.0, 1.0, 3.0, 0.0, 0.0)
+    assert shows_crossing(wider, ((Fraction(-1), Fraction(0), Fraction(0)), outside))
+
+
+@given(st.floats(allow_nan=False))
+@settings(max_examples=300)
+def test_numbers_are_written_so_that_they_are_read_back(value):
+    assert float.fromhex(hex_of(value)) == value
+    assert math.copysign(1, float.fromhex(hex_of(value))) == math.copysign(1, value)
+    if math.isfinite(value):
+        assert float(decimal_of(value)) == value
+        assert is_shortest(Literal(decimal_of(value)))
+        assert is_shortest(Literal(f"{value:.25e}")) == (Fraction(f"{value:.25e}") == Fraction(repr(value)))
+    else:
+        assert decimal_of(value) == f'"{value}"'
+
+
+def test_hexadecimal_is_as_c_prints_it():
+    assert [hex_of(value) for value in (0.0, -0.0, 1.5, -1e-300, 5e-324, 0.1, math.inf)] == [
+        *("0x0p+0", "-0x0p+0", "0x1.8p+0", "-0x1.56e1fc2f8f359p-997", "0x0.0000000000001p-1022"),
+        *("0x1.999999999999ap-4", "inf"),
+    ]
+
+
+@given(st.fractions())
+@settings(max_examples=100)
+def test_rationals_are_read_as_they_are_written(value):
+    assert rational_of(exact_text(value)) == value
+
+
+def test_rationals_may_be_longer_than_python_reads_integers_but_not_without_end():
+    value = Fraction(-(7**20_000), 2**30_001)
+    assert rational_of(exact_text(value)) == value
+    with pytest.raises(ValueError, match="must have at most 100000 digits"):
+        rational_of("7" * 100_001)
+
+
+ROWS = [(1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0), (1.0, 2.0, 1.0, 1.0, 2.5, -0.0, 0.0), (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)]
+
+
+def test_a_row_that_is_there_keeps_its_id_and_new_ones_come_after():
+    first = extended("mine", [], [ROWS[0], ROWS[0], ROWS[1]])
+    assert first == [("mine-0000", ROWS[0]), ("mine-0001", ROWS[1])]
+    assert extended("mine", first, [ROWS[2], ROWS[1]]) == [*first, ("mine-0002", ROWS[2])]
+    gaps = [("mine-0007", ROWS[1]), ("mine/1/0/9", ROWS[0])]
+    assert extended("mine", gaps, ROWS) == [*gaps, ("mine-0008", ROWS[2])]
+
+
+def test_freezing_keeps_what_an_older_generator_made(monkeypatch):
+    """Half of the frozen cases, in another order, and a row that no generator makes now."""
+    monkeypatch.setitem(freezing.COUNTS, "ring", 12)
+    now = frozen("ring")
+    alien = replace(labelled([("ring-0500", ROWS[2])])[0])
+    before = replace(now, cases=(now.cases[9], alien, now.cases[2]))
+    after = frozen("ring", before)
+    assert after.cases[:3] == before.cases
+    assert [case.id for case in after.cases[3:]] == [f"ring-{number:04d}" for number in range(501, 511)]
+    assert {case.row for case in after.cases} == {case.row for case in (*now.cases, alien)}
+    assert frozen("ring", after) == after
+
+
+def test_freezing_writes_files_that_are_read_back(tmp_path, monkeypatch):
+    monkeypatch.setitem(freezing.COUNTS, "ring", 5)
+    told = []
+    freezing.freeze(["ring", "invalid", "ring"], tmp_path, told.append)
+    assert told == ["ring", "invalid"]
+    before = (tmp_path / "ring.json").read_bytes()
+    assert len(read_vectors(str(tmp_path / "ring.json")).cases) == 5
+    assert read_invalid_rows(str(tmp_path / "invalid.json")) == vectors.load_invalid_rows()
+    freezing.freeze(["ring"], tmp_path)
+    assert (tmp_path / "ring.json").read_bytes() == before
+
+
+def test_freezing_never_overwrites_what_is_not_its_own(tmp_path):
+    (tmp_path / "ring.json").write_text("precious", encoding="utf-8")
+    with pytest.raises(InputError, match="line 1"):
+        freezing.freeze(["ring"], tmp_path)
+    assert (tmp_path / "ring.json").read_text(encoding="utf-8") == "precious"
+    (tmp_path / "ring.json").write_text(vectors_text(vectors.load("axis")), encoding="utf-8")
+    with pytest.raises(InputError, match="of the family 'axis'"):
+        freezing.freeze(["ring"], tmp_path)
+    with pytest.raises(InputError, match="no frozen vectors 'rnig'"):
+        freezing.freeze(["rnig"], tmp_path)
+    with pytest.raises(InputError, match="is no folder"):
+        freezing.freeze(["ring"], tmp_path / "nowhere")
+
+
+def test_a_label_that_does_not_stand_its_check_is_not_frozen(tmp_path, monkeypatch):
+    """A maker of labels that lies about the clearance is found out before anything is written."""
+    monkeypatch.setitem(freezing.COUNTS, "ring", 3)
+    monkeypatch.setattr(freezing, "labelled", lambda cases: [replace(case, clearance=1.0) for case in labelled(cases)])
+    with pytest.raises(DisagreementError, match="ring-0000"):
+        freezing.freeze(["ring"], tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_rows_to_be_refused_keep_their_ids_too():
+    now = vectors.invalid_rows()
+    before = replace(now, cases=(replace(now.cases[4], id="invalid-0700"), now.cases[0]))
+    after = frozen_invalid_rows(before)
+    assert after.cases[:2] == before.cases
+    assert after.cases[2].id == "invalid-0701"
+    assert {case.bits for case in after.cases} == {case.bits for case in now.cases}
+    assert invalid_rows_text(frozen_invalid_rows(after)) == invalid_rows_text(after)
+
+
+def test_counts_are_for_every_family():
+    assert set(freezing.COUNTS) == set(FAMILIES)
+    assert set(STRATA) <= set(FAMILIES)
+    assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
+
+
+def test_a_search_that_finds_nothing_says_so():
+    assert worst_row(CancellationSearch("local-maximum", "float64", False, "uniform", 0)) is None

@@ -1,0 +1,86 @@
+"""`hypcheck cases check` sees what a file says wrongly before its cases, of our flags and families and of no others."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.vectors import frozen
+from hypcheck.vectors.examining import wrong_description, wrong_meanings
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.format import vectors_text
+from hypcheck.vectors.frozen import invalid_rows_text
+
+FILE = frozen.load("tangent")
+TEXT = vectors_text(replace(FILE, cases=FILE.cases[:6]))
+
+
+def checked(tmp_path, capsys, text):
+    """How the check ends, and what it says."""
+    path = tmp_path / "mine.json"
+    path.write_text(text, encoding="utf-8")
+    code = main(["cases", "check", str(path)])
+    return code, capsys.readouterr().out.replace(f"{path}, ", "").splitlines()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ('"title":"exactly', '"title":"nearly', 'line 3: family.title is "nearly tangent, in every'),
+        ('"extreme":false', '"extreme":true', "line 3: family.extreme is true; of tangent it is false"),
+        ('"version":1', '"version":2', "line 3: family.version is 2; of tangent it is 1"),
+        ('"the surfaces touch', '"the surfaces cross', 'line 4: the meaning of the flag tangent is "the surfaces cro'),
+        ('"equality"', '"luck"', 'line 4: the bug_type of the flag tangent is "luck"; it is "equality"'),
+    ],
+)
+def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, sentence):
+    assert old in TEXT
+    code, (said, closing) = checked(tmp_path, capsys, TEXT.replace(old, new, 1))
+    assert code == 1
+    assert said.startswith(sentence)
+    assert closing == "6 cases checked, none with a wrong label; what 1 of the files says at its head is wrong"
+
+
+def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
+    text = invalid_rows_text(frozen.load_invalid_rows())
+    code, lines = checked(tmp_path, capsys, text.replace(frozen.INVALID_METADATA.drone, "a bad row is answered"))
+    assert (code, lines[0][:39]) == (1, 'line 3: family.drone is "a bad row is a')
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {'"name":"tangent"': '"name":"mine"', '"id":"tangent-': '"id":"mine-', "exactly tangent": "nearly"},
+        {"freeze": "make"},
+    ],
+    ids=["a family of one's own", "made in another way"],
+)
+def test_what_is_not_ours_may_be_told_in_any_words(tmp_path, capsys, changes):
+    text = TEXT
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    assert checked(tmp_path, capsys, text) == (0, ["6 cases checked, none with a wrong label"])
+
+
+def test_the_words_of_an_earlier_version_are_not_compared():
+    head = replace(frozen.load("ring").head, title="another")
+    right = FAMILIES["ring"].title
+    assert list(wrong_description(head)) == [f'family.title is "another"; of ring it is "{right}"']
+    assert list(wrong_description(replace(head, version=0))) == []
+
+
+def test_of_what_a_file_says_at_length_the_beginning_is_quoted(tmp_path, capsys):
+    code, (said, _) = checked(tmp_path, capsys, TEXT.replace("exactly tangent", "nearly" * 10_000, 1))
+    assert code == 1
+    assert len(said) < 400
+
+
+def test_what_the_shipped_files_say_is_so():
+    for name in frozen.NAMES:
+        file = frozen.load(name)
+        assert file.head.name == name
+        assert [*wrong_description(file.head), *wrong_meanings(file.flags)] == []
+    assert list(wrong_description(frozen.load_invalid_rows().head)) == []

@@ -1,0 +1,40 @@
+"""Each family meets the positions that its geometry allows."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.truth import float_filter
+from hypcheck.vectors.families import FAMILIES
+from tests.vectors.case_rows import COUNT
+
+EXTERIOR, CONTACT, INTERIOR = Position
+LIMITED = {
+    # in contact by construction
+    "tangent": {CONTACT},
+    "degenerate-crossing": {CONTACT},
+    "degenerate-neighbourhood": {CONTACT},
+    "on-surface": {CONTACT},
+    # clear by construction
+    "ring": {EXTERIOR},
+    "ring-neighbourhood": {EXTERIOR},
+    # one side of the surface alone
+    "near-tangent-outside": {EXTERIOR, CONTACT},
+    "near-tangent-inside": {CONTACT, INTERIOR},
+    "osculation": {EXTERIOR, CONTACT},
+    "near-axis": {CONTACT, INTERIOR},
+    "axis": {CONTACT, INTERIOR},
+    "coefficient-zero": {CONTACT, INTERIOR},
+}
+"""Families that the geometry keeps from some position; all others show all three."""
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_each_position_that_the_geometry_allows_is_met(name: str) -> None:
+    found = Counter(float_filter.positions(FAMILIES[name].rows(5, COUNT)).tolist())
+    expected = LIMITED.get(name, set(Position))
+    assert set(found) == {int(position) for position in expected}
+    assert all(count >= 0.1 * COUNT for count in found.values()), found

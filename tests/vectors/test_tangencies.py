@@ -1,0 +1,121 @@
+"""Double roots: tangencies, crossings with a node, the ring, and what lies next to them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.kinds import Kind
+from hypcheck.vectors import double_roots
+from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.families import FAMILIES
+from tests.vectors.case_rows import fractions, kinds, lengths_of, ratios
+
+EXTERIOR, CONTACT, INTERIOR = Position
+
+
+def test_tangencies_are_tangent_and_of_every_kind() -> None:
+    found = kinds(FAMILIES["tangent"].rows(0, 400))
+    assert set(found) == {kind for kind in Kind if kind.tangent}
+    assert min(found.values()) >= 40
+
+
+def test_degenerate_crossings_are_of_every_kind_with_a_double_root_and_no_tangency() -> None:
+    found = kinds(FAMILIES["degenerate-crossing"].rows(0, 400))
+    assert set(found) == {
+        Kind.CROSSING_THROAT_NODE,
+        Kind.CROSSING_GROOVE_NODE,
+        Kind.CROSSING_GROOVE_ISOLATED_POINT,
+        Kind.CROSSING_GROOVE_CUSP,
+    }
+    assert min(found.values()) >= 40
+
+
+def test_beside_a_degenerate_crossing_the_discriminant_has_both_signs() -> None:
+    rows = FAMILIES["degenerate-neighbourhood"].rows(0, 400)
+    found = kinds(rows)
+    assert {Kind.CROSSING_ONE_CURVE, Kind.CROSSING_GROOVE_TWO_CURVES, Kind.CROSSING_THROAT_TWO_CURVES} <= set(found)
+
+
+@pytest.mark.parametrize("construct", [double_roots.by_ratios, double_roots.by_angle])
+def test_a_construction_knows_what_it_made(construct: type) -> None:
+    found = construct(Draw("construction"), 600)
+    usable = found.usable
+    assert usable.mean() > 0.5
+    for row, outer, tangent in zip(found.rows[usable], found.outer[usable], found.tangent[usable], strict=True):
+        decision = exact.decide(Pair.from_row(row.tolist()).lengths)
+        assert decision.tangent == tangent
+        if tangent:
+            assert decision.kind.limit_of is (EXTERIOR if outer else INTERIOR)
+        else:
+            assert (decision.kind is Kind.CROSSING_THROAT_NODE) != outer
+
+
+@pytest.mark.parametrize("construct", [double_roots.by_ratios, double_roots.by_angle])
+def test_the_sine_is_the_normal_s(construct: type) -> None:
+    """a² cos² − c² sin² = m², with the double root m taken from the exact cubic."""
+    found = construct(Draw("sine"), 300)
+    for row, sine in zip(found.rows[found.usable], found.sine[found.usable].tolist(), strict=True):
+        g = exact.cubic(Pair.from_row(row.tolist()).lengths)
+        m = Fraction(9 * g.n3 * g.n0 - g.n1 * g.n2, 2 * (g.n2 * g.n2 - 3 * g.n3 * g.n1))
+        A, B = Fraction(g.p, g.q), Fraction(g.s, g.t)
+        exact_square = (A - m * m) / (A + B)
+        assert abs(Fraction(sine) ** 2 - exact_square) <= exact_square * Fraction(1, 2**50)
+
+
+def test_the_ring_is_clear_with_a_vanishing_discriminant() -> None:
+    assert set(kinds(FAMILIES["ring"].rows(0, 600))) == {Kind.EXTERIOR_RING}
+
+
+def test_the_ring_s_neighbourhood_reaches_from_1e_12_to_1e_2_radii() -> None:
+    rows = FAMILIES["ring-neighbourhood"].rows(0, 2000)
+    distances = []
+    for alpha, gamma, b, d, x, y, z in fractions(rows):
+        A, B = (alpha / b) ** 2, (gamma / d) ** 2
+        on_ring = (B + 1) * (A + B) / B
+        square = (x * x + y * y) / (b * b)
+        radial = float((square - on_ring) / (2 * on_ring)) * float(on_ring) ** 0.5
+        distances.append(max(abs(radial), abs(float(z / d))))
+        assert B * B > A, "c² > a, or the root is a tangency"
+    assert np.max(distances) < 0.04
+    octaves = np.floor(np.log2(np.maximum(distances, 1e-13)))
+    assert set(range(-38, -5)) <= set(octaves.astype(int).tolist())
+    assert np.mean(rows[:, 6] == 0) > 0.5
+    assert any(abs(float(a) - 8) < 1e-12 and abs(float(c) - 356 / 3) < 1e-9 for a, c in ratios(rows))
+
+
+def test_near_misses_are_near() -> None:
+    """A change of every length by a relative 2⁻⁸ is enough to turn each into the other position."""
+    for name, clear in (("near-tangent-outside", EXTERIOR), ("near-tangent-inside", INTERIOR)):
+        for lengths in lengths_of(FAMILIES[name].rows(0, 300)):
+            spheroids = [
+                Lengths(
+                    **{
+                        **{key: getattr(lengths, key) * 256 for key in Lengths.__slots__},
+                        "b": lengths.b * k,
+                        "d": lengths.d * k,
+                    }
+                )
+                for k in (246, 266)
+            ]
+            assert [exact.position(changed) for changed in spheroids] == [clear, CONTACT]
+
+
+def test_near_misses_reach_down_to_one_ulp() -> None:
+    """Among the rows moved by ulps a few are tangent again when one length is moved back by one ulp."""
+    steps = Counter()
+    for name in ("near-tangent-outside", "near-tangent-inside"):
+        for row in FAMILIES[name].rows(0, 400).tolist():
+            for column in range(7):
+                for toward in (np.inf, -np.inf):
+                    back = [*row]
+                    back[column] = float(np.nextafter(row[column], toward))
+                    if back[column] and row[column] and exact.decide(Pair.from_row(back).lengths).tangent:
+                        steps[name] += 1
+    assert min(steps.values()) >= 3
+    assert len(steps) == 2
