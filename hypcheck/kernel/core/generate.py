@@ -17,7 +17,7 @@ from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, statements
-from hypcheck.kernel.programs import certified, lines
+from hypcheck.kernel.programs import certified, lines, tilted_lines
 from hypcheck.kernel.programs import tilted as tilted_program
 from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
 
@@ -28,6 +28,7 @@ COMMAND = "python -m hypcheck.kernel.core.generate"
 CONSTANTS = {
     **certified.CONSTANTS,
     **tilted_program.CONSTANTS,
+    **tilted_lines.CONSTANTS,
     "u_1536": certified.SINGLE_CONSTANTS["u_1536"],
     "more": lines.MORE,
     "less": lines.LESS,
@@ -65,7 +66,7 @@ VECTOR = Spelling(
 """C over vectors of any width: the operators of the compiler, and macros for what they do not cover."""
 
 
-PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "dispatch", "tilted")
+PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "tilted_scene", "dispatch", "tilted")
 
 
 def header() -> str:
@@ -144,6 +145,29 @@ def _kilobytes() -> int:
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
 
+def _plane_functions() -> list[str]:
+    text = (HERE / "parts" / "plane_function.h").read_text(encoding="utf-8")
+    programs = (tilted_lines.ONE_PLANE, tilted_lines.TWO_PLANES)
+    return "\n".join(_plane_function(text, program) for program in programs).splitlines()
+
+
+def _plane_function(text: str, program: Program) -> str:
+    results = QUESTIONS["position"]
+    wanted = ("distance", *results.values())
+    read = {name for step in needed(program, wanted) for name in step.reads}
+    fields = {name: "{1}[{2}].{0}".format(*name.split("_")) for name in tilted_lines.PLANE_CONSTANTS}
+    fields |= {name: name for name in (*tilted_lines.BASIS, "reach")}
+    texts = {
+        "PLANE_CONSTANTS": [
+            f"const HC_NUMBER {name} = HC_SET(scene->{field});" for name, field in fields.items() if name in read
+        ],
+        "PLANES": statements(program, wanted, VECTOR),
+        "PLANE_RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
+    }
+    named = text.replace("@NAME@", program.name.replace("-", "_")).replace("@PROGRAM@", program.name)
+    return _filled(named, texts)
+
+
 def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The program of a row that leans, before a multiplier is chosen, and after it."""
     both = statements(tilted_program.TILTED, ("exterior", "interior", "decided"), VECTOR)
@@ -158,6 +182,7 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "TILTED_INPUTS": lambda: [
         f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted_program.ROW)
     ],
+    "PLANE_FUNCTIONS": _plane_functions,
     "TILTED_FORM": lambda: _tilted()[0],
     "TILTED_AT_MULTIPLIER": lambda: _tilted()[1],
     "CONSTANTS": _constants,

@@ -121,6 +121,7 @@ int hypcheck_use_level(const char *name);
 #define HC_BLOCK 64  /* rows that share one word of bits */
 #define HC_STRIP 4096 /* rows whose undecided ones are collected before the next stage looks at them */
 #define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
+#define HC_TOO_MANY_BY_PLANES 120 /* the same for one orientation, where two planes cost more */
 #define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
 #define HC_AHEAD 512
 #define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
@@ -149,6 +150,12 @@ int hypcheck_use_level(const char *name);
 #define HC_least_axis 7.888609052210118e-31 /* 0x1.0000000000000p-100 */
 #define HC_greatest_axis 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
 #define HC_greatest_l 1.152921504606847e+18 /* 0x1.0000000000000p+60 */
+#define HC_unit 2.220446049250313e-16 /* 0x1.0000000000000p-52 */
+#define HC_more_than 1.0000000000009095 /* 0x1.0000000001000p+0 */
+#define HC_lost 9.332636185032189e-302 /* 0x1.0000000000000p-1000 */
+#define HC_least_ratio 9.5367431640625e-07 /* 0x1.0000000000000p-20 */
+#define HC_greatest_ratio 1048576.0 /* 0x1.0000000000000p+20 */
+#define HC_greatest_zeta 0.0009765625 /* 0x1.0000000000000p-10 */
 #define HC_u_1536 3.4106083842549983e-13 /* 0x1.8000180000000p-42 */
 #define HC_more 1.000000000000007 /* 0x1.0000000000020p+0 */
 #define HC_less 0.9999999999999929 /* 0x1.fffffffffffc0p-1 */
@@ -175,6 +182,24 @@ typedef struct {
     hc_line beyond[3], within[3], under[3], above[3];
     double reach;
 } hc_scene;
+
+/* A number known to lie within e of v. */
+typedef struct {
+    double v, e;
+} hc_ball;
+
+/* P1 + a P2 against K + M Q */
+typedef struct {
+    double a, K, M;
+} hc_plane;
+
+typedef struct {
+    double r1_x, r1_y, r2_x, r2_y, r2_z, r3_x, r3_y, r3_z; /* the rows of the basis, as they are used */
+    hc_plane beyond[3], within[3], under[3], above[3];
+    double reach, heights[3];
+    hc_ball A1, A2, B;
+    double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
+} hc_tilted_scene;
 
 /* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
 #if defined(__GNUC__) || defined(__clang__)
@@ -878,7 +903,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_91faff3c8fec8416
+#ifndef HC_EDITION_26deab650ccfd1b2
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1159,22 +1184,279 @@ static int hc_make_scene(hc_scene *scene, const double sizes[4], size_t n, const
     return HC_FLOATS_DECIDE;
 }
 
+
+/* ---- the half spaces of one orientation: which they are, and that they prove ---- */
+
+/* Numbers with bounds of their errors, both NaN where nothing is known. The bounds hold in any rounding mode: each operation
+   adds HC_unit |v| for its own rounding, a 2^-40th of e for those of e, and HC_lost for what underflows. */
+static double hc_size(double value) { return value < 0 ? -value : value; }
+
+static double hc_nothing_known(void) {
+    const uint64_t bits = (uint64_t)0x7ff8 << 48;
+    double nan;
+    memcpy(&nan, &bits, sizeof nan);
+    return nan;
+}
+
+static hc_ball hc_exactly(double value) {
+    hc_ball ball;
+    ball.v = value;
+    ball.e = 0;
+    return ball;
+}
+
+static hc_ball hc_ball_of(double v, double e) {
+    hc_ball ball;
+    ball.v = v;
+    ball.e = (e + HC_unit * hc_size(v)) * HC_more_than + HC_lost;
+    if (!(hc_size(v) < HC_cap && e < HC_cap)) ball.v = ball.e = hc_nothing_known();
+    return ball;
+}
+
+static hc_ball hc_plus(hc_ball a, hc_ball b) { return hc_ball_of(a.v + b.v, a.e + b.e); }
+static hc_ball hc_minus(hc_ball a, hc_ball b) { return hc_ball_of(a.v - b.v, a.e + b.e); }
+static hc_ball hc_times(hc_ball a, hc_ball b) {
+    return hc_ball_of(a.v * b.v, hc_size(a.v) * b.e + a.e * (hc_size(b.v) + b.e));
+}
+
+/* a/b - a'/b' = ((a - a') + (a'/b') (b' - b))/b */
+static hc_ball hc_over(hc_ball a, hc_ball b) {
+    const double least = (hc_size(b.v) - b.e * HC_more_than) / HC_more_than, v = a.v / b.v;
+    return hc_ball_of(v, least > 0 ? (a.e + hc_size(v) * HC_more_than * b.e) / least : hc_nothing_known());
+}
+
+/* |√a - r| = |a - r²|/(√a + r) <= |a - r²|/r */
+static hc_ball hc_root(hc_ball a) {
+    double root = hc_rough_root(a.v);
+    hc_ball rest;
+    if (!(root > 0 && a.v > a.e)) return hc_ball_of(hc_nothing_known(), 0);
+    root = 0.5 * (root + a.v / root);
+    root = 0.5 * (root + a.v / root);
+    rest = hc_minus(a, hc_times(hc_exactly(root), hc_exactly(root)));
+    return hc_ball_of(root, (hc_size(rest.v) + rest.e) / root);
+}
+
+static double hc_at_most(hc_ball a) { return (a.v + a.e) * (a.v + a.e > 0 ? HC_more : HC_less); }
+static double hc_at_least(hc_ball a) { return (a.v - a.e) * (a.v - a.e > 0 ? HC_less : HC_more); }
+
+/* The rows of the basis in units of 1/b: the horizontal one across the axis, and those of the plane of both axes, where
+   D = diag(1/p, -1/s), M = (c + h/t, (1/t - 1)√(hc); ., h + c/t). With D y = y M y's eigenvalue, a row is M y of unit
+   length, and y is taken from the line of D - M/A2, or of D + M/B, in which nothing cancels. */
+static void hc_basis(hc_tilted_scene *scene, hc_ball rows[3][3], const double sizes[4], const double axis[3]) {
+    const hc_ball one = hc_exactly(1), b = hc_exactly(sizes[2]);
+    const hc_ball alpha = hc_over(hc_exactly(sizes[0]), b), gamma = hc_over(hc_exactly(sizes[1]), b);
+    const hc_ball d = hc_over(hc_exactly(sizes[3]), b), vx = hc_exactly(axis[0]), vy = hc_exactly(axis[1]);
+    const hc_ball vz = hc_exactly(axis[2]), level = hc_plus(hc_times(vx, vx), hc_times(vy, vy));
+    const hc_ball w = hc_plus(level, hc_times(vz, vz)), h = hc_over(level, w), c = hc_over(hc_times(vz, vz), w);
+    const hc_ball p = hc_times(alpha, alpha), s = hc_times(gamma, gamma), t = hc_times(d, d), k0 = hc_times(p, s);
+    const hc_ball along = hc_plus(hc_times(t, h), c), across = hc_plus(hc_times(t, c), h);
+    const hc_ball k1 = hc_minus(hc_times(s, along), hc_times(p, across));
+    const hc_ball root = hc_root(hc_plus(hc_times(k1, k1), hc_times(hc_exactly(4), hc_times(k0, t))));
+    const hc_ball larger = hc_times(hc_exactly(0.5), k1.v < 0 ? hc_minus(root, k1) : hc_plus(root, k1));
+    const hc_ball one_pole = hc_over(larger, t), other_pole = hc_over(k0, larger);
+    const hc_ball length = hc_root(level), east = hc_over(vx, length), north = hc_over(vy, length);
+    const hc_ball M11 = hc_over(across, t), M22 = hc_over(along, t); /* c + h/t, h + c/t */
+    const hc_ball M12 = hc_times(hc_minus(hc_over(one, t), one), hc_over(hc_times(length, vz), w));
+    int i, k;
+    scene->A1 = p;
+    scene->A2 = k1.v < 0 ? one_pole : other_pole;
+    scene->B = k1.v < 0 ? other_pole : one_pole;
+    rows[0][0] = hc_over(hc_minus(hc_exactly(0), north), b);
+    rows[0][1] = hc_over(east, b);
+    rows[0][2] = hc_exactly(0);
+    for (i = 1; i < 3; i++) {
+        const hc_ball pole = i == 1 ? scene->A2 : scene->B, mixed = hc_over(hc_minus(hc_exactly(0), M12), pole);
+        const hc_ball whole = hc_plus(hc_over(one, i == 1 ? s : p), hc_over(i == 1 ? M22 : M11, pole));
+        const hc_ball y1 = i == 1 ? whole : mixed, y2 = i == 1 ? mixed : whole;
+        const hc_ball m1 = hc_plus(hc_times(M11, y1), hc_times(M12, y2)), m2 = hc_plus(hc_times(M12, y1), hc_times(M22, y2));
+        const hc_ball unit = hc_times(hc_root(hc_plus(hc_times(y1, m1), hc_times(y2, m2))), b);
+        rows[i][0] = hc_over(hc_times(m1, east), unit);
+        rows[i][1] = hc_over(hc_times(m1, north), unit);
+        rows[i][2] = hc_over(m2, unit);
+    }
+    scene->zeta = 0;
+    for (i = 0; i < 3; i++) {
+        double eta = 0;
+        for (k = 0; k < 3; k++) eta += 4 * HC_unit * hc_size(rows[i][k].v) + rows[i][k].e;
+        eta *= (sizes[2] > sizes[3] ? sizes[2] : sizes[3]) * HC_more_than;
+        eta = (2 * eta + eta * eta + 2 * HC_unit) * HC_more_than;
+        if (!(eta < 1)) eta = 1;
+        if (eta > scene->zeta) scene->zeta = eta;
+    }
+}
+
+static const hc_plane hc_never_above = {1, HC_NEVER, 0}, hc_never_below = {1, -1, 0};
+
+/* z of the margins: more than (1 + a + M) zeta for all a and M that may come of it. */
+static double hc_margin(const hc_tilted_scene *scene, double a, double M) { return 2 * (1 + a + M) * scene->zeta; }
+
+/* A plane for comparisons > or >= (side 1), < (side -1), if its constants and its margin allow. */
+static hc_plane hc_proper(const hc_tilted_scene *scene, double a, double K, double M, double z, int greater) {
+    hc_plane plane;
+    const int proper = a > HC_least_ratio && a < HC_greatest_ratio && K >= HC_least_constant && K < HC_cap && M >= 0 &&
+                       M <= HC_greatest_slope && (1 + a + M) * scene->zeta * HC_more <= z && z < 0.125 && z < 0.125 * a;
+    plane.a = a * (greater ? HC_less : HC_more);
+    plane.K = K * (greater ? HC_more : HC_less);
+    plane.M = M * (greater ? HC_more : HC_less);
+    return proper ? plane : greater ? hc_never_above : hc_never_below;
+}
+
+/* The plane of one λ: exterior beyond it for λ > 0, interior within it for λ < 0. */
+static hc_plane hc_tilted_tangent(const hc_tilted_scene *scene, double l, int side) {
+    const hc_ball at = hc_exactly(l), from_A1 = hc_plus(scene->A1, at), from_A2 = hc_plus(scene->A2, at);
+    const hc_ball from_B = hc_minus(scene->B, at), beta = hc_over(from_A1, from_A2), nu = hc_over(from_A1, from_B);
+    const hc_ball kappa = hc_times(from_A1, hc_plus(hc_exactly(1), hc_over(hc_exactly(1), at)));
+    const double z = hc_margin(scene, beta.v, nu.v);
+    const int inside = hc_at_least(from_A1) > 0 && hc_at_least(from_A2) > 0 && hc_at_least(from_B) > 0 && side * l > 0;
+    if (!inside) return side > 0 ? hc_never_above : hc_never_below;
+    if (side > 0)
+        return hc_proper(scene, hc_at_least(beta) - z, hc_at_most(kappa) * (1 + z), hc_at_most(nu) * (1 + z) + z, z, 1);
+    return hc_proper(scene, hc_at_most(beta) + z, hc_at_least(kappa) * (1 - z), hc_at_least(nu) * (1 - z) - z, z, 0);
+}
+
+/* Whether the tangent at λ = l of φ = λ (P/(A+λ) - Q/(B-λ)) - 1 - λ is below 0 between 0 and the pole of that side: then
+   so is φ, and the place (P, Q) is not exterior (side 1), or not interior (side -1). */
+static int hc_below_tangent(hc_ball A, hc_ball B, double P, double Q, double l, int side) {
+    const hc_ball one = hc_exactly(1), at = hc_exactly(l), p = hc_exactly(P), q = hc_exactly(Q);
+    const hc_ball from_A = hc_plus(A, at), from_B = hc_minus(B, at), part_P = hc_over(p, from_A), part_Q = hc_over(q, from_B);
+    const hc_ball phi = hc_minus(hc_times(at, hc_minus(part_P, part_Q)), hc_plus(one, at));
+    const hc_ball rise = hc_times(hc_over(A, from_A), part_P), fall = hc_times(hc_over(B, from_B), part_Q);
+    const hc_ball slope = hc_minus(hc_minus(rise, fall), one), at_0 = hc_minus(phi, hc_times(slope, at));
+    const hc_ball to_pole = side > 0 ? from_B : hc_minus(hc_exactly(0), from_A), at_pole = hc_plus(phi, hc_times(slope, to_pole));
+    return hc_at_least(from_A) > 0 && hc_at_least(from_B) > 0 && hc_at_most(at_0) < 0 && hc_at_most(at_pole) < 0;
+}
+
+/* The same with the best λ, which Newton's method finds for φ' = 0, and with λ = 0. */
+static int hc_not_on_side(hc_ball A, hc_ball B, double P, double Q, int side) {
+    double l = side * hc_best_multiplier(A.v, B.v, Q, side);
+    int i;
+    for (i = 0; i < 4; i++) {
+        const double a = 1 / (A.v + l), b = 1 / (B.v - l), rise = A.v * P * a * a, fall = B.v * Q * b * b;
+        const double moved = l + (rise - fall - 1) / (2 * (rise * a + fall * b));
+        if (!(moved > -A.v && moved < B.v && side * moved > 0)) break;
+        l = moved;
+    }
+    return hc_below_tangent(A, B, P, Q, l, side) || hc_below_tangent(A, B, P, Q, 0, side);
+}
+
+/* A plane over Q in [from, to] whose corners are no exterior ones (side 1), or no interior ones (side -1). */
+static hc_plane hc_tilted_chord(const hc_tilted_scene *scene, double from, double to, int side) {
+    static const double steps[3] = {9.3132257461547852e-10 /* 2^-30 */, 1.52587890625e-05 /* 2^-16 */, 0.00390625 /* 2^-8 */};
+    const hc_ball A[2] = {scene->A1, scene->A2}, B = scene->B;
+    const double ends[2] = {from, to};
+    double edge[2][2], at[2];
+    int i, k, step;
+    for (i = 0; i < 2; i++)
+        for (k = 0; k < 2; k++) {
+            edge[i][k] = hc_edge(A[i].v, B.v, ends[k], side);
+            if (!(edge[i][k] > 0)) edge[i][k] = 0;
+        }
+    for (step = 0; step < 3; step++) {
+        const double a = edge[1][1] > 0 ? edge[0][1] / edge[1][1] : 1;
+        double K, M, z;
+        int proved = 1;
+        for (k = 0; k < 2; k++) {
+            const double first = edge[0][k], second = a * edge[1][k];
+            at[k] = (side * (first - second) < 0 ? first : second) * (1 - side * steps[step]);
+        }
+        M = to > from ? (at[1] - at[0]) / (to - from) : 0;
+        K = at[0] - M * from;
+        if (side < 0 && K < 2 * HC_least_constant) {
+            M = to > 0 ? at[1] / to * (1 + steps[0]) : 0;
+            K = 2 * HC_least_constant;
+        }
+        z = hc_margin(scene, a, M);
+        for (i = 0; i < 2; i++)
+            for (k = 0; k < 2; k++) {
+                const hc_ball line = hc_plus(hc_exactly(K), hc_times(hc_exactly(M), hc_exactly(ends[k])));
+                const hc_ball corner = i ? hc_over(line, hc_exactly(a)) : line;
+                const double P = side > 0 ? hc_at_most(corner) : hc_at_least(corner);
+                proved = proved && P >= 0 && hc_not_on_side(A[i], B, P, ends[k], side);
+            }
+        if (proved && side > 0) return hc_proper(scene, a * (1 - z) + z, K * (1 - z), M * (1 - z) - z, z, 0);
+        if (proved) return hc_proper(scene, a * (1 + z) - z, K * (1 + z), M * (1 + z) + z, z, 1);
+    }
+    return side > 0 ? hc_never_below : hc_never_above;
+}
+
+/* The greatest and the least Q that the centres have, from a sample of them. */
+static void hc_sample_Q(const hc_tilted_scene *scene, size_t n, const double *x, const double *y, const double *z,
+                        double *least, double *greatest) {
+    const size_t step = n / 64 + 1;
+    size_t i;
+    *least = HC_NEVER;
+    *greatest = 0;
+    for (i = 0; i < n; i += step) {
+        const double c3 = scene->r3_x * x[i] + scene->r3_y * y[i] + scene->r3_z * z[i], Q = c3 * c3;
+        if (Q < *least) *least = Q;
+        if (Q > *greatest && Q < HC_greatest) *greatest = Q;
+    }
+}
+
+/* Chooses and proves the half spaces number `first` to `last`: 0 is over all heights, 1 over the lower, 2 over the upper ones. */
+static void hc_make_planes(hc_tilted_scene *scene, int first, int last) {
+    const double *const Q = scene->heights, A = 0.5 * (scene->A1.v + scene->A2.v), B = scene->B.v;
+    double most = 0;
+    int i;
+    for (i = first; i <= last; i++) {
+        const int from = i == 2, to = i == 1 ? 1 : 2;
+        const double middle = i == 0 ? Q[1] : 0.5 * (Q[from] + Q[to]);
+        const hc_plane *const under = scene->under + i;
+        double P;
+        scene->beyond[i] = hc_tilted_tangent(scene, hc_best_multiplier(A, B, middle, 1), 1);
+        scene->within[i] = hc_tilted_tangent(scene, -hc_best_multiplier(A, B, middle, -1), -1);
+        scene->under[i] = hc_tilted_chord(scene, Q[from], Q[to], 1);
+        scene->above[i] = hc_tilted_chord(scene, Q[from], Q[to], -1);
+        P = 8 * (under->K + (1 + under->M) * Q[2]) * (1 + 1 / under->a);
+        if (under->K > 0 && P > most) most = P;
+    }
+    /* A computed Q up to `reach` and what "under" leaves of P say that the exact Q is at most Q[2]: with z < a/8 < 1/8 they
+       bound N = P1 + P2 + Q by Q + 1.15 (K + (M + 1/8) Q)(1 + 1.25/a), and Q exceeds the computed one by zeta N at most. */
+    scene->reach = (Q[2] - scene->zeta * (most + 2 * Q[2])) * HC_less;
+}
+
+/* Returns 0, and the first stage is left out, where the sizes are too large or small for the margins. */
+static int hc_make_tilted_scene(hc_tilted_scene *scene, const double sizes[4], const double axis[3], size_t n,
+                                const double *x, const double *y, const double *z) {
+    hc_ball rows[3][3];
+    double least, greatest, *const Q = scene->heights;
+    int i;
+    for (i = 0; i < 4; i++)
+        if (!(sizes[i] > HC_least_size && sizes[i] < HC_greatest_size)) return 0;
+    hc_basis(scene, rows, sizes, axis);
+    if (!(scene->zeta < HC_greatest_zeta)) return 0;
+    scene->r1_x = rows[0][0].v, scene->r1_y = rows[0][1].v;
+    scene->r2_x = rows[1][0].v, scene->r2_y = rows[1][1].v, scene->r2_z = rows[1][2].v;
+    scene->r3_x = rows[2][0].v, scene->r3_y = rows[2][1].v, scene->r3_z = rows[2][2].v;
+    hc_sample_Q(scene, n, x, y, z, &least, &greatest);
+    Q[0] = 0;
+    Q[2] = greatest > HC_least ? 1.125 * greatest : HC_least;
+    Q[1] = least < greatest && least > 0.3 * Q[2] ? 0.999 * least : 0.3 * Q[2];
+    hc_make_planes(scene, 0, 0);
+    return HC_FLOATS_DECIDE;
+}
+
 /* ---- which instruction set, and the public functions ---- */
 
 typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
                                   int8_t *, uint64_t *);
+
+typedef void (*hc_planes_function)(const hc_tilted_scene *, int, const double *, const double *, const double *, int,
+                                   int8_t *, uint64_t *);
 
 typedef struct {
     const char *name;
     hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
+    hc_planes_function one_plane, two_planes;
 } hc_level_functions;
 
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
+      hc_one_plane_##level, hc_two_planes_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),
@@ -1345,6 +1627,28 @@ typedef struct {
     int count;
 } hc_tilted_waiting;
 
+/* An axis of any length as one for which floats have room: times a power of two, where that is exact. NaN stays. */
+static void hc_scale_axis(double axis[3]) {
+    int i, most = -4096, least = 4096;
+    for (i = 0; i < 3; i++) {
+        const uint64_t word = hc_word(axis[i]) << 1;
+        const int top = (int)(word >> 53);
+        if (word == 0) continue;
+        if (top > most) most = top;
+        if (top < least) least = top;
+    }
+    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > 900) return;
+    for (i = 0; i < 3; i++) {
+        const hc_parts parts = hc_parts_of(axis[i]);
+        uint64_t power;
+        double unit;
+        if (parts.sign == 0) continue;
+        power = (uint64_t)(parts.exponent + 1023 + 1023 - most) << 52;
+        memcpy(&unit, &power, sizeof unit);
+        axis[i] = (double)parts.sign * ((double)parts.mantissa * unit);
+    }
+}
+
 /* The floats, and the integers for what they leave. */
 static void hc_tilted_settle(const hc_level_functions *level, hc_tilted_waiting *waiting, int8_t *positions) {
     const hc_bits found = level->tilted(waiting->columns, HC_BLOCK, waiting->count);
@@ -1378,7 +1682,10 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
             upright.places[upright.count++] = i;
             if (upright.count == HC_BLOCK) hc_settle(level, HYPCHECK_POSITION, &upright, positions);
         } else {
-            for (k = 0; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
+            double axis[3] = {row[7], row[8], row[9]};
+            hc_scale_axis(axis);
+            for (k = 0; k < 7; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
+            for (k = 7; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = axis[k - 7];
             leaning.places[leaning.count++] = i;
             if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
         }
@@ -1387,13 +1694,26 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
     hc_tilted_settle(level, &leaning, positions);
 }
 
+static void hc_tilted_wait(const hc_level_functions *level, hc_tilted_waiting *waiting, size_t place, double x, double y,
+                           double z, int8_t *positions) {
+    const int at = waiting->count++;
+    waiting->columns[4 * HC_BLOCK + at] = x;
+    waiting->columns[5 * HC_BLOCK + at] = y;
+    waiting->columns[6 * HC_BLOCK + at] = z;
+    waiting->places[at] = place;
+    if (waiting->count == HC_BLOCK) hc_tilted_settle(level, waiting, positions);
+}
+
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions) {
-    const double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
     const hc_level_functions *level = hc_level();
-    hc_tilted_waiting leaning;
-    size_t i;
-    int k;
+    hc_planes_function planes = level->one_plane;
+    hc_tilted_waiting waiting;
+    hc_tilted_scene scene;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t start, i;
+    int has_planes, block, k;
     if (!hc_tilted_valid(probe)) {
         memset(positions, 127, n);
         return;
@@ -1402,16 +1722,28 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
         hypcheck_classify_scene(sizes, n, x, y, z, positions);
         return;
     }
-    memset(&leaning, 0, sizeof leaning);
-    for (k = 0; k < 10 * HC_BLOCK; k++) leaning.columns[k] = probe[k / HC_BLOCK];
-    for (i = 0; i < n; i++) {
-        leaning.columns[4 * HC_BLOCK + leaning.count] = x[i];
-        leaning.columns[5 * HC_BLOCK + leaning.count] = y[i];
-        leaning.columns[6 * HC_BLOCK + leaning.count] = z[i];
-        leaning.places[leaning.count++] = i;
-        if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
+    hc_scale_axis(probe + 7);
+    memset(&waiting, 0, sizeof waiting);
+    for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
+    has_planes = n >= HC_LINES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
+    for (start = 0; start < n; start += HC_STRIP) {
+        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
+        const int blocks = has_planes ? (int)((end - start) / HC_BLOCK) : 0;
+        int lefts = 0;
+        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, positions + start, left);
+        for (block = 0; block < blocks; block++)
+            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
+                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+                hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
+            }
+        if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
+            hc_make_planes(&scene, 1, 2);
+            planes = level->two_planes;
+        }
+        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+            hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
     }
-    hc_tilted_settle(level, &leaning, positions);
+    hc_tilted_settle(level, &waiting, positions);
 }
 
 #if HC_PRECISE
@@ -1419,7 +1751,7 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_91faff3c8fec8416
+#define HC_EDITION_26deab650ccfd1b2
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -2568,6 +2900,236 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
     return found;
 }
 
+/* As the functions of lines, with half spaces of one orientation. */
+HC_TARGET static void HC_NAME(hc_one_plane)(const hc_tilted_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                      const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER a_beyond_0 = HC_SET(scene->beyond[0].a);
+    const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
+    const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
+    const HC_NUMBER a_within_0 = HC_SET(scene->within[0].a);
+    const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
+    const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
+    const HC_NUMBER a_under_0 = HC_SET(scene->under[0].a);
+    const HC_NUMBER K_under_0 = HC_SET(scene->under[0].K);
+    const HC_NUMBER M_under_0 = HC_SET(scene->under[0].M);
+    const HC_NUMBER a_above_0 = HC_SET(scene->above[0].a);
+    const HC_NUMBER K_above_0 = HC_SET(scene->above[0].K);
+    const HC_NUMBER M_above_0 = HC_SET(scene->above[0].M);
+    const HC_NUMBER r1_x = HC_SET(scene->r1_x);
+    const HC_NUMBER r1_y = HC_SET(scene->r1_y);
+    const HC_NUMBER r2_x = HC_SET(scene->r2_x);
+    const HC_NUMBER r2_y = HC_SET(scene->r2_y);
+    const HC_NUMBER r2_z = HC_SET(scene->r2_z);
+    const HC_NUMBER r3_x = HC_SET(scene->r3_x);
+    const HC_NUMBER r3_y = HC_SET(scene->r3_y);
+    const HC_NUMBER r3_z = HC_SET(scene->r3_z);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (fetch)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "one-plane" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER zz = z * z;
+            const HC_NUMBER radius = xx + yy;
+            const HC_NUMBER distance = radius + zz;
+            const HC_NUMBER x1 = r1_x * x;
+            const HC_NUMBER y1 = r1_y * y;
+            const HC_NUMBER c1 = x1 + y1;
+            const HC_NUMBER x2 = r2_x * x;
+            const HC_NUMBER y2 = r2_y * y;
+            const HC_NUMBER xy2 = x2 + y2;
+            const HC_NUMBER z2 = r2_z * z;
+            const HC_NUMBER c2 = xy2 + z2;
+            const HC_NUMBER x3 = r3_x * x;
+            const HC_NUMBER y3 = r3_y * y;
+            const HC_NUMBER xy3 = x3 + y3;
+            const HC_NUMBER z3 = r3_z * z;
+            const HC_NUMBER c3 = xy3 + z3;
+            const HC_NUMBER P1 = c1 * c1;
+            const HC_NUMBER P2 = c2 * c2;
+            const HC_NUMBER Q = c3 * c3;
+            const HC_TRUTH in_reach = HC_LE(Q, reach);
+            const HC_NUMBER part_beyond_0 = a_beyond_0 * P2;
+            const HC_NUMBER place_beyond_0 = P1 + part_beyond_0;
+            const HC_NUMBER rise_beyond_0 = M_beyond_0 * Q;
+            const HC_NUMBER line_beyond_0 = K_beyond_0 + rise_beyond_0;
+            const HC_TRUTH exterior = HC_GT(place_beyond_0, line_beyond_0);
+            const HC_NUMBER part_within_0 = a_within_0 * P2;
+            const HC_NUMBER place_within_0 = P1 + part_within_0;
+            const HC_NUMBER rise_within_0 = M_within_0 * Q;
+            const HC_NUMBER line_within_0 = K_within_0 + rise_within_0;
+            const HC_TRUTH interior = HC_LT(place_within_0, line_within_0);
+            const HC_NUMBER part_under_0 = a_under_0 * P2;
+            const HC_NUMBER place_under_0 = P1 + part_under_0;
+            const HC_NUMBER rise_under_0 = M_under_0 * Q;
+            const HC_NUMBER line_under_0 = K_under_0 + rise_under_0;
+            const HC_TRUTH is_under = HC_LT(place_under_0, line_under_0);
+            const HC_NUMBER part_above_0 = a_above_0 * P2;
+            const HC_NUMBER place_above_0 = P1 + part_above_0;
+            const HC_NUMBER rise_above_0 = M_above_0 * Q;
+            const HC_NUMBER line_above_0 = K_above_0 + rise_above_0;
+            const HC_TRUTH is_above = HC_GE(place_above_0, line_above_0);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "one-plane" */
+            sum = sum + distance;
+            found.plus |= HC_BITS(exterior) << at;
+            found.minus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int blocks, const double *x_of, const double *y_of,
+                                      const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+    int block;
+    const HC_NUMBER a_beyond_1 = HC_SET(scene->beyond[1].a);
+    const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
+    const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
+    const HC_NUMBER a_beyond_2 = HC_SET(scene->beyond[2].a);
+    const HC_NUMBER K_beyond_2 = HC_SET(scene->beyond[2].K);
+    const HC_NUMBER M_beyond_2 = HC_SET(scene->beyond[2].M);
+    const HC_NUMBER a_within_1 = HC_SET(scene->within[1].a);
+    const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
+    const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
+    const HC_NUMBER a_within_2 = HC_SET(scene->within[2].a);
+    const HC_NUMBER K_within_2 = HC_SET(scene->within[2].K);
+    const HC_NUMBER M_within_2 = HC_SET(scene->within[2].M);
+    const HC_NUMBER a_under_1 = HC_SET(scene->under[1].a);
+    const HC_NUMBER K_under_1 = HC_SET(scene->under[1].K);
+    const HC_NUMBER M_under_1 = HC_SET(scene->under[1].M);
+    const HC_NUMBER a_under_2 = HC_SET(scene->under[2].a);
+    const HC_NUMBER K_under_2 = HC_SET(scene->under[2].K);
+    const HC_NUMBER M_under_2 = HC_SET(scene->under[2].M);
+    const HC_NUMBER a_above_1 = HC_SET(scene->above[1].a);
+    const HC_NUMBER K_above_1 = HC_SET(scene->above[1].K);
+    const HC_NUMBER M_above_1 = HC_SET(scene->above[1].M);
+    const HC_NUMBER a_above_2 = HC_SET(scene->above[2].a);
+    const HC_NUMBER K_above_2 = HC_SET(scene->above[2].K);
+    const HC_NUMBER M_above_2 = HC_SET(scene->above[2].M);
+    const HC_NUMBER r1_x = HC_SET(scene->r1_x);
+    const HC_NUMBER r1_y = HC_SET(scene->r1_y);
+    const HC_NUMBER r2_x = HC_SET(scene->r2_x);
+    const HC_NUMBER r2_y = HC_SET(scene->r2_y);
+    const HC_NUMBER r2_z = HC_SET(scene->r2_z);
+    const HC_NUMBER r3_x = HC_SET(scene->r3_x);
+    const HC_NUMBER r3_y = HC_SET(scene->r3_y);
+    const HC_NUMBER r3_z = HC_SET(scene->r3_z);
+    const HC_NUMBER reach = HC_SET(scene->reach);
+    for (block = 0; block < blocks; block++) {
+        const int base = HC_BLOCK * block;
+        HC_NUMBER sum = HC_SET(0.0);
+        hc_bits found = {0, 0, 0};
+        int at;
+        if (fetch)
+            for (at = 0; at < HC_BLOCK; at += 8) {
+                HC_FETCH(x_of, base + at + HC_AHEAD);
+                HC_FETCH(y_of, base + at + HC_AHEAD);
+                HC_FETCH(z_of, base + at + HC_AHEAD);
+            }
+        for (at = 0; at < HC_BLOCK; at += HC_WIDTH) {
+            const HC_NUMBER x = HC_LOAD(x_of + base + at);
+            const HC_NUMBER y = HC_LOAD(y_of + base + at);
+            const HC_NUMBER z = HC_LOAD(z_of + base + at);
+            /* printed from the program "two-planes" */
+            const HC_NUMBER xx = x * x;
+            const HC_NUMBER yy = y * y;
+            const HC_NUMBER zz = z * z;
+            const HC_NUMBER radius = xx + yy;
+            const HC_NUMBER distance = radius + zz;
+            const HC_NUMBER x1 = r1_x * x;
+            const HC_NUMBER y1 = r1_y * y;
+            const HC_NUMBER c1 = x1 + y1;
+            const HC_NUMBER x2 = r2_x * x;
+            const HC_NUMBER y2 = r2_y * y;
+            const HC_NUMBER xy2 = x2 + y2;
+            const HC_NUMBER z2 = r2_z * z;
+            const HC_NUMBER c2 = xy2 + z2;
+            const HC_NUMBER x3 = r3_x * x;
+            const HC_NUMBER y3 = r3_y * y;
+            const HC_NUMBER xy3 = x3 + y3;
+            const HC_NUMBER z3 = r3_z * z;
+            const HC_NUMBER c3 = xy3 + z3;
+            const HC_NUMBER P1 = c1 * c1;
+            const HC_NUMBER P2 = c2 * c2;
+            const HC_NUMBER Q = c3 * c3;
+            const HC_TRUTH in_reach = HC_LE(Q, reach);
+            const HC_NUMBER part_beyond_1 = a_beyond_1 * P2;
+            const HC_NUMBER place_beyond_1 = P1 + part_beyond_1;
+            const HC_NUMBER rise_beyond_1 = M_beyond_1 * Q;
+            const HC_NUMBER line_beyond_1 = K_beyond_1 + rise_beyond_1;
+            const HC_TRUTH exterior_1 = HC_GT(place_beyond_1, line_beyond_1);
+            const HC_NUMBER part_beyond_2 = a_beyond_2 * P2;
+            const HC_NUMBER place_beyond_2 = P1 + part_beyond_2;
+            const HC_NUMBER rise_beyond_2 = M_beyond_2 * Q;
+            const HC_NUMBER line_beyond_2 = K_beyond_2 + rise_beyond_2;
+            const HC_TRUTH exterior_2 = HC_GT(place_beyond_2, line_beyond_2);
+            const HC_NUMBER part_within_1 = a_within_1 * P2;
+            const HC_NUMBER place_within_1 = P1 + part_within_1;
+            const HC_NUMBER rise_within_1 = M_within_1 * Q;
+            const HC_NUMBER line_within_1 = K_within_1 + rise_within_1;
+            const HC_TRUTH interior_1 = HC_LT(place_within_1, line_within_1);
+            const HC_NUMBER part_within_2 = a_within_2 * P2;
+            const HC_NUMBER place_within_2 = P1 + part_within_2;
+            const HC_NUMBER rise_within_2 = M_within_2 * Q;
+            const HC_NUMBER line_within_2 = K_within_2 + rise_within_2;
+            const HC_TRUTH interior_2 = HC_LT(place_within_2, line_within_2);
+            const HC_NUMBER part_under_1 = a_under_1 * P2;
+            const HC_NUMBER place_under_1 = P1 + part_under_1;
+            const HC_NUMBER rise_under_1 = M_under_1 * Q;
+            const HC_NUMBER line_under_1 = K_under_1 + rise_under_1;
+            const HC_TRUTH is_under_1 = HC_LT(place_under_1, line_under_1);
+            const HC_NUMBER part_under_2 = a_under_2 * P2;
+            const HC_NUMBER place_under_2 = P1 + part_under_2;
+            const HC_NUMBER rise_under_2 = M_under_2 * Q;
+            const HC_NUMBER line_under_2 = K_under_2 + rise_under_2;
+            const HC_TRUTH is_under_2 = HC_LT(place_under_2, line_under_2);
+            const HC_NUMBER part_above_1 = a_above_1 * P2;
+            const HC_NUMBER place_above_1 = P1 + part_above_1;
+            const HC_NUMBER rise_above_1 = M_above_1 * Q;
+            const HC_NUMBER line_above_1 = K_above_1 + rise_above_1;
+            const HC_TRUTH is_above_1 = HC_GE(place_above_1, line_above_1);
+            const HC_NUMBER part_above_2 = a_above_2 * P2;
+            const HC_NUMBER place_above_2 = P1 + part_above_2;
+            const HC_NUMBER rise_above_2 = M_above_2 * Q;
+            const HC_NUMBER line_above_2 = K_above_2 + rise_above_2;
+            const HC_TRUTH is_above_2 = HC_GE(place_above_2, line_above_2);
+            const HC_TRUTH exterior = HC_OR(exterior_1, exterior_2);
+            const HC_TRUTH interior = HC_OR(interior_1, interior_2);
+            const HC_TRUTH is_under = HC_AND(is_under_1, is_under_2);
+            const HC_TRUTH is_above = HC_AND(is_above_1, is_above_2);
+            const HC_TRUTH contact_in_reach = HC_AND(is_under, is_above);
+            const HC_TRUTH contact = HC_AND(contact_in_reach, in_reach);
+            const HC_TRUTH clear = HC_OR(exterior, interior);
+            const HC_TRUTH decided = HC_OR(clear, contact);
+            /* end of the program "two-planes" */
+            sum = sum + distance;
+            found.plus |= HC_BITS(exterior) << at;
+            found.minus |= HC_BITS(interior) << at;
+            found.decided |= HC_BITS(decided) << at;
+        }
+        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
+    }
+}
 #undef HC_NAME
 #undef HC_TARGET
 #undef HC_WIDTH

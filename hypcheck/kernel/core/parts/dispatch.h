@@ -3,17 +3,22 @@
 typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
                                   int8_t *, uint64_t *);
 
+typedef void (*hc_planes_function)(const hc_tilted_scene *, int, const double *, const double *, const double *, int,
+                                   int8_t *, uint64_t *);
+
 typedef struct {
     const char *name;
     hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
+    hc_planes_function one_plane, two_planes;
 } hc_level_functions;
 
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level) }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
+      hc_one_plane_##level, hc_two_planes_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),

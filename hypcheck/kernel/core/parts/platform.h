@@ -37,6 +37,7 @@
 #define HC_BLOCK 64  /* rows that share one word of bits */
 #define HC_STRIP 4096 /* rows whose undecided ones are collected before the next stage looks at them */
 #define HC_TOO_MANY_LEFT 40 /* of a strip, by one line a side: then it is two */
+#define HC_TOO_MANY_BY_PLANES 120 /* the same for one orientation, where two planes cost more */
 #define HC_FAR_FROM ((size_t)1 << 19) /* rows that no cache holds: then they are fetched HC_AHEAD rows before their turn */
 #define HC_AHEAD 512
 #define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
@@ -60,6 +61,24 @@ typedef struct {
     hc_line beyond[3], within[3], under[3], above[3];
     double reach;
 } hc_scene;
+
+/* A number known to lie within e of v. */
+typedef struct {
+    double v, e;
+} hc_ball;
+
+/* P1 + a P2 against K + M Q */
+typedef struct {
+    double a, K, M;
+} hc_plane;
+
+typedef struct {
+    double r1_x, r1_y, r2_x, r2_y, r2_z, r3_x, r3_y, r3_z; /* the rows of the basis, as they are used */
+    hc_plane beyond[3], within[3], under[3], above[3];
+    double reach, heights[3];
+    hc_ball A1, A2, B;
+    double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
+} hc_tilted_scene;
 
 /* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
 #if defined(__GNUC__) || defined(__clang__)

@@ -7,6 +7,28 @@ typedef struct {
     int count;
 } hc_tilted_waiting;
 
+/* An axis of any length as one for which floats have room: times a power of two, where that is exact. NaN stays. */
+static void hc_scale_axis(double axis[3]) {
+    int i, most = -4096, least = 4096;
+    for (i = 0; i < 3; i++) {
+        const uint64_t word = hc_word(axis[i]) << 1;
+        const int top = (int)(word >> 53);
+        if (word == 0) continue;
+        if (top > most) most = top;
+        if (top < least) least = top;
+    }
+    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > 900) return;
+    for (i = 0; i < 3; i++) {
+        const hc_parts parts = hc_parts_of(axis[i]);
+        uint64_t power;
+        double unit;
+        if (parts.sign == 0) continue;
+        power = (uint64_t)(parts.exponent + 1023 + 1023 - most) << 52;
+        memcpy(&unit, &power, sizeof unit);
+        axis[i] = (double)parts.sign * ((double)parts.mantissa * unit);
+    }
+}
+
 /* The floats, and the integers for what they leave. */
 static void hc_tilted_settle(const hc_level_functions *level, hc_tilted_waiting *waiting, int8_t *positions) {
     const hc_bits found = level->tilted(waiting->columns, HC_BLOCK, waiting->count);
@@ -40,7 +62,10 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
             upright.places[upright.count++] = i;
             if (upright.count == HC_BLOCK) hc_settle(level, HYPCHECK_POSITION, &upright, positions);
         } else {
-            for (k = 0; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
+            double axis[3] = {row[7], row[8], row[9]};
+            hc_scale_axis(axis);
+            for (k = 0; k < 7; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
+            for (k = 7; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = axis[k - 7];
             leaning.places[leaning.count++] = i;
             if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
         }
@@ -49,13 +74,26 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
     hc_tilted_settle(level, &leaning, positions);
 }
 
+static void hc_tilted_wait(const hc_level_functions *level, hc_tilted_waiting *waiting, size_t place, double x, double y,
+                           double z, int8_t *positions) {
+    const int at = waiting->count++;
+    waiting->columns[4 * HC_BLOCK + at] = x;
+    waiting->columns[5 * HC_BLOCK + at] = y;
+    waiting->columns[6 * HC_BLOCK + at] = z;
+    waiting->places[at] = place;
+    if (waiting->count == HC_BLOCK) hc_tilted_settle(level, waiting, positions);
+}
+
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions) {
-    const double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
     const hc_level_functions *level = hc_level();
-    hc_tilted_waiting leaning;
-    size_t i;
-    int k;
+    hc_planes_function planes = level->one_plane;
+    hc_tilted_waiting waiting;
+    hc_tilted_scene scene;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t start, i;
+    int has_planes, block, k;
     if (!hc_tilted_valid(probe)) {
         memset(positions, 127, n);
         return;
@@ -64,14 +102,26 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
         hypcheck_classify_scene(sizes, n, x, y, z, positions);
         return;
     }
-    memset(&leaning, 0, sizeof leaning);
-    for (k = 0; k < 10 * HC_BLOCK; k++) leaning.columns[k] = probe[k / HC_BLOCK];
-    for (i = 0; i < n; i++) {
-        leaning.columns[4 * HC_BLOCK + leaning.count] = x[i];
-        leaning.columns[5 * HC_BLOCK + leaning.count] = y[i];
-        leaning.columns[6 * HC_BLOCK + leaning.count] = z[i];
-        leaning.places[leaning.count++] = i;
-        if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
+    hc_scale_axis(probe + 7);
+    memset(&waiting, 0, sizeof waiting);
+    for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
+    has_planes = n >= HC_LINES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
+    for (start = 0; start < n; start += HC_STRIP) {
+        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
+        const int blocks = has_planes ? (int)((end - start) / HC_BLOCK) : 0;
+        int lefts = 0;
+        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, positions + start, left);
+        for (block = 0; block < blocks; block++)
+            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
+                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+                hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
+            }
+        if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
+            hc_make_planes(&scene, 1, 2);
+            planes = level->two_planes;
+        }
+        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+            hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
     }
-    hc_tilted_settle(level, &leaning, positions);
+    hc_tilted_settle(level, &waiting, positions);
 }

@@ -51,3 +51,5 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
     return found;
 }
 
+/* As the functions of lines, with half spaces of one orientation. */
+@PLANE_FUNCTIONS@
