@@ -62,8 +62,8 @@ schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, fro
 figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
 	$(BIN)/python -m tests.tools.paper_figures
 
-mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; docs/mutants.md
-	$(BIN)/python -m tests.tools.mutants --out docs/mutants.md
+mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; tests/tools/mutants/README.md
+	$(BIN)/python -m tests.tools.mutants --out tests/tools/mutants/README.md
 
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
 	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/kernel/emission

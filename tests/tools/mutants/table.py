@@ -26,7 +26,7 @@ def render(results: Sequence[Result]) -> str:
         *paragraph_lines(
             f"Made by `{COMMAND}`, which gates each implementation below through `hypcheck verify` and ends with 1",
             "where one is not judged as it must be. Each is a function of a few lines in",
-            "[`tests/tools/mutants/`](../tests/tools/mutants). `python -m tests.tools.mutants signs.c0` gates one",
+            "[this folder](.). `python -m tests.tools.mutants signs.c0` gates one",
             "alone, as does `hypcheck verify python:tests.tools.mutants.signs:c0`.",
         ),
         *paragraph_lines(

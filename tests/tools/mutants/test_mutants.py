@@ -17,7 +17,7 @@ from tests.tools.mutants.expectation import Expectation, expectation_of
 from tests.tools.mutants.gating import Result, Ruling, gate
 
 HERE = Path(__file__).parent
-PAGE = HERE.parents[2] / "docs" / "mutants.md"
+PAGE = HERE / "README.md"
 MACHINERY = {"__init__", "__main__", "collection", "exactly", "expectation", "gating", "table", "test_mutants"}
 BY_NAME = {mutant.name: mutant for mutant in mutants()}
 
