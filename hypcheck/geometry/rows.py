@@ -21,6 +21,9 @@ from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 Rows = NDArray[np.float64]
 Positions = NDArray[np.int8]
 Columns = tuple[Floats, Floats, Floats]
