@@ -21,6 +21,7 @@ shared with the other oracles, and upright spheroids are no special case.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -60,7 +61,7 @@ class TiltedNearest:
 def nearest(pair: TiltedPair) -> TiltedNearest:
     """The position and the clearance of any valid pair."""
     for bits in STAGES:
-        spectrum = _Spectrum(pair, bits)
+        spectrum = _Spectrum(pair.row, bits)
         at = spectrum.optimum()
         lower, upper = spectrum.bounds(at)
         if _may_touch(lower, upper, bits) and _touches(pair, at, bits):
@@ -74,7 +75,7 @@ def nearest(pair: TiltedPair) -> TiltedNearest:
 def position(pair: TiltedPair) -> Position | None:
     """The position alone, for which fewer bits are enough; None as in nearest."""
     for bits in STAGES:
-        spectrum = _Spectrum(pair, bits)
+        spectrum = _Spectrum(pair.row, bits)
         at = spectrum.optimum()
         lower, upper = spectrum.bounds(at)
         found = _position(at, lower, upper)
@@ -83,6 +84,11 @@ def position(pair: TiltedPair) -> Position | None:
         if _may_touch(lower, upper, bits) and _touches(pair, at, bits):
             return Position.CONTACT
     return None
+
+
+def multiplier(row: Sequence[float | Fraction], bits: int = STAGES[0]) -> Fraction:
+    """About the λ at which φ is largest, for ten valid numbers; a hint, of which nothing is proved."""
+    return _fraction(_Spectrum(row, bits).optimum())
 
 
 def _position(at: mpf, lower: mpf, upper: mpf) -> Position | None:
@@ -106,15 +112,17 @@ def _contexts(bits: int) -> tuple[MPIntervalContext, MPContext]:
 
 
 class _Spectrum:
-    """A1, A2, B and P1, P2, Q of a pair, enclosed in intervals of `bits` bits."""
+    """A1, A2, B and P1, P2, Q of a row, enclosed in intervals of `bits` bits."""
 
-    def __init__(self, pair: TiltedPair, bits: int) -> None:
+    def __init__(self, row: Sequence[float | Fraction], bits: int) -> None:
         self.bits = bits
         self.interval, self.plain = iv, _ = _contexts(bits)
-        alpha, gamma, b, d, x, y, z, v_x, v_y, v_z = (iv.mpf(each) for each in pair.row)
+        alpha, gamma, b, d, x, y, z, v_x, v_y, v_z = (
+            iv.mpf(each) if isinstance(each, float) else iv.mpf(each.numerator) / each.denominator for each in row
+        )
         horizontal = iv.sqrt(v_x * v_x + v_y * v_y)
         length = iv.sqrt(v_x * v_x + v_y * v_y + v_z * v_z)
-        azimuth_x, azimuth_y = (v_x / horizontal, v_y / horizontal) if pair.axis_x or pair.axis_y else (1, 0)
+        azimuth_x, azimuth_y = (v_x / horizontal, v_y / horizontal) if row[7] or row[8] else (1, 0)
         sine, cosine = horizontal / length, v_z / length
         ahead, aside = x * azimuth_x + y * azimuth_y, y * azimuth_x - x * azimuth_y
         radial, axial = 1 / alpha**2, 1 / gamma**2

@@ -1,0 +1,105 @@
+"""The bracket of the backward error against errors worked by hand, those of upright pairs, and sampled changes."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.pairs import Pair, Position
+from hypcheck.truth import exact as upright_exact
+from hypcheck.truth import flip
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.backward_error import bracket, tolerated
+from hypcheck.truth.tilted.pair import TiltedLengths
+from tests.tools.tilted_agreement import rows
+from tests.truth.tilted.cases import SYMMETRIC
+
+EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
+STEP = 2.0**-20
+
+
+def decided(row):
+    return exact.decide(TiltedLengths.of(row))
+
+
+@pytest.mark.parametrize(
+    ("row", "answer", "error"),
+    [
+        # A needle across the x axis, at the waist: x − b = α at contact, where x, b and α change.
+        ([1, 4, 0.125, 0.25, 1.125 + STEP, 0, 0, 0, 1, 0], CONTACT, STEP / (2.25 + STEP)),
+        ([1, 4, 0.125, 0.25, 1.125 - STEP, 0, 0, 0, 1, 0], EXTERIOR, STEP / (2.25 - STEP)),
+        ([1, 4, 0.125, 0.25, 1.25, 0, 0, 0, 1, 0], CONTACT, 0.125 / 2.375),
+        # x + b = α from within.
+        ([1, 4, 0.125, 0.25, 0.875 - STEP, 0, 0, 0, 1, 0], CONTACT, STEP / (2 - STEP)),
+        ([1, 4, 0.125, 0.25, 0.875 + STEP, 0, 0, 0, 1, 0], INTERIOR, STEP / (2 + STEP)),
+        # The same needle along x: x − d = α.
+        ([1, 4, 0.0625, 0.125, 1.125 + STEP, 0, 0, -7, 0, 0], CONTACT, STEP / (2.25 + STEP)),
+        ([1, 4, 0.0625, 0.125, 0.875 - STEP, 0, 0, -7, 0, 0], CONTACT, STEP / (2 - STEP)),
+    ],
+)
+def test_bracket_holds_the_error_worked_by_hand(row, answer, error):
+    found = bracket(row, decided(row), answer)
+    assert found.lower <= error <= found.upper <= 1.25 * found.lower
+    for share, expected in ((0.7, False), (1.3, True)):
+        assert tolerated(row, decided(row), [answer], Fraction(error * share)) is expected
+
+
+def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():
+    for _, row in rows(["near", "grid"], 6, seed=3):
+        lengths = Pair.from_row(row[:7]).lengths
+        truth = upright_exact.decide(lengths)
+        for answer in set(Position) - {truth.position}:
+            found = bracket([*row[:7], 0.0, 0.0, 2.0], exact.Decision(truth.position, truth.kind.limit_of), answer)
+            error = flip.backward_error(lengths, truth, answer)
+            assert found.lower <= error * (1 + 1e-4)
+            assert error <= found.upper * (1 + 1e-4)
+
+
+def test_bracket_of_a_near_contact_is_narrow():
+    narrow = 0
+    for family, row in rows(["near", "slight", "stiff"], 60, seed=4):
+        truth = decided(row)
+        found = bracket(row, truth, CONTACT) if truth.position is not CONTACT else None
+        if found is not None and found.upper < 1e-6:
+            assert found.upper <= 1.25 * found.lower, (family, row)
+            narrow += 1
+    assert narrow >= 5
+
+
+def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
+    draw = random.Random(5)  # noqa: S311
+    for _, row in rows(["uniform", "near", "stiff"], 6, seed=6):
+        truth = decided(row)
+        for answer in set(Position) - {truth.position}:
+            low = Fraction(bracket(row, truth, answer).lower)
+            goal = (lambda found, here=truth: found is not here.position) if answer is CONTACT else answer.__eq__
+            for change in (low, min(low, 1)) * 8 if math.isfinite(low) and low > 0 else ():
+                signs = [draw.choice((-1, 1, draw.uniform(-1, 1))) for _ in row]
+                changed = [Fraction(a) * (1 + Fraction(s) * change) for a, s in zip(row, signs, strict=True)]
+                assert not goal(exact.position(TiltedLengths.of(changed)))
+
+
+def test_right_answers_and_limits_of_right_ones_have_no_error():
+    for row, position, limit_of in SYMMETRIC:
+        truth = decided(row)
+        for answer in (position, limit_of or position):
+            found = bracket(row, truth, answer)
+            assert (found.lower, found.upper) == (0, 0)
+            assert tolerated(row, truth, [answer], Fraction(1, 2**60)) is True
+
+
+def test_centre_on_the_axis_of_the_hyperboloid_is_never_exterior():
+    row = [1, 1, 0.5, 0.25, 0, 0, 3, 1, 2, 3]
+    found = bracket(row, decided(row), EXTERIOR)
+    assert (found.lower, found.upper) == (math.inf, math.inf)
+    assert tolerated(row, decided(row), [EXTERIOR], Fraction(1)) is False
+
+
+def test_tolerance_is_met_by_one_of_several_right_answers():
+    row = [1, 4, 0.125, 0.25, 1.125 - STEP, 0, 0, 0, 1, 0]  # in contact, and STEP away from exterior
+    assert tolerated(row, decided(row), [INTERIOR], Fraction(STEP)) is False
+    assert tolerated(row, decided(row), [INTERIOR, EXTERIOR], Fraction(STEP)) is True
+    assert tolerated(row, decided(row), [EXTERIOR], Fraction(0)) is False
