@@ -27,7 +27,7 @@ from fractions import Fraction
 from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
-from hypcheck.pairs import Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.exact import Decision
 from hypcheck.truth.tilted.nearest import multiplier

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.pairs import Pair, Position
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import backward_error
 from hypcheck.truth import exact as upright_exact
-from hypcheck.truth import flip
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.backward_error import bracket, tolerated
 from hypcheck.truth.tilted.pair import TiltedLengths
@@ -53,7 +53,7 @@ def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair(
         truth = upright_exact.decide(lengths)
         for answer in set(Position) - {truth.position}:
             found = bracket([*row[:7], 0.0, 0.0, 2.0], exact.Decision(truth.position, truth.kind.limit_of), answer)
-            error = flip.backward_error(lengths, truth, answer)
+            error = backward_error.backward_error(lengths, truth, answer)
             assert found.lower <= error * (1 + 1e-4)
             assert error <= found.upper * (1 + 1e-4)
 
