@@ -1,4 +1,4 @@
-"""Work in fresh processes of our own, and interrupts that end it as they should."""
+"""Long work: its stages, fresh processes of our own that do it, and interrupts that end it as they should."""
 
 from __future__ import annotations
 
@@ -20,6 +20,19 @@ from hypcheck.errors import SystemLimitError, limit_reached, system_reason
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+
+Advance = Callable[[int], object]
+"""Takes note of so many steps that are done."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A part of a long run: its title for the progress bar, how many steps it has, and what does them."""
+
+    title: str
+    steps: int
+    run: Callable[[Advance], None]
+
 
 UNWINDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 """The signals that end a run in good order."""

@@ -31,6 +31,7 @@ from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Lengths, Position, to_integers
 from hypcheck.implementations.meshes import FCL, grid_of
 from hypcheck.kernel.scene import Scene
+from hypcheck.processes import Advance
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import ForestLine
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
@@ -213,8 +214,6 @@ MOST, QUICK_MOST = 100_000, 10_000
 
 STEPS = 256
 ROUNDS, QUICK_ROUNDS = 11, 5
-
-Advance = Callable[[int], object]
 
 
 def sizes(plan: BenchPlan) -> Sequence[int]:

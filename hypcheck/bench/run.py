@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -16,7 +16,7 @@ from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
 from hypcheck.bench.plan import BenchPlan, scene_of
 from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
 from hypcheck.implementations.meshes import FCL
-from hypcheck.processes import processes, usable_processors
+from hypcheck.processes import Advance, Stage, processes, usable_processors
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.measurements import (
     AbsentLine,
@@ -29,17 +29,6 @@ from hypcheck.record.measurements import (
     WorkloadLine,
 )
 from hypcheck.scene.reading import shipped_scenes
-
-Advance = Callable[[int], object]
-
-
-@dataclass(frozen=True)
-class BenchStage:
-    """A part of the run: its title for the progress bar, how many steps it has, and what does them."""
-
-    title: str
-    steps: int
-    run: Callable[[Advance], None]
 
 
 @dataclass
@@ -70,12 +59,10 @@ class _Run:
         return any(each.kind == "bounding" for each in self.found.values())
 
 
-def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[BenchStage]:
+def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
     """The run's parts in order. Raises InputError where the plan names what does not exist."""
     if plan.kernel:
-        return (
-            BenchStage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),
-        )
+        return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
         return (_forest(plan, recorder, outcome),)
     if plan.scenes:
@@ -90,21 +77,19 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         require_common(before, gated(plan, run.found))
     maps = len(error_maps.stability_methods(run.found)) + len(error_maps.place_methods(run.found))
     return (
-        BenchStage("methods", 1, lambda advance: _introduce(run, advance)),
-        BenchStage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
-        BenchStage("maps", maps, lambda advance: _map(run, advance)),
-        BenchStage("bounding volumes", 1, lambda advance: _bound(run, advance)),
-        BenchStage("speed", plan.processes, lambda advance: _measure(run, advance)),
-        BenchStage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
-        BenchStage(
-            "meshes", error_maps.convergence_steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)
-        ),
-        BenchStage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
+        Stage("methods", 1, lambda advance: _introduce(run, advance)),
+        Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
+        Stage("maps", maps, lambda advance: _map(run, advance)),
+        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
+        Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
+        Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
+        Stage("meshes", error_maps.convergence_steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
+        Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
         *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
     )
 
 
-def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> BenchStage:
+def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
         for line in recorder.lines:
@@ -114,10 +99,10 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> BenchSt
                 )
 
     sizes = forest.sizes(plan)
-    return BenchStage("forest", len(sizes), measure)
+    return Stage("forest", len(sizes), measure)
 
 
-def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> BenchStage:
+def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         outcome.because[Exit.WRONG].extend(scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick))
         if plan.scenes and not any(isinstance(line, SceneLine) for line in recorder.lines):
@@ -125,7 +110,7 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 
     plans = scene.plans_of(names)
-    return BenchStage("scenes", len(plans), measure)
+    return Stage("scenes", len(plans), measure)
 
 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:

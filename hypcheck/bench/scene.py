@@ -34,6 +34,7 @@ from hypcheck.kernel.emission.kernel import emitted
 from hypcheck.kernel.emission.plan_text import PRINTED
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages, plan_of
 from hypcheck.kernel.specialise.settings import COUNT, centres
+from hypcheck.processes import Advance
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import SceneLine, SceneTimes, Shares
 from hypcheck.scene.reading import read_scene
@@ -198,8 +199,6 @@ CERTIFIED = "fast"
 """The certified kernel's name among the methods in C."""
 
 STAGES = ("always", "thresholds", "lines", "discriminant", "search")
-
-Advance = Callable[[int], object]
 
 
 def plans_of(names: Sequence[str]) -> list[ScenePlan]:

@@ -7,7 +7,7 @@ What came of the paper's claims about cost: ratios to the printed way, and a ver
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from statistics import median
 
 from msgspec import UNSET
@@ -38,13 +38,13 @@ from hypcheck.bench.session import (
     MeasuringSession,
 )
 from hypcheck.bench.timing import LEAST_NS, Estimate, estimate, ratios
-from hypcheck.processes import fresh, perform
+from hypcheck.processes import Advance, fresh, perform
 from hypcheck.record.measurements import Compared, CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
 
 UNLIKE = 0.1
 """Relative to a call that does nothing: through ctypes it takes 200 ns, and 7 ns more or less by its arguments."""
 
-Advance = Callable[[int], object]
+
 Measurements = dict[MeasurementKey, list[Measurement]]
 """What each process measured, by method, workload and mode."""
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, names_in
-from hypcheck.cli.recording import perform, recording
+from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 
@@ -89,7 +89,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         TemporaryDirectory(prefix="hypcheck-bench-") as folder,
         recording(options["out"], plan.options, title, optional) as running,
     ):
-        perform(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
+        run_stages(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
         if unchanged is not None:
             outcome.because[Exit.WRONG].extend(unchanged.record_changes(running.recorder))
         running.exit_code = outcome.exit_code

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -24,25 +24,10 @@ from hypcheck.messages import escaped, printable
 from hypcheck.tables.streams import STREAM, same_file
 
 if TYPE_CHECKING:
+    from hypcheck.processes import Stage
     from hypcheck.record import Record, Recorder, RecordLine
     from hypcheck.runs.plan import ConformancePlan
     from hypcheck.runs.resume import ResumedRun
-
-
-class Stage(Protocol):
-    """A part of a run: its title for the progress bar, how many steps it has, and what does them."""
-
-    @property
-    def title(self) -> str:
-        """For the progress bar."""
-
-    @property
-    def steps(self) -> int:
-        """How many there are."""
-
-    @property
-    def run(self) -> Callable[[Callable[[int], object]], None]:
-        """Does them, and tells the function that it is given how many are done."""
 
 
 @dataclass
@@ -102,7 +87,7 @@ def recording(
         _report_whole(running.record, out)
 
 
-def perform(stages: Sequence[Stage]) -> None:
+def run_stages(stages: Sequence[Stage]) -> None:
     """Every stage in turn, under a progress bar where a person is watching."""
     with watched(sum(stage.steps for stage in stages), "") as pace:
         for stage in stages:

@@ -30,7 +30,7 @@ from hypcheck.cli.options import (
     with_limits,
 )
 from hypcheck.cli.progress import watched
-from hypcheck.cli.recording import folder_of, label, perform, recording, resumed
+from hypcheck.cli.recording import folder_of, label, recording, resumed, run_stages
 from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.messages import escaped, printable
@@ -161,7 +161,7 @@ def self_check(options: SelfCheckOptions, title: str, settings: Mapping[str, Any
     )
     outcome = RunOutcome()
     with recording(options.out, run.options(plan), title, {"settings": settings}) as running:
-        perform(run.stages(plan, running.recorder, outcome))
+        run_stages(run.stages(plan, running.recorder, outcome))
         running.exit_code = outcome.exit_code
     return outcome.exit_code
 

@@ -17,7 +17,8 @@ from hypcheck.errors import InputError
 from hypcheck.messages import counted
 from hypcheck.paper import tower_flights
 from hypcheck.paper.quadcopter import Craft, craft_of, require_valid_start
-from hypcheck.paper.tower_flights import Advance, FlightBlock, paths
+from hypcheck.paper.tower_flights import FlightBlock, paths
+from hypcheck.processes import Advance
 from hypcheck.scene.model import Flight, SceneModel
 from hypcheck.version import VERSION
 

@@ -11,7 +11,7 @@ Each of its runs is a flight over the scene's distance; its figure is the mean o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -22,7 +22,7 @@ from hypcheck.errors import InputError
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
 from hypcheck.paper.motion import MoveVerdicts
 from hypcheck.paper.quadcopter import Craft, Point, Procedures
-from hypcheck.processes import perform
+from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight
 from hypcheck.vectors.draw import Draw
 
@@ -102,8 +102,6 @@ def statement(craft: Craft) -> str:
 
 
 MOST_MOVES = 1_000_000
-
-Advance = Callable[[int], object]
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from hypcheck.errors import RunOutcome
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import StartError
-from hypcheck.processes import interrupts_deferred
+from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder
 from hypcheck.record.lines import NotStartedLine
 from hypcheck.runs.cases import CaseChunk
@@ -25,9 +25,6 @@ from hypcheck.runs.schedule import ImplementationOpener, RunState, Step, TaskExe
 
 if TYPE_CHECKING:
     from distributed import Client
-
-
-Advance = Callable[[int], object]
 
 
 def run_conformance(

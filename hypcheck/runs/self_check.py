@@ -23,7 +23,7 @@ from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
 from hypcheck.implementations.meshes import point_mesh
 from hypcheck.implementations.method import Answers, Method
-from hypcheck.processes import processes
+from hypcheck.processes import Advance, Stage, processes
 from hypcheck.record import Recorder, lines
 from hypcheck.record.lines import TimingLine
 from hypcheck.runs import findings, judge, oracles
@@ -118,19 +118,8 @@ TIMING_ROUNDS = 9
 MESH = "mesh"
 """The oracle without which nothing of FCL is loaded."""
 
-Advance = Callable[[int], object]
 
-
-@dataclass(frozen=True)
-class SelfCheckStage:
-    """A part of the run: its title for the progress bar, how many steps it has, and what does them."""
-
-    title: str
-    steps: int
-    run: Callable[[Advance], None]
-
-
-def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tuple[SelfCheckStage, ...]:
+def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tuple[Stage, ...]:
     """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
     families = self_check_families(plan)
     all_batches = batches(plan, families)
@@ -139,22 +128,20 @@ def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tupl
     todo = oracles.oracle_tasks(_with_available(plan, recorder), all_batches)
     formulas = findings.exact_formulas()
     return (
-        SelfCheckStage("derivation", 2, lambda advance: _derive(recorder, outcome, advance)),
-        SelfCheckStage(
-            "oracles", len(todo), lambda advance: _cross_check(plan, all_batches, todo, recorder, outcome, advance)
-        ),
-        SelfCheckStage(
+        Stage("derivation", 2, lambda advance: _derive(recorder, outcome, advance)),
+        Stage("oracles", len(todo), lambda advance: _cross_check(plan, all_batches, todo, recorder, outcome, advance)),
+        Stage(
             "mathematics of the formulas",
             len(all_batches) * len(formulas),
             lambda advance: _exact_findings(plan, all_batches, recorder, outcome, advance),
         ),
-        SelfCheckStage(
+        Stage(
             "methods in floats",
             len(all_batches) * (len(methods) + 1),
             lambda advance: _judge(plan, all_batches, methods, recorder, outcome, advance),
         ),
-        SelfCheckStage("map", 2, lambda advance: _draw(recorder, advance)),
-        SelfCheckStage("timing", TIMING_ROUNDS, lambda advance: _time(plan, recorder, advance)),
+        Stage("map", 2, lambda advance: _draw(recorder, advance)),
+        Stage("timing", TIMING_ROUNDS, lambda advance: _time(plan, recorder, advance)),
     )
 
 

@@ -120,7 +120,12 @@ def test_what_failed_is_named_everywhere():
     assert "fast is slower than the baseline allows (uniform, batch): 1.4 (0.96 to 1) times its former ratio" in text
     assert text.index("## What failed") < text.index("## Against the baseline") < text.index("## Which method")
     assert "✗ numpy-roots is not timed" in terminal.render(record).decode()
-    assert [each["kind"] for each in json.loads(summary.render(record))["failures"]] == ["refused", "slower"]
+    found = json.loads(summary.render(record))
+    assert [(each["subject"], each["kind"]) for each in found["failures"]] == [
+        ("measurement", "refused"),
+        ("measurement", "slower"),
+    ]
+    assert violations(found, SUMMARY, closed=True) == []
 
 
 def test_what_was_left_out_is_told_with_what_brings_it():
