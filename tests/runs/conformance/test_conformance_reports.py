@@ -95,11 +95,11 @@ def test_reports_show_what_is_declared_and_what_was_judged(record):
 
 def test_a_name_that_two_bear_is_told_apart(tmp_path):
     specs = [f"python:{folder}/same.py:classify" for folder in (tmp_path / "a", tmp_path / "b")]
-    for spec, answer in zip(specs, ("0", "numpy_path.positions(rows)"), strict=True):
+    for spec, answer in zip(specs, ("0", "numpy_kernel.positions(rows)"), strict=True):
         path = spec.partition(":")[2].rpartition(":")[0]
         (tmp_path / path).parent.mkdir()
         text = f"def classify(rows):\n    return {answer} + 0 * rows[:, 0].astype(int)\n"
-        (tmp_path / path).write_text(f"from hypcheck.kernel import numpy_path\n{text}", encoding="utf-8")
+        (tmp_path / path).write_text(f"from hypcheck.kernel import numpy_kernel\n{text}", encoding="utf-8")
     assert main(["verify", *specs, "--families", "tower-body", "--count", "3", "--out", str(tmp_path / "out")]) == 1
     made = read(tmp_path / "out" / "record.jsonl")
     found = implementations(made)
