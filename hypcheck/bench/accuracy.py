@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import WORKLOADS, BenchPlan, Workload, chosen_names
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.rows import Floats, Positions, Rows
 from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.method import Answers
 from hypcheck.processes import one_each, perform
@@ -36,8 +36,6 @@ from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
 from hypcheck.truth import float_filter
-
-Floats = NDArray[np.float64]
 
 WORST_KEPT = 3
 _WORST_TRIED = 12

@@ -41,7 +41,7 @@ from hypcheck.bench.timing import (
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import SIZES, Sizes
-from hypcheck.geometry.rows import Columns, Positions
+from hypcheck.geometry.rows import Columns, Floats, Positions
 from hypcheck.kernel.choice import choice, compiled
 from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
 from hypcheck.record.measurements import KernelLine
@@ -83,7 +83,6 @@ LEVEL_FLAGS = {
     "plain": ((),),
 }
 
-Floats = NDArray[np.float64]
 
 _HEAD = """\
 #include <math.h>

@@ -25,13 +25,14 @@ from hypcheck.bench.contender import Contender, EmptyCall, InPython, InScalars, 
 from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen_names, scene_of
 from hypcheck.bench.timing import clocked
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual_by_scene
 from hypcheck.implementations.builtin import builtin_methods, fast_scene
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, SceneMesh, height_of, rows_by_sizes, scene_mesh
-from hypcheck.implementations.method import Answers, ByScene, Method, Sizes, by_scene
+from hypcheck.implementations.method import Answers, ByScene, Method, by_scene
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 

@@ -35,7 +35,8 @@ from hypcheck.bench.timing import (
     times_as_fast,
 )
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
 from hypcheck.kernel import numpy_kernel
@@ -43,9 +44,6 @@ from hypcheck.kernel.choice import choice
 from hypcheck.kernel.scalar import exact_position
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import AbsentLine, KernelLine
-
-Floats = NDArray[np.float64]
-Sizes = tuple[float, float, float, float]
 
 
 def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:

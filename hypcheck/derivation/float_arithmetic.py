@@ -1,4 +1,4 @@
-"""Machine arithmetic: every operation of a program rounded to one numpy format, over scalars or whole arrays.
+"""Machine arithmetic: every operation of a program rounded to one numpy format, over scalars or whole arrays; TwoSum.
 
 Each ufunc call is one IEEE operation, rounded to nearest, and all operands have the one format, constants included,
 so that no promotion rule of any numpy version has a say. binary16 is computed by numpy in binary32 and rounded again,
@@ -13,9 +13,9 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import Arithmetic
+from hypcheck.geometry.rows import Floats, Positions
 
 FORMATS = ("float16", "float32", "float64", "longdouble")
 
@@ -66,5 +66,15 @@ def unit_roundoff(format_name: str) -> float:
     return float(np.finfo(np.dtype(format_name)).eps) / 2
 
 
-def _integers(values: Any) -> NDArray[np.int8]:
+def two_sum(first: Floats, second: Floats | float) -> tuple[Floats, Floats]:
+    """The rounded sum of float64 numbers and its rounding error, which is a float64 too (Knuth's TwoSum): exact.
+
+    The error is NaN where the sum leaves the range of float64.
+    """
+    total = first + second
+    shadow = total - first
+    return total, (first - (total - shadow)) + (second - shadow)
+
+
+def _integers(values: Any) -> Positions:
     return np.asarray(values).astype(np.int8)

@@ -25,7 +25,7 @@ Sizes = tuple[float, float, float, float]
 
 
 class Position(IntEnum):
-    """Where the spheroid stands to the hyperboloid; the sign speaks. Tangency is contact."""
+    """The relative position: outside the hyperboloid, in contact with it (tangency included), or inside."""
 
     EXTERIOR = 1
     CONTACT = 0
@@ -38,14 +38,14 @@ class Position(IntEnum):
 
 
 REFUSED = 127
-"""The mark of a row that is no valid query, where marking was asked for."""
+"""The answer code of a row that is no valid query, if the caller asked for invalid rows to be marked."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A valid query: sizes finite and > 0, centre finite, no negative zero. Lengths are in the caller's one unit.
+    """A valid query: sizes finite and > 0, centre finite, no negative zero. All lengths are in one unit.
 
-    Raises InputError (naming the column and the value) on construction from anything else.
+    Construction from anything else raises InputError, which names the column and the value.
     """
 
     alpha: float

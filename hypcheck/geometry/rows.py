@@ -1,8 +1,8 @@
-"""Many pairs at once: float64 arrays of shape (n, 7), columns as in pair.COLUMNS; and ranges of rows.
+"""Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
-Many queries at once: float64 arrays of shape (n, 7), columns as in pairs.COLUMNS.
-
-Ranges of ratios and of lengths: those that everybody is asked about, and which rows lie in given ones.
+Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS. First the types and the functions
+that make rows from what a caller passes, then the check of their values, then the ranges of ratios and of lengths on
+which an implementation is judged.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with
+from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes, trouble_with
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -25,21 +25,24 @@ Integers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.float64]
+"""Shape (n, 7), unless a function says otherwise."""
+
 Positions = NDArray[np.int8]
+"""Shape (n,): +1 exterior, 0 contact, −1 interior, or one of the codes REFUSED and CANNOT_SAY."""
+
 Columns = tuple[Floats, Floats, Floats]
 """x, y, z of shape (n,), with any strides."""
 
 _ROWS_WANTED = f"an array (n, 7) of numbers: {', '.join(COLUMNS)}"
 
 CANNOT_SAY = 2
-"""What stands for an answer where a method does not give one."""
+"""The answer code of a row that a method cannot decide."""
 
 
 def as_rows(values: ArrayLike) -> Rows:
     """`values` as a float64 array (n, 7); contiguous float64 input is not copied.
 
-    Raises InputError where the shape or the type cannot be that, or where values are masked; the values themselves are
-    not looked at.
+    Raises InputError if the shape or the type is another, or if values are masked. It does not check the values.
     """
     rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be {_ROWS_WANTED}"))
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
@@ -48,9 +51,9 @@ def as_rows(values: ArrayLike) -> Rows:
 
 
 def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """What stands for x, y, z …, a number or an array (n,) each, as float64 columns of one length n.
+    """The values of x, y, z …, each a number or an array (n,), as float64 columns of one length n.
 
-    Raises InputError naming what is none, or the shapes that do not go together.
+    Raises InputError naming the value that is neither, or the shapes that do not fit together.
     """
     wanted = "it must be a number or an array (n,) of numbers"
     columns = [np.atleast_1d(as_numbers(f"{name} is", each, wanted)) for name, each in zip(names, given, strict=True)]
@@ -60,14 +63,14 @@ def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats
         shape = ()
     if len(shape) != 1:
         shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
-        raise InputError(f"{shapes} have shapes that do not go together; each must be (n,) or a number")
+        raise InputError(f"{shapes} have shapes that do not fit together; each must be (n,) or a number")
     return tuple(np.broadcast_to(each, shape) for each in columns)
 
 
 def as_numbers(subject: str, values: object, wanted: str) -> Floats:
     """`values` as float64 of their own shape. Raises InputError, "<subject> …; <wanted>", unless all are real numbers.
 
-    What float64 does not hold becomes infinite. Texts and truth values are no numbers, and masked values none either.
+    A number beyond the range of float64 becomes infinite. Texts, truth values and masked values are not numbers.
     """
     require_unmasked(subject, values)
     try:
@@ -82,15 +85,15 @@ def as_numbers(subject: str, values: object, wanted: str) -> Floats:
 
 
 def require_unmasked(subject: str, values: object) -> None:
-    """Raise InputError for an array with masked values: without their mask they would be answered like others."""
-    ma = sys.modules.get("numpy.ma")  # where nobody has imported it, nothing is masked, and that takes a while
+    """Raise InputError for an array with masked values: without the mask they would be taken for ordinary ones."""
+    ma = sys.modules.get("numpy.ma")  # until something imports it nothing can be masked; importing it here costs time
     if ma is not None and isinstance(values, ma.MaskedArray) and (count := int(ma.getmaskarray(values).sum())):
         these = "it" if count == 1 else "these"
         raise InputError(f"{subject} masked in {counted(count, 'place')}; fill {these}, with nan or a number")
 
 
-def invalid(rows: Rows) -> NDArray[np.bool_]:
-    """A mask (n,) of the rows that are no valid query (see pairs.Pair)."""
+def invalid(rows: Rows) -> Mask:
+    """A mask (n,) of the rows that are no valid query (see pair.Pair)."""
     sizes = rows[:, : len(SIZES)]
     return np.asarray(~(np.isfinite(rows).all(axis=1) & (sizes > 0).all(axis=1)))
 
@@ -119,16 +122,16 @@ Range = tuple[float, float]
 
 ORDINARY_RATIO: Range = (1e-8, 1e8)
 ORDINARY_MAGNITUDE: Range = (1e-6, 1e6)
-"""What an implementation is judged on that declares no ranges: insects to islands in metres, and any two of them."""
+"""The ranges on which an implementation is judged if it declares none: any two bodies between insect and island."""
 
 UNBOUNDED: Range = (0.0, math.inf)
 
 
-def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE) -> NDArray[np.bool_]:
+def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE) -> Mask:
     """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
-    The least magnitude is one of semi-axes: a coordinate may be as near to 0 as it likes, for a centre close to the
-    axis or to the waist is nothing out of the ordinary.
+    The least magnitude applies to semi-axes alone: a coordinate may be arbitrarily near to 0, since a centre close to
+    the axis or to the waist is ordinary.
     """
     alpha, gamma, b, d = rows[:, :4].T
     with np.errstate(over="ignore", under="ignore"):
@@ -140,9 +143,9 @@ def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINAR
 
 @dataclass(frozen=True, slots=True)
 class FixedSizes:
-    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and the spans of x, y, z; None is any, bounds belong."""
+    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and closed spans of x, y, z; None means any value."""
 
-    sizes: tuple[float, float, float, float]
+    sizes: Sizes
     x: Range | None = None
     y: Range | None = None
     z: Range | None = None
@@ -152,7 +155,7 @@ class FixedSizes:
         """The spans in order."""
         return self.x, self.y, self.z
 
-    def holds(self, rows: Rows) -> NDArray[np.bool_]:
+    def holds(self, rows: Rows) -> Mask:
         """A mask (n,) of the rows with these sizes and the centre in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
         for column, span in zip(rows[:, 4:].T, self.spans, strict=True):

@@ -36,13 +36,12 @@ from hypcheck.derivation.evaluation import Evaluator, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import cut
-from hypcheck.geometry.pair import COLUMNS, SIZES
-from hypcheck.geometry.rows import CANNOT_SAY, Rows
-from hypcheck.implementations.method import Answers, ByRows, ByScene, Floats, Sizes, in_chunks
+from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Mask, Rows
+from hypcheck.implementations.method import Answers, ByRows, ByScene, in_chunks
 from hypcheck.kernel import numpy_kernel
 
 AnyFloats = NDArray[Any]
-Mask = NDArray[np.bool_]
 
 
 DISTANCES = ("lambda_", "A_plus_lambda", "B_minus_lambda")

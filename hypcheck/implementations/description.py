@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, trouble_with
-from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, FixedSizes, Range, Rows, within
+from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, FixedSizes, Mask, Range, Rows, within
 from hypcheck.messages import escaped
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 
@@ -85,7 +85,6 @@ NORMAL_RANGE: dict[str, Range] = {
 }
 """The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
 
-Mask = NDArray[np.bool_]
 
 _CORNERS = np.array([(*sizes, center, center, center) for *sizes, center in product((0, 1), repeat=5)])
 """Least or greatest, of four sizes and of the centre."""

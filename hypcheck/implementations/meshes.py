@@ -34,8 +34,9 @@ from math import cos, hypot, isqrt, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
-from hypcheck.implementations.method import Answers, Sizes
+from hypcheck.implementations.method import Answers
 from hypcheck.truth.mesh import Triangles, Vertices, availability, mesh_object, require_fcl
 
 Touches = Callable[[float, float, float], bool]

@@ -26,8 +26,8 @@ from hypcheck.derivation.evaluation import Evaluator
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import Program, Step
-from hypcheck.geometry.pair import COLUMNS, SIZES
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
+from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.description import Domain
 
 Answers = NDArray[np.int8]
@@ -57,8 +57,6 @@ class Method:
 CHUNK = 8192
 """Rows at a time: the temporaries of one chunk stay in the cache."""
 
-Floats = NDArray[np.float64]
-Sizes = tuple[float, float, float, float]
 ByRows = Callable[[Rows], Answers]
 ByScene = Callable[[Sizes, Floats, Floats, Floats], Answers]
 

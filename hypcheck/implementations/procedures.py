@@ -21,7 +21,8 @@ from hypcheck.derivation.evaluation import Evaluator
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.derivation.program import Program
-from hypcheck.implementations.method import Answers, Floats, in_chunks
+from hypcheck.geometry.rows import Floats
+from hypcheck.implementations.method import Answers, in_chunks
 from hypcheck.kernel import numpy_kernel
 
 CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")

@@ -11,11 +11,11 @@ from operator import index
 from typing import Literal, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Sizes, trouble_with
-from hypcheck.geometry.rows import Columns, Positions, Rows, as_columns, as_numbers, as_rows, require_valid
+from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, as_columns, as_numbers, as_rows, require_valid
 from hypcheck.kernel.choice import Question, choice, require_known
 
 
@@ -70,7 +70,7 @@ def classify(
 
 
 def classify_scene(
-    sizes: tuple[float, float, float, float],
+    sizes: Sizes,
     x: ArrayLike,
     y: ArrayLike,
     z: ArrayLike,
@@ -112,7 +112,7 @@ def _required(question: str, threads: int | None, on_invalid: str) -> int | None
     return number
 
 
-def _sizes(sizes: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+def _sizes(sizes: Sizes) -> Sizes:
     wanted = f"they must be four numbers: {', '.join(SIZES)}"
     numbers = as_numbers("the sizes are", sizes, wanted)
     if numbers.shape != (len(SIZES),):
@@ -125,7 +125,7 @@ def _sizes(sizes: tuple[float, float, float, float]) -> tuple[float, float, floa
     return alpha, gamma, b, d
 
 
-def _require_finite(*columns: NDArray[np.float64]) -> None:
+def _require_finite(*columns: Floats) -> None:
     finite = np.isfinite(columns[0])
     for column in columns[1:]:
         finite &= np.isfinite(column)

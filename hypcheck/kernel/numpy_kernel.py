@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED, Pair, Sizes
-from hypcheck.geometry.rows import Columns, Positions, Rows, invalid
+from hypcheck.geometry.rows import Columns, Floats, Indices, Mask, Positions, Rows, invalid
 from hypcheck.kernel import integers, scene_lines
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.printed import chunks
@@ -35,9 +35,7 @@ LINES_FROM = 1 << 14
 TOO_MANY_LEFT = LINES_CHUNK // 100
 """Of a chunk, by one line a side: then it is two."""
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
-Mask = NDArray[np.bool_]
+
 Number = TypeVar("Number", np.float32, np.float64)
 
 
@@ -105,12 +103,12 @@ class Buffers(Generic[Number]):
         return [each[:rows] for each in self._numbers], [each[:rows] for each in self._truths]
 
 
-def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Places:
+def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
     """Fill in what the scene's half planes prove, and return the places of the rest."""
     numbers, truths = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     singles = Buffers((numbers, truths), LINES_CHUNK, np.float32)
     doubles = Buffers(chunks.TWO_LINES_BUFFERS, LINES_CHUNK, np.float64)
-    left: list[Places] = []
+    left: list[Indices] = []
     few_left = True
     for start in range(0, len(result), LINES_CHUNK):
         x, y, z = (column[start : start + LINES_CHUNK] for column in columns)
@@ -127,7 +125,7 @@ def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Places:
 
 def _by_parallel_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float32], result: Positions
-) -> Places | None:
+) -> Indices | None:
     """The same for one chunk, in single precision; None, and nothing is filled in, where a centre has no room in it."""
     numbers, truths = buffers.of(len(result))
     R, T = chunks.plane(*columns, numbers[: chunks.PLANE_BUFFERS[0]])
@@ -139,13 +137,13 @@ def _by_parallel_lines(
 
 def _by_two_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float64], result: Positions
-) -> Places:
+) -> Indices:
     sums, exterior, interior, decided = chunks.two_lines(*columns, constants, *buffers.of(len(result)))
     rest = _filled_in(exterior, interior, decided, result)
     return rest if sums.max() < CAP else np.arange(len(result))  # so with NaN
 
 
-def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Places:
+def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Indices:
     np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
     return np.flatnonzero(np.logical_not(decided, out=decided))
 

@@ -31,11 +31,12 @@ from math import cos, inf, isfinite, nextafter, radians, sin
 from sys import float_info
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, Lengths, to_integers, trouble_with
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows, as_columns, as_numbers
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows, as_columns, as_numbers
 from hypcheck.kernel import integers
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
@@ -48,12 +49,9 @@ from hypcheck.kernel.scene_index import (
     in_reach,
     levels_of,
     reaches,
-    two_sum,
 )
 from hypcheck.scene.model import SceneModel
 from hypcheck.scene.reading import parse_scene, read_scene
-
-Floats = NDArray[np.float64]
 
 
 def positions_beside(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
@@ -122,8 +120,6 @@ def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float
         return outermost
     return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
 
-
-Indices = NDArray[np.int64]
 
 NOTHING_SAID = 2
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1

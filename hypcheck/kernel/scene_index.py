@@ -1,7 +1,5 @@
 """The scene index (broad phase): hyperboloids as columns, how far each reaches, and a grid over the plane.
 
-A sum of two floats and what its rounding left out: exact, since float64 sums lose a float64 (Knuth's TwoSum).
-
 The hyperboloids of a scene as columns, and the heights in which they stand.
 
 How far from a hyperboloid's axis a mover can be in contact with it: beyond, it is exterior, and nothing is asked.
@@ -29,16 +27,9 @@ from math import floor, inf
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.derivation.float_arithmetic import two_sum
+from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.scene.model import Hyperboloid, Mover, Span
-
-Floats = NDArray[np.float64]
-
-
-def two_sum(left: Floats, right: Floats) -> tuple[Floats, Floats]:
-    """left + right rounded, and the exact rest; NaN where the sum leaves float64."""
-    total = left + right
-    back = total - left
-    return total, (left - (total - back)) + (right - back)
 
 
 @dataclass(frozen=True)
@@ -82,7 +73,7 @@ class Levels:
         place = bisect_right(self.starts, z) - 1
         return place >= 0 and z <= self.ends[place]
 
-    def hold_each(self, z: Floats) -> NDArray[np.bool_]:
+    def hold_each(self, z: Floats) -> Mask:
         """The same of many heights, (n,)."""
         place = np.searchsorted(np.array(self.starts), z, side="right") - 1
         return np.asarray((place >= 0) & (z <= np.append(self.ends, -inf)[place]))
@@ -121,8 +112,6 @@ def in_reach(bodies: Bodies, mover: Mover, centre: tuple[float, float, float]) -
         distance = np.hypot(x - bodies.origins[:, 0], y - bodies.origins[:, 1])
     return np.flatnonzero(~(distance > far))
 
-
-Indices = NDArray[np.int64]
 
 MOST_CELLS = 64
 """Cells that one hyperboloid may stand in; above that it is asked always."""

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Floats
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.programs.lines import (
     CAP,
@@ -76,9 +77,6 @@ def _single(value: float) -> float:
     with np.errstate(all="ignore"):
         return float(np.float32(value))
 
-
-Floats = NDArray[np.float64]
-Sizes = tuple[float, float, float, float]
 
 NEVER = 1.7976931348623157e308
 GREATEST_HEIGHT, LEAST_HEIGHT = 2.0**150, 2.0**-150

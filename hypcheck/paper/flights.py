@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.paper.quadcopter import (
     EIGHTH,
     Craft,
     Direction,
-    Mask,
     Point,
     Procedures,
     any_angle,
@@ -31,7 +31,7 @@ from hypcheck.paper.quadcopter import (
     turned,
 )
 from hypcheck.scene.model import Flight, Start
-from hypcheck.vectors.draw import Draw, Floats
+from hypcheck.vectors.draw import Draw
 
 LANES = 1000
 """Flights of a block: enough that numpy works and does not wait."""

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Mask
 from hypcheck.messages import counted
-from hypcheck.paper.forest_walk import Mask, Steps, Trees, Verdicts, judged, phantom_wall, steps_in_contact, walk
+from hypcheck.paper.forest_walk import Steps, Trees, Verdicts, judged, phantom_wall, steps_in_contact, walk
 from hypcheck.paper.quadcopter import require_ordinary
 from hypcheck.scene.model import SceneModel, Walk
 from hypcheck.version import VERSION

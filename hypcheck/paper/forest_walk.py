@@ -27,21 +27,20 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.derivation.costs import loop_body
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Position, Sizes
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import scene as offsets
 from hypcheck.paper.motion import first_contact, stays_on_side
 from hypcheck.paper.quadcopter import Point, any_angle, turned
 from hypcheck.scene.model import Region, SceneModel, Walk
 from hypcheck.truth.float_filter import lines_for_sizes
-from hypcheck.vectors.draw import Draw, Floats
+from hypcheck.vectors.draw import Draw
 
-Mask = NDArray[np.bool_]
 Places = Floats
 """Positions of the walker's centre in the scene, (n, 3)."""
 
@@ -310,6 +309,6 @@ def _columns(places: Places) -> Point:
     return x, y, z
 
 
-def _four(sizes: Floats) -> tuple[float, float, float, float]:
+def _four(sizes: Floats) -> Sizes:
     alpha, gamma, b, d = map(float, sizes)
     return alpha, gamma, b, d

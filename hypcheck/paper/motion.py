@@ -27,17 +27,15 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Position, Sizes
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel.classify import classify_scene
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Mask, Point, Procedures, any_angle, turned
+from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Point, Procedures, any_angle, turned
 from hypcheck.truth.swept import passage
 from hypcheck.truth.turning import turning
-from hypcheck.vectors.draw import Floats
 
 MARGIN = 64 * 2.0**-53
-
-Sizes = tuple[float, float, float, float]
 
 
 def stays_on_side(

@@ -20,16 +20,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.derivation.costs import loop_body
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Position, Sizes
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel.classify import classify
 from hypcheck.scene.model import Hyperboloid, MoverPart, SceneModel, Span, Start
-from hypcheck.vectors.draw import Floats
 
 EIGHTH = math.pi / 4
 
@@ -92,7 +91,6 @@ def _polynomial(coefficients: tuple[float, ...], at: Floats) -> Floats:
     return result
 
 
-Mask = NDArray[np.bool_]
 Point = tuple[Floats, Floats, Floats]
 
 SHORTEST, LONGEST = 1e-6, 1e6
@@ -113,8 +111,8 @@ class Craft:
     `ahead` the angle from the heading to g1, in degrees.
     """
 
-    sizes: tuple[float, float, float, float]
-    rotor: tuple[float, float, float, float]
+    sizes: Sizes
+    rotor: Sizes
     arm: float
     ahead: float
     height: Span | None

@@ -20,12 +20,12 @@ from fractions import Fraction
 import numpy as np
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import Indices, Rows
 from hypcheck.implementations.description import Domain, claimed
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.runs import judge
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.score import Indices, Score, score
+from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Cubic, Decision

@@ -33,15 +33,13 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import FixedSizes, Positions, Rows, invalid
+from hypcheck.geometry.rows import FixedSizes, Floats, Mask, Positions, Rows, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding_rank
 from hypcheck.truth import float_filter
-from hypcheck.vectors.draw import Draw, Floats, Integers, ldexp, stepped
+from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
 from hypcheck.vectors.families import FAMILIES, families_for
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
-
-Mask = NDArray[np.bool_]
 
 MOVERS: dict[str, tuple[int, ...]] = {
     "radius": (4, 5),

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import Indices
 from hypcheck.implementations.description import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -24,7 +25,7 @@ from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.known_failures import KnownFailure
-from hypcheck.runs.score import Indices, Score, as_slice, score, status_of, unanswered_cases
+from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
 from hypcheck.runs.tally import STATUS_CODES, CasePlace, Tally, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme

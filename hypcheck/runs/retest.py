@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows
 from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -25,7 +25,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.cases import ChunkCases, cases_of_chunks
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
-from hypcheck.runs.score import Indices, as_slice, score, status_of
+from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
 
 RetestQuestion = tuple[Indices, int | None]

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows
 from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
@@ -36,8 +36,6 @@ from hypcheck.runs.tally import (
     counts_of,
     kept_unanswered,
 )
-
-Indices = NDArray[np.intp]
 
 _ENDED = np.array(
     [STATUS_CODES[Status.RIGHT if each is Outcome.ANSWERED else Status(each.label)] for each in Outcome], dtype=np.int8

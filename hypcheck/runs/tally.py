@@ -19,7 +19,7 @@ import numpy as np
 from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import Mask, Rows
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned
 from hypcheck.record.lines import GroupLine
@@ -27,7 +27,6 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Status
 
 Integers = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 FAR = 63
 """The last bin of a place, which holds everything beyond it too."""

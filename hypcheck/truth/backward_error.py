@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
 
@@ -122,9 +122,6 @@ SMALLEST, LARGEST = 2.0**-90, 2.0**90
 TOWARD_EXTERIOR = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0])
 """Which way α, γ, b, d, x, y, z change: the sizes of the spheroid fall for either clear position, the others turn."""
 TOWARD_INTERIOR = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def distance_exponents(rows: Rows, positions: Positions) -> Floats:

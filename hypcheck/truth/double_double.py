@@ -10,13 +10,12 @@ numpy evaluates one operation at a time in float64, so no compiler can contract 
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 
-Array: TypeAlias = NDArray[np.float64]
-DoubleDouble: TypeAlias = tuple[Array, Array]
+from hypcheck.derivation.float_arithmetic import two_sum
+from hypcheck.geometry.rows import Floats, Mask
+
+DoubleDouble = tuple[Floats, Floats]
 
 ERROR = 2.0**-102
 """The relative error bound of one operation: 16u²."""
@@ -24,14 +23,7 @@ ERROR = 2.0**-102
 _SPLITTER = 134217729.0  # 2²⁷ + 1: cuts 53 bits into 26 and 26 with a sign
 
 
-def two_sum(first: Array, second: Array | float) -> DoubleDouble:
-    """The rounded sum and its rounding error, exactly."""
-    total = first + second
-    shadow = total - first
-    return total, (first - (total - shadow)) + (second - shadow)
-
-
-def two_product(first: Array, second: Array) -> DoubleDouble:
+def two_product(first: Floats, second: Floats) -> DoubleDouble:
     """The rounded product and its rounding error, exactly for |operands| < 2⁹⁹⁶ and a product of 0 or over 2⁻⁹⁶⁸."""
     product = first * second
     first_high, first_low = _split(first)
@@ -43,7 +35,7 @@ def two_product(first: Array, second: Array) -> DoubleDouble:
     return product, error
 
 
-def two_square(value: Array) -> DoubleDouble:
+def two_square(value: Floats) -> DoubleDouble:
     """The rounded square and its rounding error; the range is that of two_product."""
     square = value * value
     high, low = _split(value)
@@ -64,7 +56,7 @@ def subtract(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
     return add(first, (-second[0], -second[1]))
 
 
-def add_float(first: DoubleDouble, second: Array | float) -> DoubleDouble:
+def add_float(first: DoubleDouble, second: Floats | float) -> DoubleDouble:
     """The sum with a float64, as add."""
     total, error = two_sum(first[0], second)
     return two_sum(total, error + first[1])
@@ -94,7 +86,7 @@ def divide(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
     return two_sum(quotient, remainder / second[0])
 
 
-def quotient_of_floats(first: Array, second: Array) -> DoubleDouble:
+def quotient_of_floats(first: Floats, second: Floats) -> DoubleDouble:
     """The quotient of two float64: the remainder is exact, its division 1."""
     quotient = first / second
     product, error = two_product(quotient, second)
@@ -113,12 +105,12 @@ def square_root(value: DoubleDouble) -> DoubleDouble:
     return two_sum(root, remainder / np.where(root > 0.0, 2.0 * root, 1.0))
 
 
-def where(condition: NDArray[np.bool_], first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
+def where(condition: Mask, first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
     """Elementwise choice."""
     return np.where(condition, first[0], second[0]), np.where(condition, first[1], second[1])
 
 
-def _split(value: Array) -> DoubleDouble:
+def _split(value: Floats) -> DoubleDouble:
     """Two halves of at most 26 bits with value = high + low, for |value| < 2⁹⁹⁶."""
     scaled = _SPLITTER * value
     high = scaled - (scaled - value)

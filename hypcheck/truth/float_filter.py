@@ -45,17 +45,15 @@ from fractions import Fraction
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import Positions, Rows, require_valid
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import exact
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
 """Heights that have a line of their own, as parts of the height that is asked for."""
 
-Floats = NDArray[np.float64]
 Line = tuple[float, float]
 
 
@@ -71,7 +69,7 @@ class SizeLines:
     surface: Line
     width: float
 
-    def proved(self, squares: Floats, heights: Floats, otherwise: int) -> NDArray[np.int8]:
+    def proved(self, squares: Floats, heights: Floats, otherwise: int) -> Positions:
         """The position of centres with these x² + y² and z², int8 (n,), where it is proved so, else `otherwise`."""
         result = np.full(len(squares), otherwise, dtype=np.int8)
         for lines, nearest, beyond, position in (
@@ -86,7 +84,7 @@ class SizeLines:
         result[rest[self._touching(squares[rest], heights[rest])]] = Position.CONTACT
         return result
 
-    def _touching(self, squares: Floats, heights: Floats) -> NDArray[np.bool_]:
+    def _touching(self, squares: Floats, heights: Floats) -> Mask:
         constant, slope = self.surface
         here, there = np.sqrt(squares), np.sqrt(constant + slope * heights)
         return np.asarray(np.abs(here - there) + LINE_MARGIN * (here + there) < self.width)
@@ -144,7 +142,6 @@ Directions = tuple[tuple[float, float], ...]
 UPRIGHT: Directions = ((1.0, 0.0), (0.0, 1.0))
 SLANTED: Directions = tuple((STEP * m / 25, STEP * n / 25) for m, n in ((20, 15), (15, 20), (24, 7), (7, 24)))
 
-Mask = NDArray[np.bool_]
 Squares = tuple[Floats, ...]
 """A, B, P and Q."""
 

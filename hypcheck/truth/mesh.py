@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import Floats
 from hypcheck.truth.mesh_meridian import RESOLUTION, MeshOutcome, Refinement, Segment, meridian_of, refine
 
-Vertices = NDArray[np.float64]
+Vertices = Floats
 Triangles = NDArray[np.int64]
 
 _HALVES_OF_A_SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
@@ -52,7 +53,7 @@ def ribbon(segments: Sequence[Segment]) -> tuple[Vertices, Triangles]:
     is 0 wherever it lies; one below about 1e-77, whose fourth power underflows, is to FCL without area too. Ends are of
     the lattice of mesh_window.UNIT, so that none is so short.
     """
-    ends: NDArray[np.float64] = np.array(segments, dtype=np.float64).reshape(-1, 4)
+    ends: Floats = np.array(segments, dtype=np.float64).reshape(-1, 4)
     half = np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]) / 2
     ends, half = ends[half > 0], half[half > 0]
     (x, z), (u, w) = ends[:, :2].T, ends[:, 2:].T

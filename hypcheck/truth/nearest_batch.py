@@ -11,7 +11,7 @@ its square root less 1. A λ is found in float64 and taken as given from there o
 is missing is F²/(2|F′|), up to a factor that is known, as F′ changes by much only over the distance to a pole. The
 unknown is u, the distance from λ to the nearer pole; with C = A or B, λ = ±(u − C), and A + B − u ≥ u is the other one.
 
-Rounding (η = nearest_double.ERROR bounds an operation; relative errors unless said otherwise):
+Rounding (η = double_double.ERROR bounds an operation; relative errors unless said otherwise):
     A, B, Q 3η, P and W = A + B 4η; W − u, at least W/2, 13η; |λ| = |u − C| within 4η(u + C), absolutely;
     P/(A+λ)² and Q/(B−λ)²: near 5η, far 33η, their sum 34η; S within 8η|λ|(u + C)(near + far) + 36ηS, with the larger of
     the true and the computed |λ|;
@@ -30,13 +30,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import Positions, Rows, require_valid
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import double_double
-from hypcheck.truth.double_double import Array, DoubleDouble
+from hypcheck.truth.double_double import DoubleDouble
 from hypcheck.truth.nearest_dual import SquaredLengths
 from hypcheck.truth.nearest_exact import NearestStage, Optimum, optimise
-
-Mask = NDArray[np.bool_]
 
 _BOUND = 64.0 * double_double.ERROR
 _FLOOR = 2.0**-400
@@ -70,17 +68,17 @@ class DualArrays:
     """
 
     value: DoubleDouble
-    error: Array
-    gap: Array
-    gap_error: Array
-    side: Array
+    error: Floats
+    gap: Floats
+    gap_error: Floats
+    side: Floats
 
 
 @dataclass(frozen=True, slots=True)
 class Decided:
     """For each row: the clearance, whether it is surely the true one rounded to nearest; the position, whether sure."""
 
-    clearance: Array
+    clearance: Floats
     clearance_certain: Mask
     position: Positions
     position_certain: Mask
@@ -112,7 +110,7 @@ def _scale(rows: Rows) -> ScaledArrays:
     return ScaledArrays(A, B, P, Q, inside)
 
 
-def _solve(scaled: ScaledArrays) -> tuple[Array, Array]:
+def _solve(scaled: ScaledArrays) -> tuple[Floats, Floats]:
     """A + λ and B − λ in float64, the smaller one to nearly full relative precision, at the λ where F vanishes.
 
     With p = a r, q = c z, W = A + B, τ = A + λ and σ = B − λ = W − τ: F = 0 is τ √(1 + (q/σ)²) = p, and its left side
@@ -145,7 +143,7 @@ def _solve(scaled: ScaledArrays) -> tuple[Array, Array]:
     return tau, sigma
 
 
-def _start(p: Array, q: Array, W: Array) -> tuple[Array, Array]:
+def _start(p: Floats, q: Floats, W: Floats) -> tuple[Floats, Floats]:
     """τ and σ with τ at or above the root, each within a modest factor.
 
     τ < p and τ/p < σ/q bound τ; the second is p/τ > q/σ. That τ is also less than twice the root. If it is over W/2 the
@@ -162,7 +160,7 @@ def _start(p: Array, q: Array, W: Array) -> tuple[Array, Array]:
     return np.where(raised, W - sigma, tau), sigma
 
 
-def _evaluate(scaled: ScaledArrays, tau: Array, sigma: Array) -> DualArrays:
+def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
     """The dual at the λ that is u = min(τ, σ) from its pole; with −A near, `one` is 1, else −1, and λ = one·size."""
     near_minus_A = tau <= sigma
     one = np.where(near_minus_A, 1.0, -1.0)
@@ -226,7 +224,7 @@ def _judge(inside: Mask, dual: DualArrays) -> Decided:
     return Decided(high, certain & rounds_alike, position, certain)
 
 
-def _gap(slope: Array, slope_error: Array, curvature: Array, pole: Array) -> tuple[Array, Array]:
+def _gap(slope: Floats, slope_error: Floats, curvature: Floats, pole: Floats) -> tuple[Floats, Floats]:
     """distance² − D(λ) as an estimate and a bound of its error, from |F|, its error, and |F′| at λ.
 
     Within a distance k·pole of λ, |F′| lies between (1 + k)⁻³ and (1 − k)⁻³ times its value at λ, as both its terms are
@@ -240,7 +238,7 @@ def _gap(slope: Array, slope_error: Array, curvature: Array, pole: Array) -> tup
     return estimate, np.where(kappa <= 0.125, error, np.inf)
 
 
-def _clearance(squared: DoubleDouble, error: Array) -> tuple[DoubleDouble, Array]:
+def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floats]:
     """√squared − 1 and a bound of its error, for a squared distance known within `error`.
 
     |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0.
@@ -267,7 +265,7 @@ class NearestPositions:
 class NearestBatch:
     """For n rows: clearances as in nearest_precise.Nearest (n,), positions (n,), and the Stage of each, uint8 (n,)."""
 
-    clearance: Array
+    clearance: Floats
     position: Positions
     stage: NDArray[np.uint8]
 

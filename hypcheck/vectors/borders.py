@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.geometry.rows import Rows
-from hypcheck.vectors.double_roots import Mask, big_integers, big_integers_of_any_length, to_rows, triples, turned
+from hypcheck.geometry.rows import Mask, Rows
+from hypcheck.vectors.double_roots import big_integers, big_integers_of_any_length, to_rows, triples, turned
 from hypcheck.vectors.draw import Draw, in_turn, ldexp, stepped, turns
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import UNITS, Sizes, all_regimes, around, centred, heights, offsets, sizes

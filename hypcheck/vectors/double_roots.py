@@ -32,11 +32,10 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Rows
-from hypcheck.vectors.draw import Draw, Floats, exponent, ldexp
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.vectors.draw import Draw, exponent, ldexp
 
 BigIntegers = NDArray[np.object_]
-Mask = NDArray[np.bool_]
 
 RADIAL_COLUMNS = [0, 2, 4, 5]
 AXIAL_COLUMNS = [1, 3, 6]

@@ -16,9 +16,8 @@ import numpy as np
 from numpy.random.bit_generator import ISeedSequence
 from numpy.typing import ArrayLike, NDArray
 
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import Floats, Rows
 
-Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Maker = Callable[["Draw", int], Rows]
 """What a generator is: from a draw and a number n, n valid rows."""

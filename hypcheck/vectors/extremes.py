@@ -22,10 +22,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.geometry.rows import Rows, within
+from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
-from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, Mask, gather
-from hypcheck.vectors.draw import Draw, Floats, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
+from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather
+from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
 from hypcheck.vectors.tangency import exact_maker, two_points_on_an_axis

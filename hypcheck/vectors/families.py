@@ -23,11 +23,11 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
-from hypcheck.geometry.rows import FixedSizes, Range, Rows
+from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact
 from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
-from hypcheck.vectors.draw import Draw, Floats, stepped, turns
+from hypcheck.vectors.draw import Draw, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
 

@@ -20,13 +20,11 @@ from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
-from hypcheck.geometry.rows import Rows, within
+from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error
 from hypcheck.truth.exact import Decision, cubic
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.family import FlagFacts, Row, rows_of
-
-Mask = NDArray[np.bool_]
 
 
 def exactly_right(formula: str, row: Row, truth: Position) -> bool:

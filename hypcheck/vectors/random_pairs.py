@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import Rows
-from hypcheck.vectors.draw import Draw, Floats, Maker, ldexp, stepped, to_bits, turns
+from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.vectors.draw import Draw, Maker, ldexp, stepped, to_bits, turns
 from hypcheck.vectors.family import Family
 
 UNITS = (-6, 4)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.geometry.rows import Rows
-from hypcheck.vectors.draw import Draw, Floats, circle_at
+from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.vectors.draw import Draw, circle_at
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, beside, offsets, stack
 

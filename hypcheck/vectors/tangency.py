@@ -13,11 +13,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.double_roots import (
     DoubleRoots,
-    Mask,
     big_integers_of_any_length,
     gather,
     in_metres,
@@ -25,7 +24,7 @@ from hypcheck.vectors.double_roots import (
     triples,
     turned,
 )
-from hypcheck.vectors.draw import Draw, Floats, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
+from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import beside_surface, centred, sizes
 

@@ -166,7 +166,7 @@ def test_the_public_name_reads_a_file(tmp_path):
     [
         ((np.inf, 0.0, 0.0), "row 0: x is inf"),
         ((0.0, [0.0, np.nan], 0.0), "row 1: y is nan"),
-        ((np.eye(2), 0.0, 0.0), "have shapes that do not go together"),
+        ((np.eye(2), 0.0, 0.0), "have shapes that do not fit together"),
     ],
 )
 def test_bad_centres_are_refused(centre, sentence):

@@ -116,7 +116,7 @@ def test_outside_its_region_only_what_is_in_reach_is_asked():
         ((0, 1j, 0), "y is 1j; it must be a number"),
         ((0, 0, [[1], [2, 3]]), r"z is \[\[1\], \[2, 3\]\]; it must be a number"),
         ((10**400, 0, 0), "x is (1000000|an integer too large for float64)"),
-        (([0, 1], [0, 1, 2], 0), r"x \(2,\), y \(3,\), z \(1,\), heading \(1,\) have shapes that do not go together"),
+        (([0, 1], [0, 1, 2], 0), r"x \(2,\), y \(3,\), z \(1,\), heading \(1,\) have shapes that do not fit together"),
         ((0, 0, None), "z is None; it must be a number"),
         (("1.5", 0, 0), "x is '1.5'; it must be a number"),
         ((0, b"1.5", 0), "y is b'1.5'; it must be a number"),

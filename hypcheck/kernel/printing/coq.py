@@ -15,6 +15,7 @@ from fractions import Fraction
 
 from hypcheck.derivation.program import Argument, Program, Step, cut, needed
 from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Sizes
 from hypcheck.kernel.programs.certified import CERTIFIED, SINGLE
 from hypcheck.kernel.specialise.last_stages import Discriminant, exact_constants
 from hypcheck.kernel.specialise.plan import ScenePlan
@@ -71,9 +72,7 @@ def proof_of(plan: ScenePlan) -> str:
     return "\n".join((head, *parts, ""))
 
 
-def _setting(
-    number: int, plan: ScenePlan, sizes: tuple[float, float, float, float], stage: Discriminant
-) -> Iterator[str]:
+def _setting(number: int, plan: ScenePlan, sizes: Sizes, stage: Discriminant) -> Iterator[str]:
     measures = scaled(sizes, plan.format)
     unit, constants = exact_constants(measures)
     yield f"Module Setting_{number}."

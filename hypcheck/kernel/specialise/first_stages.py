@@ -45,14 +45,14 @@ from fractions import Fraction
 from math import isqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import Program, program_of
-from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position, Sizes
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import integers
-from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting, Sizes
+from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting
 
 RADIAL, AXIAL = "radial_unit", "axial_unit"
 """Names of the two powers of two, where a kernel has them."""
@@ -170,9 +170,6 @@ WORTH = 0.05
 
 MOST_LINES = 2
 """Lines a side at most."""
-
-Mask = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 
 
 def lines_for(

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel.specialise import first_stages, last_stages
 from hypcheck.kernel.specialise.first_stages import (
     CENTRE,
@@ -166,18 +166,14 @@ def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
     return Stages(setting, first, constants, None, None, tuple(lines), sides, delta, last, shares, omitted, bound)
 
 
-def _sample(
-    setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _sample(setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat) -> tuple[Floats, Floats]:
     """R and zz of the sample's centres, as the kernel computes them."""
     x, y, z = centres(setting)
     values = evaluate(first, float_arithmetic(form.name), {"x": x, "y": y, "z": z, **constants})
     return values["R"], values["zz"]
 
 
-def _decided(
-    delta: Discriminant, form: FloatFormat, R: NDArray[np.float64], zz: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _decided(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound

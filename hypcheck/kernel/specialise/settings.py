@@ -18,14 +18,12 @@ from fractions import Fraction
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import Pair, Position, Sizes
+from hypcheck.geometry.rows import Floats
 from hypcheck.kernel import integers
 from hypcheck.scene.model import Hyperboloid, MoverPart, SceneModel, Span
-
-Sizes = tuple[float, float, float, float]
 
 SWING = 1 + Fraction(1, 2**40)
 """What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
@@ -159,8 +157,6 @@ LARGEST = 2.0**1021
 
 REACH = 2.0
 """How far around the surface centres lie where the region leaves an axis open: in waist radii and heights γ."""
-
-Floats = NDArray[np.float64]
 
 
 def centres(setting: Setting) -> tuple[Floats, Floats, Floats]:
