@@ -55,6 +55,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
     from hypcheck.processes import usable_processors
+    from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
 
@@ -84,10 +85,10 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
-    optional = {"files": files, "program": unchanged.program if unchanged else None, "settings": in_effect(context)}
+    provenance = Provenance(files, unchanged.program if unchanged else None, in_effect(context))
     with (
         TemporaryDirectory(prefix="hypcheck-bench-") as folder,
-        recording(options["out"], plan.options, title, optional) as running,
+        recording(options["out"], plan.options, title, provenance) as running,
     ):
         run_stages(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
         if unchanged is not None:

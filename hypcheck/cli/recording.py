@@ -26,6 +26,7 @@ from hypcheck.tables.streams import STREAM, same_file
 if TYPE_CHECKING:
     from hypcheck.processes import Stage
     from hypcheck.record import Record, Recorder, RecordLine
+    from hypcheck.record.writer import Provenance
     from hypcheck.runs.plan import ConformancePlan
     from hypcheck.runs.resume import ResumedRun
 
@@ -44,14 +45,14 @@ def recording(
     out: Path,
     options: Mapping[str, Any],
     title: str = "",
-    optional: Mapping[str, Any] | None = None,
+    provenance: Provenance | None = None,
     carried: Sequence[RecordLine] = (),
 ) -> Iterator[Recording]:
     """Keep the record of a run in `out` while it lasts; then write the reports beside it, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. `optional` are the fields of the
-    header that not every run has, of which None is left out. When the run begins, its `title` is told, if it has one,
-    and its settings; reports of an earlier run are removed, and its record stays until the new one takes its place.
+    An interrupted run leaves what it finished, reported as truncated, on GitHub too. When the run begins, its `title`
+    is told, if it has one, and its settings; reports of an earlier run are removed, and its record stays until the new
+    one takes its place.
     `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises InputError where
     `out` cannot be written, or another run is writing there.
     """
@@ -61,13 +62,12 @@ def recording(
     from hypcheck.report.write import remove_reports
 
     growing = out / GROWING
-    known = {name: value for name, value in (optional or {}).items() if value is not None}
     with ExitStack() as stack:
         try:
             out.mkdir(parents=True, exist_ok=True)
             _require_no_folder(out / FILE, growing)
             stack.enter_context(folder_locked(out))
-            recorder = Recorder(stack.enter_context(GrowingFile(growing)), options, known, carried)
+            recorder = Recorder(stack.enter_context(GrowingFile(growing)), options, provenance, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
         running = Recording(recorder)
@@ -75,7 +75,7 @@ def recording(
             remove_reports(out)
             if title:
                 _say(title)
-            announce(known.get("settings"))
+            announce(None if provenance is None else provenance.settings)
             yield running
             running.record = recorder.close(running.exit_code)
         except BaseException as error:

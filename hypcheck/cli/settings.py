@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -22,6 +22,9 @@ from hypcheck import toml
 from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, integer_wanted
 from hypcheck.errors import InputError
 from hypcheck.messages import escaped, suggestion
+
+if TYPE_CHECKING:
+    from hypcheck.record.lines import SettingsPart
 
 FILE = "hypcheck.toml"
 
@@ -68,8 +71,8 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
 """What goes where an option has no value; but for the last, any value of these weakens a gate."""
 
 
-def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str, Any] | None:
-    """The `settings` of a record's header: the file of the command that runs, and each option that weakens its gate.
+def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsPart | None:
+    """The settings of a record's header: the file of the command that runs, and each option that weakens its gate.
 
     None where there is neither; options that the run does not use are `unused`.
     """
@@ -83,25 +86,26 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> dict[str,
             weakened.append({"option": option.opts[0], **shown, "source": FILE if from_file else "command line"})
     if settings is None and not weakened:
         return None
-    return {"file": None if settings is None else FILE, "weakened": weakened}
+    from hypcheck.record.lines import SettingsPart, WeakenedPart
+
+    return SettingsPart(file=None if settings is None else FILE, weakened=[WeakenedPart(**each) for each in weakened])
 
 
-def announce(settings: Mapping[str, Any] | None) -> None:
+def announce(settings: SettingsPart | None) -> None:
     """Tell on standard error what in_effect says."""
-    from hypcheck.record.fields import decoded
-    from hypcheck.record.lines import SettingsPart as RecordedSettings
     from hypcheck.report.messages import settings_facts
 
-    for fact in settings_facts(None if settings is None else decoded(settings, RecordedSettings)):
+    for fact in settings_facts(settings):
         click.echo(f"hypcheck: {escaped(fact)}", err=True)
 
 
 def announce_file() -> None:
     """As announce, for a command that makes no report: what its settings file says, and not what was typed."""
+    from msgspec.structs import replace
+
     found = in_effect(click.get_current_context())
-    if found is not None and found["file"] is not None:
-        weakened = [each for each in found["weakened"] if each["source"] == found["file"]]
-        announce({**found, "weakened": weakened})
+    if found is not None and found.file is not None:
+        announce(replace(found, weakened=[each for each in found.weakened if each.source == found.file]))
 
 
 def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any option's value

@@ -10,7 +10,7 @@ A run of `hypcheck verify` without SPEC: hypcheck itself is derived, proved, cro
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
 from pathlib import Path
@@ -36,6 +36,7 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.messages import escaped, printable
 
 if TYPE_CHECKING:
+    from hypcheck.record.lines import SettingsPart
     from hypcheck.runs.plan import ConformancePlan
 
 
@@ -95,11 +96,12 @@ class ConformanceOptions:
         return plan
 
 
-def conformance(options: ConformanceOptions, title: str, settings: Mapping[str, Any] | None) -> int:
+def conformance(options: ConformanceOptions, title: str, settings: SettingsPart | None) -> int:
     """Run it, begun anew or gone on with, write the reports, and give the exit code.
 
     Raises InputError where an option is wrong.
     """
+    from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs import conformance as run
     from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
@@ -115,8 +117,8 @@ def conformance(options: ConformanceOptions, title: str, settings: Mapping[str, 
     begun = ResumedRun() if options.resume is None else resumed(options.resume, out, plan, shown, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, optional = RunOutcome(), {"files": files, "program": unchanged.program, "settings": settings}
-    with recording(out, shown, title, optional, begun.carried) as running:
+    outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings)
+    with recording(out, shown, title, provenance, begun.carried) as running:
         with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
             run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state)
         changed = unchanged.record_changes(running.recorder)
@@ -142,9 +144,10 @@ class SelfCheckOptions:
     workers: int | None
 
 
-def self_check(options: SelfCheckOptions, title: str, settings: Mapping[str, Any] | None) -> Exit:
+def self_check(options: SelfCheckOptions, title: str, settings: SettingsPart | None) -> Exit:
     """Run it and write the reports. Raises InputError where an option is wrong."""
     from hypcheck.processes import usable_processors
+    from hypcheck.record.writer import Provenance
     from hypcheck.runs import self_check as run
     from hypcheck.runs.findings import SelfCheckPlan
 
@@ -160,7 +163,7 @@ def self_check(options: SelfCheckOptions, title: str, settings: Mapping[str, Any
         tolerance=Fraction(options.tolerance),
     )
     outcome = RunOutcome()
-    with recording(options.out, run.options(plan), title, {"settings": settings}) as running:
+    with recording(options.out, run.options(plan), title, Provenance(settings=settings)) as running:
         run_stages(run.stages(plan, running.recorder, outcome))
         running.exit_code = outcome.exit_code
     return outcome.exit_code

@@ -18,16 +18,27 @@ import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, BinaryIO, TextIO
 
+from msgspec import UNSET
+
 from hypcheck.errors import InputError
 from hypcheck.processes import interrupts_deferred
-from hypcheck.record.fields import RecordLine, as_json, decoded, plain
+from hypcheck.record.fields import RecordLine, as_json, plain
 from hypcheck.record.integrity import sealed
-from hypcheck.record.lines import SCHEMA, FooterLine, HeaderLine, ImplementationLine, NotStartedLine
+from hypcheck.record.lines import (
+    SCHEMA,
+    FooterLine,
+    HeaderLine,
+    ImplementationLine,
+    Machine,
+    NotStartedLine,
+    SettingsPart,
+)
 from hypcheck.record.progress import ProgressLine
 from hypcheck.record.reader import Record
 from hypcheck.version import VERSION
@@ -39,7 +50,7 @@ class FolderInUseError(InputError):
 
 @contextmanager
 def folder_locked(folder: Path) -> Iterator[None]:
-    """While it lasts no other process owns the folder. Raises OwnedError where one does.
+    """While it lasts no other process owns the folder. Raises FolderInUseError where one does.
 
     Where the system has no locks for folders (Windows, some networks), nobody is refused.
     """
@@ -136,10 +147,19 @@ def _new_file(path: Path) -> BinaryIO:
     return os.fdopen(os.open(path, how, 0o666), "ab")
 
 
+@dataclass(frozen=True)
+class Provenance:
+    """What the headers of some runs say besides: the sha256 of files under test and of our own, and the settings."""
+
+    files: Mapping[str, str] | None = None
+    program: str | None = None
+    settings: SettingsPart | None = None
+
+
 class Recorder:
     """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    `optional` are the fields of the header that not every run has, such as `files`. `carried` are lines of the record
+    `provenance` is told in the header. `carried` are lines of the record
     that is gone on with, which are there from the first moment on. Interrupts wait while a line is written, so that
     none is ever written twice, or by half with another behind it.
     """
@@ -148,7 +168,7 @@ class Recorder:
         self,
         stream: TextIO | GrowingFile,
         options: Mapping[str, Any],
-        optional: Mapping[str, Any] | None = None,
+        provenance: Provenance | None = None,
         carried: Sequence[RecordLine] = (),
     ) -> None:
         self._stream = stream
@@ -159,7 +179,7 @@ class Recorder:
         self._place = len(self._lines)
         self._ending: tuple[FooterLine, ...] = ()
         self._check = 0
-        self._header = header(options, self._started, optional)
+        self._header = header(options, self._started, provenance)
         if isinstance(stream, GrowingFile):
             self._renew()
         else:
@@ -233,25 +253,26 @@ class Recorder:
             self._check = check
 
 
-def header(options: Mapping[str, Any], started: datetime, optional: Mapping[str, Any] | None = None) -> HeaderLine:
-    """The first line: versions, machine and options, and the `optional` fields that are there."""
-    fields = {
-        "type": "header",
-        "schema": SCHEMA,
-        "hypcheck": VERSION,
-        "started": started.isoformat(timespec="seconds"),
-        "python": platform.python_version(),
-        "versions": _versions(),
-        "machine": {
-            "system": platform.system(),
-            "architecture": platform.machine(),
-            "processor": _processor(),
-            "cores": os.cpu_count(),
-        },
-        "options": plain(options),
-        **(optional or {}),
-    }
-    return decoded(fields, HeaderLine)
+def header(options: Mapping[str, Any], started: datetime, provenance: Provenance | None = None) -> HeaderLine:
+    """The first line: versions, machine and options, and what is known of the run's provenance."""
+    known = provenance or Provenance()
+    return HeaderLine(
+        schema=SCHEMA,
+        hypcheck=VERSION,
+        started=started.isoformat(timespec="seconds"),
+        python=platform.python_version(),
+        versions=_versions(),
+        machine=Machine(
+            system=platform.system(),
+            architecture=platform.machine(),
+            processor=_processor(),
+            cores=os.cpu_count(),
+        ),
+        options=plain(options),
+        files=UNSET if known.files is None else dict(known.files),
+        program=UNSET if known.program is None else known.program,
+        settings=UNSET if known.settings is None else known.settings,
+    )
 
 
 def _versions() -> dict[str, str]:

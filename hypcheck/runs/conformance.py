@@ -83,7 +83,7 @@ def _gating(
         rules = rules_of(plan, used, listed)
         lines = ImplementationLines(plan, opening.spec, implementation.declared, used, rules)
         declared = recorded_description(implementation.declared)
-        keeper = ProgressWriter(recorder, number=number, declared=declared, cases=planned_size(plan))
+        keeper = ProgressWriter(recorder, number, declared, planned_size(plan))
         begun = begun or RunState(implementation.allowance)
         with _task_execution(implementation, opening, plan, rules, client) as performing:
             gating = _Gating(steps_of(plan, used), performing, keeper, begun)

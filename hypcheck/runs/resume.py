@@ -23,7 +23,7 @@ from hypcheck.errors import InputError
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import ImplementationLine, NotStartedLine
+from hypcheck.record.lines import DescriptionPart, HeaderLine, ImplementationLine, NotStartedLine
 from hypcheck.record.progress import (
     PendingCases,
     ProgressLine,
@@ -34,7 +34,7 @@ from hypcheck.record.progress import (
     SavedState,
     SavedTally,
 )
-from hypcheck.record.writer import header
+from hypcheck.record.writer import Provenance, header
 from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.conformance_lines import recorded_description, require_lines, require_state
 from hypcheck.runs.fingerprint import code_fingerprint
@@ -59,11 +59,11 @@ Json = dict[str, Any]
 
 
 class ProgressWriter:
-    """Keeps in a record how far one implementation has been asked; `about` are the fields of the line but its state."""
+    """Keeps in a record how far an implementation has been asked, whose `number` in the run that is."""
 
-    def __init__(self, recorder: Recorder, **about: Any) -> None:  # noqa: ANN401  whatever the line holds
-        self.recorder = recorder
-        self._about = about
+    def __init__(self, recorder: Recorder, number: int, declared: DescriptionPart, cases: int) -> None:
+        self._recorder = recorder
+        self._number, self._declared, self._cases = number, declared, cases
         self._due = time.monotonic() + PROGRESS_EVERY_S
 
     def offer(self, state: RunState) -> None:
@@ -76,7 +76,15 @@ class ProgressWriter:
 
     def keep(self, state: RunState) -> None:
         """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
-        self.recorder.keep(ProgressLine(**self._about, state=saved_state(state), program=code_fingerprint()))
+        self._recorder.keep(
+            ProgressLine(
+                number=self._number,
+                declared=self._declared,
+                cases=self._cases,
+                state=saved_state(state),
+                program=code_fingerprint(),
+            )
+        )
 
 
 @dataclass(frozen=True)
@@ -103,17 +111,13 @@ def require_same_run(
 
     `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
     """
-    before, now = as_json(record.header), as_json(header(options, datetime.now(timezone.utc), {"files": files}))
-    if not {"specs", "max_abstained"} <= before["options"].keys():
-        command = "bench" if before["options"].get("command") == "bench" else "verify without SPEC"
+    before, now = record.header, header(options, datetime.now(timezone.utc), Provenance(files))
+    if not {"specs", "max_abstained"} <= before.options.keys():
+        command = "bench" if before.options.get("command") == "bench" else "verify without SPEC"
         raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")
-    for name in ("schema", "hypcheck", "python"):
-        _require_same(before.get(name), now[name], name, file)
-    for part, free in {"options": FREE_OPTIONS, "versions": (), "machine": ("processor", "cores"), "files": ()}.items():
-        there, here = before.get(part) or {}, json.loads(json.dumps(plain(now[part])))
-        for key in {**there, **here}:
-            if key not in free and (part != "versions" or key in LIBRARIES):
-                _require_same(there.get(key), here.get(key), _title(part, key), file)
+    there, here = _compared(before), _compared(now)
+    for what in {**there, **here}:
+        _require_same(there.get(what), here.get(what), what, file)
     spoken = [line.spec for line in finished_part(record)[0] if isinstance(line, (ImplementationLine, NotStartedLine))]
     _require_same(spoken, list(plan.specs[: len(spoken)]), "those that were asked to their end", file)
 
@@ -180,10 +184,17 @@ def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine 
     return tuple(line for line in before if not isinstance(line, ProgressLine)), kept[-1] if kept else None
 
 
-def _title(part: str, key: str) -> str:
-    if part == "files":
-        return f"the sha256 of {key}"
-    return f"--{key.replace('_', '-')}" if part == "options" and key != "specs" else key
+def _compared(of: HeaderLine) -> Json:
+    """What must be the same in the headers of a run and of one that goes on with it, by its name in messages."""
+    options = {name: value for name, value in plain(of.options).items() if name not in FREE_OPTIONS}
+    return {
+        **{name: getattr(of, name) for name in ("schema", "hypcheck", "python")},
+        **{name if name == "specs" else f"--{name.replace('_', '-')}": value for name, value in options.items()},
+        **{library: of.versions.get(library) for library in LIBRARIES},
+        "system": of.machine.system,
+        "architecture": of.machine.architecture,
+        **{f"the sha256 of {path}": digest for path, digest in (of.files or {}).items()},
+    }
 
 
 def _require_same(before: object, now: object, what: str, file: Path) -> None:

@@ -202,7 +202,7 @@ def test_a_choice_of_families_weakens_the_gate_only_where_it_leaves_out_one(proj
     context = verify.make_context("verify", ["builtin:fast", "--families", families])
     with context:
         found = in_effect(context)
-    assert [each["option"] for each in (found or {"weakened": []})["weakened"]] == ["--families"] * weaker
+    assert [each.option for each in (found.weakened if found else [])] == ["--families"] * weaker
 
 
 def test_replay_tells_the_settings_that_weaken_its_judgement(project, capsys):
