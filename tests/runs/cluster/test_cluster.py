@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from pathlib import Path
 
 import pytest
@@ -105,5 +106,5 @@ def test_another_file_on_a_worker_is_refused(client, tmp_path):
 
 def test_nothing_is_left_on_the_workers(client, cluster):
     """Neither an implementation nor a copy of its file: all of the tests above are over."""
-    held = client.run(lambda: len(__import__("hypcheck.runs.dask_executor").gate.dask_executor._HELD))
+    held = client.run(lambda: len(sys.modules["hypcheck.runs.dask_executor"]._OPENED))
     assert set(held.values()) == {0}

@@ -18,6 +18,7 @@ from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
 from hypcheck.runs import cluster as ways
 from hypcheck.runs.cluster import call_with_timeout, check_address, cluster_client
+from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
 from tests.runs.cluster.clusters import Cluster
 from tests.runs.crashing import rules_of, steps_of
@@ -174,7 +175,7 @@ def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
 
 def test_a_worker_that_is_lost_before_it_tells_its_files_is_not_said_to_have_others():
     """As dask tells of it; whoever comes in its place is looked at later."""
-    ours = ways.own_sha256()
+    ours = code_fingerprint()
     ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": CommClosedError("in rpc")}, "tcp://c:3")
     for there in ("another", ImportError("no module named hypcheck.runs.fingerprint")):
         with pytest.raises(InputError, match="worker tcp://b:2 has other files of hypcheck"):

@@ -123,9 +123,9 @@ def test_local_cluster_says_that_cryptography_is_missing(monkeypatch, tmp_path, 
 KILLED = """
 import os, signal
 from pathlib import Path
-from hypcheck.runs.cluster import connected
+from hypcheck.runs.cluster import cluster_client
 if __name__ == "__main__":
-    with connected("local:1") as client:
+    with cluster_client("local:1") as client:
         os.kill(os.getpid(), signal.SIGKILL)
 """
 
