@@ -155,10 +155,10 @@ def in_turn(*makers: Maker) -> Maker:
     """The generator that takes a row of each maker in turn."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = np.empty((n, 7))
-        for turn, maker in enumerate(makers):
-            own = rows[turn :: len(makers)]
-            own[:] = maker(draw, len(own))
+        parts = [maker(draw, len(range(turn, n, len(makers)))) for turn, maker in enumerate(makers)]
+        rows = np.empty((n, parts[0].shape[1]))
+        for turn, part in enumerate(parts):
+            rows[turn :: len(makers)] = part
         return rows
 
     return make

@@ -14,7 +14,7 @@ import math
 import re
 import struct
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import partial
@@ -26,7 +26,8 @@ from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
 from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact
-from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, tilted
 from hypcheck.vectors.draw import Draw, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
@@ -265,6 +266,11 @@ FAMILIES: dict[str, Family] = {
     )
     for family in group
 }
+"""The families of upright spheroids."""
+
+TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted.TILTED_FAMILIES}
+"""Those of spheroids whose axis may point anywhere: rows of ten numbers."""
+
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""
 
@@ -283,27 +289,38 @@ class CaseId:
     index: int
 
 
-def select(patterns: Sequence[str] = ()) -> tuple[Family, ...]:
-    """The families of these names and globs in the order of the table; without patterns all but the extreme ones.
+def select(patterns: Sequence[str] = (), *, tilted: bool = False) -> tuple[Family, ...]:
+    """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
 
-    A glob reaches every family whose name it matches, the extreme ones too: "*" is all; "extreme" is all of the extreme
-    ones. Raises InputError for a pattern that names nothing, with the names nearest to it.
+    With `tilted` those of tilted spheroids are among them. A glob reaches every family whose name it matches, the
+    extreme ones too: "*" is all; "extreme" is all of the extreme ones. Raises InputError for a pattern that names
+    nothing, with the names nearest to it, or nothing but tilted spheroids where these are not wanted.
     """
+    known = {**FAMILIES, **TILTED_FAMILIES} if tilted else FAMILIES
     if not patterns:
-        return tuple(family for family in FAMILIES.values() if not family.extreme)
+        return tuple(family for family in known.values() if not family.extreme)
     chosen: set[str] = set()
     for pattern in patterns:
-        known = FAMILIES if len(pattern) <= _LONGEST_PATTERN else {}
-        named = {name for name, family in known.items() if _asks_for(pattern, family)}
+        named = _named(pattern, known)
+        if not named and _named(pattern, TILTED_FAMILIES):
+            raise InputError(
+                f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
+            )
         if not named:
             raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
         chosen |= named
-    return tuple(family for name, family in FAMILIES.items() if name in chosen)
+    return tuple(family for name, family in known.items() if name in chosen)
+
+
+def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
+    if len(pattern) > _LONGEST_PATTERN:
+        return set()
+    return {name for name, family in known.items() if _asks_for(pattern, family)}
 
 
 def family_of(name: str) -> Family:
     """The family of exactly this name, one for given sizes (razor@2.0,…) too. Raises InputError where there is none."""
-    family = family_at(name) if MARK in name else FAMILIES.get(name)
+    family = family_at(name) if MARK in name else FAMILIES.get(name, TILTED_FAMILIES.get(name))
     if family is None:
         raise InputError(f"there is no family {name!r}; {_advice(name)}")
     return family
@@ -334,11 +351,12 @@ def parse_case_id(text: str) -> CaseId:
     return CaseId(family, seed, index)
 
 
-def row_of(text: str) -> Pair:
+def row_of(text: str) -> Pair | TiltedPair:
     """The pair that a case id names. Raises InputError as parse_case_id does."""
     case = parse_case_id(text)
     number, place = divmod(case.index, BLOCK)
-    return Pair.from_row(case.family.block(case.seed, number)[place].tolist())
+    row = case.family.block(case.seed, number)[place].tolist()
+    return TiltedPair.from_row(row) if case.family.tilted else Pair.from_row(row)
 
 
 def _asks_for(pattern: str, family: Family) -> bool:
@@ -346,4 +364,4 @@ def _asks_for(pattern: str, family: Family) -> bool:
 
 
 def _advice(name: str) -> str:
-    return suggestion(name, [*FAMILIES, EXTREME])
+    return suggestion(name, [*FAMILIES, *TILTED_FAMILIES, EXTREME])

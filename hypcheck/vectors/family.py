@@ -19,6 +19,7 @@ from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.tilted.pair import TILTED_COLUMNS
 from hypcheck.vectors.draw import Draw, Maker
 
 BLOCK = 1024
@@ -55,20 +56,27 @@ class Family(FamilyDescription):
     """One trap, and a generator of rows that lead into it.
 
     `by_place`: the generator works place by place, so that it can make several blocks at one go. `movement`: so many
-    consecutive rows follow one object from moment to moment; 1 where none do.
+    consecutive rows follow one object from moment to moment; 1 where none do. `tilted`: rows have ten numbers, the
+    axis of the spheroid behind the other seven.
     """
 
     make: Maker = field(repr=False)
     by_place: bool = False
     movement: int = 1
+    tilted: bool = False
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the numbers of a row, seven or ten."""
+        return TILTED_COLUMNS if self.tilted else COLUMNS
 
     def block(self, seed: int, number: int) -> Rows:
-        """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7), all valid."""
+        """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7 or 10), all valid."""
         return self.make(Draw(self.name, self.version, seed, number), BLOCK)
 
     def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
-        """Rows start to stop − 1 of the seed by columns, float64 (7, stop − start); those before them are not made."""
-        columns = np.empty((len(COLUMNS), stop - start))
+        """Rows start to stop − 1 of the seed by columns, float64 (7 or 10, stop − start); those before are not made."""
+        columns = np.empty((len(self.columns), stop - start))
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
             last = min(first + together, -(-stop // BLOCK))
@@ -84,7 +92,7 @@ class Family(FamilyDescription):
         return self.make(Draw.of_blocks(names), (last - first) * BLOCK)
 
     def rows(self, seed: int, count: int) -> Rows:
-        """The first `count` rows of the seed: float64 (count, 7), columns as in pairs.COLUMNS, all valid.
+        """The first `count` rows of the seed: float64 (count, 7 or 10), as `columns` says, all valid.
 
         A shorter call gives the beginning of a longer one. Raises InputError for a negative seed or count.
         """

@@ -209,6 +209,8 @@ def as_json(family: Family, seed: int, count: int) -> bytes:
     from hypcheck.vectors.freezing import assembled, metadata_of  # noqa: PLC0415 - bare rows need no oracles
     from hypcheck.vectors.labels import labelled  # noqa: PLC0415
 
+    if family.tilted:
+        raise InputError(f"{family.name} has tilted spheroids, whose labels no file holds yet; use csv or npy")
     rows = family.rows(seed, count).tolist()
     cases = labelled((case_id(family, seed, index), tuple(row)) for index, row in enumerate(rows))
     made_by = f"hypcheck cases generate {family.name} --seed {seed} --count {count}"
@@ -217,7 +219,7 @@ def as_json(family: Family, seed: int, count: int) -> bytes:
 
 def as_csv(family: Family, seed: int, count: int) -> bytes:
     """A table of ids and rows, as `hypcheck classify --input` takes it."""
-    lines = [",".join(("id", *COLUMNS))]
+    lines = [",".join(("id", *family.columns))]
     quote = '"' if "," in family.name else ""  # the names of families for given sizes have commas
     for index, row in enumerate(family.rows(seed, count).tolist()):
         lines.append(",".join((f"{quote}{case_id(family, seed, index)}{quote}", *map(repr, row))))
@@ -225,7 +227,7 @@ def as_csv(family: Family, seed: int, count: int) -> bytes:
 
 
 def as_npy(family: Family, seed: int, count: int) -> bytes:
-    """The rows alone, little-endian float64 (n, 7)."""
+    """The rows alone, little-endian float64 (n, 7 or 10)."""
     file = io.BytesIO()
     np.lib.format.write_array(file, family.rows(seed, count).astype("<f8"), version=(1, 0))
     return file.getvalue()
