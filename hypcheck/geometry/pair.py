@@ -17,6 +17,12 @@ from hypcheck.errors import InputError
 SIZES = ("alpha", "gamma", "b", "d")
 CENTER = ("x", "y", "z")
 COLUMNS = SIZES + CENTER
+AXIS = ("axis_x", "axis_y", "axis_z")
+TILTED_COLUMNS = COLUMNS + AXIS
+"""The names of the ten numbers of a tilted spheroid beside a hyperboloid."""
+
+NO_DIRECTION = "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
+
 RADIAL = ("alpha", "b", "x", "y")
 AXIAL = ("gamma", "d", "z")
 

@@ -1,6 +1,7 @@
 """Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
-Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS. First the types and the functions
+Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS, or (n, 10) of tilted spheroids,
+in the order of pair.TILTED_COLUMNS. First the types and the functions
 that make rows from what a caller passes, then the check of their values, then the ranges of ratios and of lengths on
 which an implementation is judged.
 """
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes, trouble_with
+from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, Sizes, trouble_with
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -39,14 +40,16 @@ CANNOT_SAY = 2
 """The answer code of a row that a method cannot decide."""
 
 
-def as_rows(values: ArrayLike) -> Rows:
-    """`values` as a float64 array (n, 7); contiguous float64 input is not copied.
+def as_rows(values: ArrayLike, *, tilted: bool = False) -> Rows:
+    """`values` as a float64 array (n, 7), or where `tilted` also (n, 10); contiguous float64 input is not copied.
 
     Raises InputError if the shape or the type is another, or if values are masked. It does not check the values.
     """
     rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be {_ROWS_WANTED}"))
-    if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
-        raise InputError(f"the rows have shape {rows.shape}; it must be (n, 7): {', '.join(COLUMNS)}")
+    columns = TILTED_COLUMNS if tilted else COLUMNS
+    if rows.ndim != 2 or rows.shape[1] not in (len(COLUMNS), len(columns)):
+        shapes = "(n, 7) or (n, 10)" if tilted else "(n, 7)"
+        raise InputError(f"the rows have shape {rows.shape}; it must be {shapes}: {', '.join(columns)}")
     return rows
 
 
@@ -93,9 +96,24 @@ def require_unmasked(subject: str, values: object) -> None:
 
 
 def invalid(rows: Rows) -> Mask:
-    """A mask (n,) of the rows that are no valid query (see pair.Pair)."""
-    sizes = rows[:, : len(SIZES)]
-    return np.asarray(~(np.isfinite(rows).all(axis=1) & (sizes > 0).all(axis=1)))
+    """A mask (n,) of the rows, (n, 7) or (n, 10), that are no valid query: see pair.Pair and tilted.pair.TiltedPair."""
+    valid = np.isfinite(rows).all(axis=1) & (rows[:, : len(SIZES)] > 0).all(axis=1)
+    if rows.shape[1] == len(TILTED_COLUMNS):
+        valid &= (rows[:, len(COLUMNS) :] != 0).any(axis=1)
+    return np.asarray(~valid)
+
+
+UPRIGHT = (0.0, 0.0, 1.0)
+"""The axis of an upright spheroid, where rows have ten numbers."""
+
+
+def with_axis(rows: Rows) -> Rows:
+    """The same queries in ten numbers, (n, 10): rows of seven get the axis 0, 0, 1, others are returned as they are."""
+    if rows.shape[1] == len(TILTED_COLUMNS):
+        return rows
+    wide = np.empty((len(rows), len(TILTED_COLUMNS)))
+    wide[:, : len(COLUMNS)], wide[:, len(COLUMNS) :] = rows, UPRIGHT
+    return wide
 
 
 def first_trouble(rows: Rows, first_number: int = 0) -> str | None:
@@ -131,13 +149,13 @@ def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINAR
     """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
     The least magnitude applies to semi-axes alone: a coordinate may be arbitrarily near to 0, since a centre close to
-    the axis or to the waist is ordinary.
+    the axis or to the waist is ordinary. The axis of a spheroid is no length of either body, and may be of any.
     """
     alpha, gamma, b, d = rows[:, :4].T
     with np.errstate(over="ignore", under="ignore"):
         ratios = np.stack([alpha / b, gamma / d], axis=1)
     inside = ((ratios >= ratio[0]) & (ratios <= ratio[1])).all(axis=1)
-    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (np.abs(rows) <= magnitude[1]).all(axis=1)
+    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (np.abs(rows[:, : len(COLUMNS)]) <= magnitude[1]).all(axis=1)
     return np.asarray(inside)
 
 
@@ -158,7 +176,7 @@ class FixedSizes:
     def holds(self, rows: Rows) -> Mask:
         """A mask (n,) of the rows with these sizes and the centre in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
-        for column, span in zip(rows[:, 4:].T, self.spans, strict=True):
+        for column, span in zip(rows[:, len(SIZES) : len(COLUMNS)].T, self.spans, strict=True):
             if span is not None:
                 inside &= (column >= span[0]) & (column <= span[1])
         return np.asarray(inside)

@@ -86,8 +86,8 @@ NORMAL_RANGE: dict[str, Range] = {
 """The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
 
 
-_CORNERS = np.array([(*sizes, center, center, center) for *sizes, center in product((0, 1), repeat=5)])
-"""Least or greatest, of four sizes and of the centre."""
+_CORNERS = np.array([(*sizes, *[center] * 6) for *sizes, center in product((0, 1), repeat=5)])
+"""Least or greatest, of four sizes and of the centre with the axis."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +171,7 @@ def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False
 
 
 def _corners(rows: Rows) -> Rows:
-    """Rows (32, 7) of the extremes of |rows|: all combinations of sizes, with the least and the greatest centre.
+    """Rows (32, 7 or 10) of the extremes of |rows|: all combinations of sizes, with the least and the greatest others.
 
     Each condition of a domain, its settings apart, is monotone in each length, and so is what a precision can write,
     a zero apart, which it always can: what holds of these rows holds of all.
@@ -180,7 +180,8 @@ def _corners(rows: Rows) -> Rows:
     least, greatest = lengths.min(axis=1, initial=np.inf), lengths.max(axis=1, initial=0.0)
     for index in np.flatnonzero(least == 0):
         least[index] = lengths[index][lengths[index] > 0].min(initial=greatest[index])
-    return np.asarray(np.stack([least, greatest])[_CORNERS, np.arange(7)])
+    columns = rows.shape[1]
+    return np.asarray(np.stack([least, greatest])[_CORNERS[:, :columns], np.arange(columns)])
 
 
 def domain_of(value: object, where: str) -> Domain:
@@ -234,7 +235,10 @@ LONGEST = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """An implementation's claims. `refuses`: invalid rows are answered 127; `binary`, `time`: what a command offers."""
+    """An implementation's claims. `refuses`: invalid rows are answered 127; `binary`, `time`: what a command offers.
+
+    `tilt`: it is asked in rows of ten numbers, the spheroid's axis behind the other seven.
+    """
 
     name: str
     version: str = ""
@@ -245,6 +249,7 @@ class Description:
     refuses: bool = False
     binary: bool = False
     time: bool = False
+    tilt: bool = False
 
     def overridden(
         self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
@@ -342,5 +347,6 @@ _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
         "refuses": _truth_value,
         "binary": _truth_value,
         "time": _truth_value,
+        "tilt": _truth_value,
     }
 )

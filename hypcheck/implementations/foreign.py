@@ -2,7 +2,8 @@
 
 What the worker holds: foreign code, loaded, behind one interface.
 
-A Python function under test: `function(rows)`, C-contiguous float64 (n, 7) → n integers. Runs in the worker.
+A Python function under test: `function(rows)`, C-contiguous float64 (n, 7) → n integers; (n, 10) where its description
+has "tilt": true. Runs in the worker.
 
 A shared library under test, by its C ABI. Runs in the worker.
 
@@ -13,6 +14,12 @@ and optionally
 const char *hypcheck_describe(void);
 void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
                              int8_t *positions);
+
+Where the description has "tilt": true, the functions that are called are
+
+void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
+void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
+                                    const double *y, const double *z, int8_t *positions);    (optional)
 """
 
 from __future__ import annotations
@@ -32,8 +39,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows
-from hypcheck.implementations.frames import UNWRITTEN
+from hypcheck.implementations.frames import ENTRIES, UNWRITTEN, entry_name
 from hypcheck.implementations.spec import is_file
 from hypcheck.kernel.choice import compiled
 from hypcheck.messages import counted
@@ -55,15 +63,15 @@ class ForeignCode(Protocol):
     description: str
     """JSON; empty where it says nothing of itself."""
 
-    scene: bool
-    """Whether classify_scene can be called."""
+    entries: tuple[str, ...]
+    """Those of frames.ENTRIES that a library exports."""
 
     def classify(self, rows: Rows) -> IntegerAnswers:
         """Answers to rows."""
         ...
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """The same, of rows that share their sizes, through the entry for many centres."""
+        """The same, of rows that share sizes and axis, through the entry for many centres."""
         ...
 
     def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
@@ -109,7 +117,7 @@ _NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
 class PythonFunction:
     """A function of a file or a module, and the module's optional attribute `hypcheck`, a mapping. Raises LoadError."""
 
-    scene = False
+    entries: tuple[str, ...] = ()
 
     def __init__(self, target: str, name: str) -> None:
         try:
@@ -227,37 +235,25 @@ _HINTS = (
 
 
 class Library:
-    """A library and its entries. Raises LoadError."""
+    """A library and its entries. Which of these is called depends on how many numbers rows have. Raises LoadError."""
 
     def __init__(self, path: str) -> None:
         library = _loaded(path)
-        if not _has(library, "hypcheck_classify"):
-            raise LoadError(
-                f"{path!r} has no symbol hypcheck_classify; it must export "
-                'void hypcheck_classify(size_t n, const double *rows, int8_t *positions), in C++ as extern "C"'
-            )
-        self._classify = _entry(library.hypcheck_classify, (ctypes.c_size_t, *[ctypes.c_void_p] * 2))
-        self._address = ctypes.cast(library.hypcheck_classify, ctypes.c_void_p).value
-        self.scene = _has(library, "hypcheck_classify_scene")
-        if self.scene:
-            pointers = [ctypes.c_void_p] * 4
-            self._classify_scene = _entry(
-                library.hypcheck_classify_scene, (ctypes.c_void_p, ctypes.c_size_t, *pointers)
-            )
+        self._entries = {name: _entry(getattr(library, name), name) for name in ENTRIES if _has(library, name)}
+        self.entries = tuple(self._entries)
         self.description = _description(library, path)
 
     def classify(self, rows: Rows) -> IntegerAnswers:
         """Answers to rows; raises ContractError where it writes beside them."""
         positions = _Positions(rows)
-        self._classify(len(rows), rows.ctypes.data, positions.address)
+        self._entry(rows)(len(rows), rows.ctypes.data, positions.address)
         return positions.written()
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows that share their sizes; raises ContractError where it writes beside them."""
+        """Answers to rows that share sizes and axis; raises ContractError where it writes beside them."""
         positions = _Positions(rows)
         parts = _scene(rows)
-        sizes, *centers = (part.ctypes.data for part in parts)
-        self._classify_scene(sizes, len(rows), *centers, positions.address)
+        self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), positions.address)
         return positions.written()
 
     def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
@@ -265,10 +261,10 @@ class Library:
         positions, n = _Positions(rows), len(rows)
         if by_scene:
             parts = _scene(rows)  # held, since the pointers do not hold it
-            sizes, *centers = (part.ctypes.data for part in parts)
-            function, words = self._classify_scene, (sizes, n, *centers, positions.address)
+            words: tuple[int, ...] = (*_scene_words(parts, n), positions.address)
         else:
-            function, words = self._classify, (n, rows.ctypes.data, positions.address)
+            words = (n, rows.ctypes.data, positions.address)
+        function = self._entry(rows, scene=by_scene)
         start = time.perf_counter_ns()
         for _ in range(repeat):
             function(*words)
@@ -286,16 +282,17 @@ class Library:
             call_each = compiled().call_each
         except (ImportError, AttributeError):  # not built at install, or built before there was a call_each
             return self._seconds_by_ctypes(rows, repeat, positions)
-        address = self._address if len(rows) else 0
-        asked, answers = (rows, positions.room) if len(rows) else (np.zeros((1, 7)), np.zeros(1, dtype=np.int8))
+        address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value if len(rows) else 0
+        nothing = np.zeros((1, rows.shape[1])), np.zeros(1, dtype=np.int8)
+        asked, answers = (rows, positions.room) if len(rows) else nothing
         start = time.perf_counter_ns()
         call_each(address, asked, answers, repeat)
         took = time.perf_counter_ns() - start
         return took, int(positions.written().sum(dtype=np.int64))
 
     def _seconds_by_ctypes(self, rows: Rows, repeat: int, positions: _Positions) -> tuple[int, int]:
-        function, begin, room, n = self._classify, rows.ctypes.data, positions.address, len(rows)
-        calls = [(1, begin + 56 * place, room + place) for place in range(n)] or [(0, begin, room)]
+        function, begin, room, n = self._entry(rows), rows.ctypes.data, positions.address, len(rows)
+        calls = [(1, begin + 8 * rows.shape[1] * place, room + place) for place in range(n)] or [(0, begin, room)]
         start = time.perf_counter_ns()
         for _ in range(repeat):
             for words in calls:
@@ -303,11 +300,25 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, int(positions.written().sum(dtype=np.int64))
 
+    def _entry(self, rows: Rows, *, scene: bool = False) -> Any:  # noqa: ANN401 - ctypes' own is private
+        return self._entries[entry_name(tilt=_has_axis(rows), scene=scene)]
+
+
+def _has_axis(rows: Rows) -> bool:
+    return bool(rows.shape[1] == len(TILTED_COLUMNS))
+
+
+def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...]:
+    """The addresses of the parts of a scene, and n before those of x, y, z."""
+    *fixed, x, y, z = (part.ctypes.data for part in parts)
+    return (*fixed, n, x, y, z)
+
 
 def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
-    """Sizes, x, y, z, each at an address of its own modulo 64, all of them others when the rows' is another."""
+    """Sizes, of rows of ten the axis, x, y, z, each at an address of its own modulo 64, another when the rows' is."""
     parts = []
-    for index, part in enumerate((rows[0, :4], *rows[:, 4:].T)):
+    axis = [rows[0, 7:]] if _has_axis(rows) else []
+    for index, part in enumerate((rows[0, :4], *axis, *rows[:, 4:7].T)):
         placed = bytes_at(rows.ctypes.data + 24 * index, part.size * 8).view(np.float64)
         placed[...] = part
         parts.append(placed)
@@ -345,10 +356,24 @@ def _loaded(path: str) -> ctypes.CDLL:
         raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], said])}") from None
 
 
-def _entry(function: Any, arguments: Sequence[Any]) -> Callable[..., None]:  # noqa: ANN401 - ctypes' own is private
-    function.argtypes, function.restype = arguments, None
-    entry: Callable[..., None] = function
-    return entry
+_POINTER = ctypes.c_void_p
+_ARGUMENTS = dict(
+    zip(
+        ENTRIES,
+        (
+            (ctypes.c_size_t, _POINTER, _POINTER),
+            (ctypes.c_size_t, _POINTER, _POINTER),
+            (_POINTER, ctypes.c_size_t, *[_POINTER] * 4),
+            (_POINTER, _POINTER, ctypes.c_size_t, *[_POINTER] * 4),
+        ),
+        strict=True,
+    )
+)
+
+
+def _entry(function: Any, name: str) -> Any:  # noqa: ANN401 - ctypes' own is private
+    function.argtypes, function.restype = _ARGUMENTS[name], None
+    return function
 
 
 def _has(library: ctypes.CDLL, name: str) -> bool:

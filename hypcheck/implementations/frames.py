@@ -68,8 +68,9 @@ def _lines(data: bytearray) -> tuple[str, ...]:
 LARGEST = 65_536
 """Rows of a question."""
 
-REQUEST = struct.Struct("=4sIQQ")
-"""What is asked, the number of rows, how often to repeat, and a mark that nobody can guess; then the rows."""
+REQUEST = struct.Struct("=4sIIQQ")
+"""What is asked, the numbers of a row, the number of rows, how often to repeat, and a mark that nobody can guess; then
+the rows."""
 
 REPLY = struct.Struct("=4sIQQ")
 """What it is, the bytes that an answer takes (1 or 8), the bytes that follow, and the mark of the request.
@@ -81,6 +82,20 @@ question. The first reply, which comes unasked, has the mark 0.
 CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE, TIME_EACH = b"clas", b"scen", b"time", b"tims", b"each"
 READY, ANSWERS, TIMED, ERROR, PROTOCOL = b"here", b"answ", b"took", b"erro", b"prot"
 
+ENTRIES = (
+    "hypcheck_classify",
+    "hypcheck_classify_tilted",
+    "hypcheck_classify_scene",
+    "hypcheck_classify_tilted_scene",
+)
+"""The functions of a library: of rows, of rows with an axis, and of one scene; READY says which of them it exports."""
+
+
+def entry_name(*, tilt: bool, scene: bool = False) -> str:
+    """The one of ENTRIES that is called: with an axis or without, of rows or of one scene."""
+    return ENTRIES[2 * scene + tilt]
+
+
 TIMES = struct.Struct("=qq")
 """Nanoseconds and the sum of the answers."""
 
@@ -89,7 +104,7 @@ UNWRITTEN = -86
 
 
 def row_bytes(rows: Rows) -> memoryview:
-    """Rows (n, 7) as little-endian bytes, not copied where they already are."""
+    """Rows (n, 7 or 10) as little-endian bytes, not copied where they already are."""
     return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
 
 

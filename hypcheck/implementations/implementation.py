@@ -14,7 +14,7 @@ from types import MappingProxyType, TracebackType
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows
+from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, with_axis
 from hypcheck.implementations.asking import Answered, Asking, Vocabulary
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.frames import LARGEST
@@ -139,10 +139,12 @@ class Implementation:
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
         """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
 
+        Where its description says tilt, rows may have ten numbers, and it is asked all of them in ten.
+
         `by_scene` asks through the entry for scenes; raises InputError where there is none, or sizes differ, and where
         rows are none.
         """
-        rows = as_rows(rows)
+        rows = self._rows(rows)
         self._check_scene(rows, by_scene=by_scene)
         asking = Asking(rows, self._runs, self._vocabulary, by_scene=by_scene)
         try:
@@ -181,7 +183,7 @@ class Implementation:
         Raises TimingError where it fails, where it took far longer than it says, or where its checksum is not the sum
         of its answers, taken once or for each repetition.
         """
-        rows = as_rows(rows)
+        rows = self._rows(rows)
         self._check_scene(rows, by_scene=by_scene)
         least = 0 if self.spec.kind == "library" else 1
         if not least <= len(rows) <= LARGEST or repeat < 1:
@@ -212,10 +214,16 @@ class Implementation:
             raise TimingError(f"{self.spec} was timed with the checksum {times[1]}, but its answers sum to {total}")
         return times[0]
 
+    def _rows(self, rows: Rows) -> Rows:
+        """The rows as it is asked them; raises InputError where they are none, or tilted and it does not take these."""
+        rows = as_rows(rows, tilted=self.description.tilt)
+        return with_axis(rows) if self.description.tilt else rows
+
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
         if by_scene and not self.scene:
             raise InputError(f"{self.spec} cannot be asked by scene")
-        if by_scene and len(rows) and (rows[:, :4] != rows[0, :4]).any():
+        fixed = np.delete(rows, (4, 5, 6), axis=1)
+        if by_scene and len(rows) and (fixed != fixed[0]).any():
             raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")
 
 

@@ -11,6 +11,9 @@ The protocol of commands: lines on standard input and output, rows in text or bi
 → time SEQ N REPEAT binary         then N·56 bytes
 ← SEQ NANOSECONDS CHECKSUM
 ← error TEXT                       in place of a reply
+
+A program whose description has "tilt": true is asked tilted-text in place of text, lines of ten decimals, and
+tilted-binary in place of binary, N·80 bytes.
 """
 
 from __future__ import annotations
@@ -22,7 +25,6 @@ from itertools import chain
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
 from hypcheck.implementations.frames import LARGEST, WIDTH, integers, quoted, row_bytes, stderr_excerpt
@@ -181,13 +183,12 @@ LARGEST_TEXT = 4096
 
 _DEFAULTS = Description(name="")
 _REQUIRED = ("protocol", "name")
-_ROW = " ".join(["%r"] * len(COLUMNS)) + "\n"
 _LINES = 256
 _STEPS = 16
 """The clock begins anew whenever another part of so many of the question was read, or of the answers has come: who is
 slow is waited for, and who gives a byte now and then is not for ever."""
-_WIDEST = {"binary": 56, "text": 7 * 25}
-"""Bytes of a row at most."""
+_WIDEST_TEXT = 25
+"""Bytes of a number in text at most, and of what parts it from the next."""
 _STALL = 4
 """After this part of the timeout without a byte, a second question is sent behind the first: where its reply comes, the
 first's was short or missing, and the implementation not slow."""
@@ -248,7 +249,7 @@ class CommandSession:
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
         again = rows[:1] if self._known is None else self._known
-        answers = reply.integers(self._ask(question, self._body(rows), reply, again, n * _WIDEST[self._how]))
+        answers = reply.integers(self._ask(question, self._body(rows), reply, again, rows.size * self._widest))
         self._known = rows[-1:].copy()
         return answers
 
@@ -273,7 +274,7 @@ class CommandSession:
     def _time(self, rows: Rows, repeat: int) -> tuple[int, int]:
         self._sequence += 1
         reply = TimeReply(self._sequence)
-        question = f"time {self._sequence} {len(rows)} {repeat} binary"
+        question = f"time {self._sequence} {len(rows)} {repeat} {self._tilted}binary"
         return reply.times(self._ask(question, (row_bytes(rows),), reply))
 
     def _ask(
@@ -334,7 +335,16 @@ class CommandSession:
 
     @property
     def _how(self) -> str:
-        return "binary" if self.description.binary else "text"
+        return self._tilted + ("binary" if self.description.binary else "text")
+
+    @property
+    def _tilted(self) -> str:
+        return "tilted-" if self.description.tilt else ""
+
+    @property
+    def _widest(self) -> int:
+        """Bytes of a number at most."""
+        return 8 if self.description.binary else _WIDEST_TEXT
 
     def _body(self, rows: Rows) -> Iterable[bytes | memoryview]:
         return (row_bytes(rows),) if self.description.binary else row_text(rows)
@@ -372,7 +382,8 @@ def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) 
 
 
 def row_text(rows: Rows) -> Iterator[bytes]:
-    """Rows as lines of seven decimals, each the shortest that reads back as the same float64; some lines at a time."""
+    """Rows as lines of decimals, each the shortest that reads back as the same float64; some lines at a time."""
+    line = " ".join(["%r"] * rows.shape[1]) + "\n"
     for start in range(0, len(rows), _LINES):
         part = rows[start : start + _LINES]
-        yield (_ROW * len(part) % tuple(part.ravel().tolist())).encode()
+        yield (line * len(part) % tuple(part.ravel().tolist())).encode()

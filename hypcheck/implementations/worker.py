@@ -22,6 +22,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.foreign import (
@@ -94,7 +95,7 @@ class WorkerChannel:
         os.close(nothing)
         sys.stdout = open(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)  # noqa: SIM115
         self._mark = 0
-        self._room = bytes_at(0, frames.LARGEST * 56 + 56).data
+        self._room = bytes_at(0, frames.LARGEST * 8 * len(TILTED_COLUMNS) + 56).data
 
     def request(self, count: int) -> tuple[bytes, int, Rows] | None:
         """The next question: what is asked, how often, of which rows; None at the end of input.
@@ -104,12 +105,12 @@ class WorkerChannel:
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
             return None
-        asked, n, repeat, self._mark = frames.REQUEST.unpack(head)
+        asked, columns, n, repeat, self._mark = frames.REQUEST.unpack(head)
         shift = 8 * (count % 8)
-        body = self._room[shift : shift + n * 56]
+        body = self._room[shift : shift + n * 8 * columns]
         if not self._fill(body):
             return None
-        return asked, repeat, np.frombuffer(body, dtype="<f8").reshape(n, 7)
+        return asked, repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
 
     def _fill(self, room: memoryview) -> bool:
         while room:
@@ -138,7 +139,7 @@ def main(words: Sequence[str]) -> None:
     except LoadError as error:
         line.reply(frames.ERROR, _sentence(str(error)))
         return
-    line.reply(frames.READY, (b"1" if subject.scene else b"0") + subject.description.encode())
+    line.reply(frames.READY, f"{' '.join(subject.entries)}\n{subject.description}".encode())
     serve(line, subject, int(count))
 
 

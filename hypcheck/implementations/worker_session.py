@@ -70,13 +70,18 @@ class WorkerSession:
             raise StartError(f"{reason}{self.evidence}") from None
         if what != frames.READY:
             raise StartError(_text(body))
-        self.scene = body[:1] == b"1"
+        first, _, described = bytes(body).partition(b"\n")
+        entries = first.decode().split()
         name = os.path.basename(spec.words[0]) + "".join(f":{word}" for word in spec.words[1:])
         defaults = Description(name=name, language=_LANGUAGES[spec.kind], binary=True, time=True)
         try:
-            self.description = described_by_json(bytes(body[1:]) or b"{}", defaults)
+            self.description = described_by_json(described or b"{}", defaults)
         except InputError as error:
             raise StartError(str(error)) from None
+        tilt = self.description.tilt
+        self.scene = frames.entry_name(tilt=tilt, scene=True) in entries
+        if spec.kind == "library" and frames.entry_name(tilt=tilt) not in entries:
+            raise StartError(_lacking(spec.words[0], tilt=tilt))
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:
         """An integer for each row."""
@@ -98,7 +103,7 @@ class WorkerSession:
     def _ask(self, asked: bytes, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
         mark = secrets.randbits(64)
-        self._process.send((frames.REQUEST.pack(asked, len(rows), repeat, mark), frames.row_bytes(rows)))
+        self._process.send((frames.REQUEST.pack(asked, rows.shape[1], len(rows), repeat, mark), frames.row_bytes(rows)))
         what, width, body = self._reply(self._limits.timeout, mark)
         if what == expected:
             return width, body
@@ -142,6 +147,14 @@ class WorkerSession:
     def kill(self) -> None:
         """End it now."""
         self._process.kill()
+
+
+def _lacking(path: str, *, tilt: bool) -> str:
+    """That a library lacks the function that is to be called."""
+    name, rows = frames.entry_name(tilt=tilt), "rows10" if tilt else "rows"
+    why = ', since it describes itself with "tilt": true' if tilt else ""
+    wanted = f"void {name}(size_t n, const double *{rows}, int8_t *positions)"
+    return f'{path!r} has no symbol {name}; it must export {wanted}, in C++ as extern "C"{why}'
 
 
 def _text(body: bytes | bytearray) -> str:

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.tilted.pair import TILTED_COLUMNS
 from hypcheck.vectors.draw import Draw, Maker
 
 BLOCK = 1024

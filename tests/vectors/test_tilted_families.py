@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import TILTED_COLUMNS, Position
 from hypcheck.truth.tilted.batch import invalid, positions
-from hypcheck.truth.tilted.pair import TILTED_COLUMNS, TiltedPair
+from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.families import (
     FAMILIES,
     TILTED_FAMILIES,

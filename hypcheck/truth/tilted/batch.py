@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import REFUSED, trouble_with
-from hypcheck.geometry.rows import Positions, Rows, as_numbers
+from hypcheck.geometry.pair import NO_DIRECTION, REFUSED, TILTED_COLUMNS, trouble_with
+from hypcheck.geometry.rows import Positions, Rows, as_numbers, invalid
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.pair import NO_DIRECTION, TILTED_COLUMNS, TiltedLengths
+from hypcheck.truth.tilted.pair import TiltedLengths
 
 _NAMES = ", ".join(TILTED_COLUMNS)
 _ROWS_WANTED = f"they must be an array (n, 10) of numbers: {_NAMES}"
@@ -42,12 +42,6 @@ def as_tilted_rows(values: ArrayLike) -> Rows:
     if rows.ndim != 2 or rows.shape[1] != len(TILTED_COLUMNS):
         raise InputError(f"the rows have shape {rows.shape}; it must be (n, 10): {_NAMES}")
     return rows
-
-
-def invalid(rows: Rows) -> NDArray[np.bool_]:
-    """A mask (n,) of the rows that are no valid query (see pair.TiltedPair)."""
-    valid = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1) & (rows[:, 7:] != 0).any(axis=1)
-    return np.asarray(~valid)
 
 
 def require_valid(rows: Rows, first_number: int = 0) -> None:

@@ -13,15 +13,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, trouble_with
-
-AXIS = ("axis_x", "axis_y", "axis_z")
-TILTED_COLUMNS = COLUMNS + AXIS
+from hypcheck.geometry.pair import NO_DIRECTION, TILTED_COLUMNS, Lengths, Pair, trouble_with
 
 Row = tuple[float, float, float, float, float, float, float, float, float, float]
 Vector = tuple[int, int, int]
-
-NO_DIRECTION = "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,8 +33,9 @@ def unlucky(rows):
 
 
 def read(source, n, how):
-    if how == "binary":
-        return list(struct.iter_unpack("<7d", source.read(56 * n)))
+    numbers = 10 if how.startswith("tilted-") else 7
+    if how.endswith("binary"):
+        return list(struct.iter_unpack(f"<{numbers}d", source.read(8 * numbers * n)))
     return [tuple(map(float, source.readline().split())) for _ in range(n)]
 
 
