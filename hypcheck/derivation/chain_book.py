@@ -1,16 +1,10 @@
-"""The repaired propositions and Procedure 1, the rules for every size, and all chains by name.
+"""All chains by name: Propositions 3 and 5 and Procedure 1 repaired, the rules for every size, and what they need.
 
-Proposition 3, repaired: for (γ/d)² ≥ α/b, which is B² ≥ A, exterior by Δ, c2 and c1, and the ring.
-
-Procedure 1, repaired: in the plane of the waist r > a + 1 decides; elsewhere there is no ring.
-
-Proposition 5, repaired: for α/b ≥ 1, which is A ≥ 1, interior by Δ, c2, c1, and what the printed condition drops.
-
-The coefficient rule for every size, and that the programs which answer by it are that rule.
-
-The local maximum decides: the shortest rule for every size, and that the program is it.
-
-All chains by name, each after those it needs.
+- Proposition 3, repaired: for (γ/d)² ≥ α/b, which is B² ≥ A, exterior by Δ, c2 and c1, and the ring.
+- Procedure 1, repaired: in the plane of the waist r > a + 1 decides; elsewhere there is no ring.
+- Proposition 5, repaired: for α/b ≥ 1, which is A ≥ 1, interior by Δ, c2, c1, and the positions that the printed
+  condition drops.
+- The coefficient rule and the local maximum decide for every size, and the programs that answer by them do so.
 """
 
 from __future__ import annotations
@@ -64,39 +58,12 @@ def _not_all_beyond_B() -> Link:
 
 def procedure_1() -> Chain:
     """Both cases of the procedure put right."""
-    at_waist = pencil.cubic().g.subs(Q, 0)
-    e = symbol("E")
     return Chain(
         "Procedure 1, repaired",
         "For (γ/d)² ≥ α/b: exterior ⟺ E > 0 and E² > 4·A where Q = 0, with E = P − A − 1; elsewhere Δ > 0, c2 < 0 and "
         "c1 > 0.",
         (
-            Link(
-                "Where Q = 0, g is (λ − B) times a quadratic. So in (0, B), where λ − B < 0, g > 0 exactly where the "
-                "quadratic is negative.",
-                "identity",
-                (identity("g = (λ − B)·(λ² − E·λ + A)", at_waist, E=P - A - 1),),
-            ),
-            Link(
-                "If E > 0 and E² > 4·A, the quadratic has two different roots u and u + v, u, v > 0, of sum E and of "
-                "product A; between them it is negative. The smaller has u² < A ≤ B², so part of that is in (0, B): "
-                "exterior.",
-                "sign",
-                (
-                    identity("(λ − u)·(λ − u − v) = λ² − (2·u + v)·λ + u·(u + v)", _from_roots()),
-                    sign("u·(u + v) − u² > 0", "u v"),
-                    sign("(2·u + v)² − 4·u·(u + v) > 0", "u v"),
-                ),
-            ),
-            Link(
-                "If E = −h ≤ 0, all terms of the quadratic are ≥ 0 for λ = s > 0, and one is > 0; if E² ≤ 4·A, it is a "
-                "square and k = A − E²/4 ≥ 0. So it is nowhere negative in (0, B): not exterior.",
-                "sign",
-                (
-                    sign("s² + h·s + A > 0", "A s", "h"),
-                    identity("(λ − E/2)² + A − E²/4 = λ² − E·λ + A", (LAMBDA - e / 2) ** 2 + A - e**2 / 4),
-                ),
-            ),
+            *_in_the_plane_of_the_waist(),
             Link(
                 "In lengths E > 0 and E² > 4·A say r > a + 1: with r = a + 1 + t, E² − 4·A is positive exactly where t "
                 "is, for r > 0.",
@@ -119,9 +86,36 @@ def procedure_1() -> Chain:
     )
 
 
-def _from_roots() -> object:
-    u, v = symbol("u"), symbol("v")
-    return (LAMBDA - u) * (LAMBDA - u - v)
+def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
+    e, u, v = symbol("E"), symbol("u"), symbol("v")
+    return (
+        Link(
+            "Where Q = 0, g is (λ − B) times a quadratic. So in (0, B), where λ − B < 0, g > 0 exactly where the "
+            "quadratic is negative.",
+            "identity",
+            (identity("g = (λ − B)·(λ² − E·λ + A)", pencil.cubic().g.subs(Q, 0), E=P - A - 1),),
+        ),
+        Link(
+            "If E > 0 and E² > 4·A, the quadratic has two different roots u and u + v, u, v > 0, of sum E and of "
+            "product A; between them it is negative. The smaller has u² < A ≤ B², so part of that is in (0, B): "
+            "exterior.",
+            "sign",
+            (
+                identity("(λ − u)·(λ − u − v) = λ² − (2·u + v)·λ + u·(u + v)", (LAMBDA - u) * (LAMBDA - u - v)),
+                sign("u·(u + v) − u² > 0", "u v"),
+                sign("(2·u + v)² − 4·u·(u + v) > 0", "u v"),
+            ),
+        ),
+        Link(
+            "If E = −h ≤ 0, all terms of the quadratic are ≥ 0 for λ = s > 0, and one is > 0; if E² ≤ 4·A, it is a "
+            "square and k = A − E²/4 ≥ 0. So it is nowhere negative in (0, B): not exterior.",
+            "sign",
+            (
+                sign("s² + h·s + A > 0", "A s", "h"),
+                identity("(λ − E/2)² + A − E²/4 = λ² − E·λ + A", (LAMBDA - e / 2) ** 2 + A - e**2 / 4),
+            ),
+        ),
+    )
 
 
 def proposition_5() -> Chain:

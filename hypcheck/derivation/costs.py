@@ -1,8 +1,7 @@
-"""Operations of each formula, once for a scene and for each position, with loop invariants hoisted.
+"""Operations of each formula, counted from its program: once for a scene, and for each position.
 
-Taking out of a loop over centres what depends on the sizes alone, as the paper's Table 2 does.
-
-What each way to the answer costs in operations, counted from its program: once a scene, and for each position.
+`hoist` and `split` take the steps that depend on the sizes alone out of the loop over centres, as the paper's Table 2
+does; `loop_body` evaluates what stays inside.
 """
 
 from __future__ import annotations

@@ -1,12 +1,9 @@
-"""The evaluator of programs in any arithmetic, and exact arithmetic: rationals, and numbers p + q√h with decided signs.
+"""Programs evaluated in any arithmetic: here exact numbers p + q√h; floats and symbols have modules of their own.
 
-Running a program in any arithmetic: exact numbers, machine numbers of a given format, symbols.
-
-Exact arithmetic: rationals, and numbers p + q√h over them, with signs that are decided and never estimated.
-
-One square root is all a formula here takes (the local maximum of g), so a second, different root is refused.
-Division by zero and the root of a negative number give UNDEFINED, which like NaN goes through every operation and
-makes every comparison false: a straight-line program evaluates also the branch that it will not select.
+Exact arithmetic decides signs and never estimates them. One square root is all that a formula here takes (the local
+maximum of g), so a second, different root is refused. Division by zero and the root of a negative number give
+UNDEFINED, which like NaN goes through every operation and makes every comparison false: a straight-line program
+evaluates also the branch that it does not select.
 """
 
 from __future__ import annotations
@@ -64,7 +61,9 @@ class Evaluator:
         self.inputs = tuple(name for name in layout.inputs if name not in fixed)
         self._program, self._arithmetic, self._wanted = program, arithmetic, layout.wanted
         self._varying = tuple((name, layout.places[name]) for name in self.inputs)
-        self._moves = tuple((_operation(arithmetic, move.operation), *move.places) for move in layout.moves)
+        self._moves = tuple(
+            (_operation(arithmetic, name), takes, gives, spends) for name, takes, gives, spends in layout.moves
+        )
         self._cells: list[Any] = [None] * len(layout.places)
         with arithmetic.guard():
             for constant in layout.constants:
@@ -105,12 +104,8 @@ def outputs(
     return Evaluator(program, arithmetic, wanted)(inputs)
 
 
-@dataclass(frozen=True, slots=True)
-class _Move:
-    """A step by places: those it takes, the one it gives, and those that no later step takes."""
-
-    operation: str
-    places: tuple[tuple[int, ...], int, tuple[int, ...]]
+_Move = tuple[str, tuple[int, ...], int, tuple[int, ...]]
+"""A step by places: its operation, the places it takes, the one it gives, and those that no later step takes."""
 
 
 @dataclass(frozen=True)
@@ -134,13 +129,11 @@ def _layout(program: Program, wanted: tuple[str, ...]) -> _ValueLayout:
     places = {label: place for place, label in enumerate(labels)}
     last_use = {name: number for number, step in enumerate(steps) for name in step.reads if name not in wanted}
     moves = tuple(
-        _Move(
+        (
             step.operation,
-            (
-                tuple(places[argument] for argument in step.arguments),
-                places[step.name],
-                tuple(places[name] for name in dict.fromkeys(step.reads) if last_use.get(name) == number),
-            ),
+            tuple(places[argument] for argument in step.arguments),
+            places[step.name],
+            tuple(places[name] for name in dict.fromkeys(step.reads) if last_use.get(name) == number),
         )
         for number, step in enumerate(steps)
     )
@@ -152,6 +145,25 @@ def _operation(arithmetic: Arithmetic, name: str) -> Callable[..., Any]:
     if operation is None:
         raise ValueError(f"{arithmetic.name} arithmetic has no {name}")
     return operation
+
+
+OPERATORS: Mapping[str, Callable[..., Any]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "neg": operator.neg,
+    "abs": abs,
+    "gt": operator.gt,
+    "lt": operator.lt,
+    "ge": operator.ge,
+    "le": operator.le,
+    "eq": operator.eq,
+    "ne": operator.ne,
+    "and": operator.and_,
+    "or": operator.or_,
+}
+"""The operations that mean the same in every arithmetic; each adds its own roots, functions and selection."""
 
 
 class Undefined:
@@ -302,35 +314,15 @@ def square_root(number: Any) -> Fraction | Surd | Undefined:
     return root if root * root == rational else Surd(Fraction(0), Fraction(1), rational)
 
 
-def _divide(dividend: Any, divisor: Any) -> Any:
-    return UNDEFINED if divisor == 0 else dividend / divisor
-
-
-def _select(condition: bool, yes: Any, no: Any) -> Any:
-    return yes if condition else no
-
-
 EXACT = Arithmetic(
     name="exact",
     convert=Fraction,
     operations={
-        "add": operator.add,
-        "sub": operator.sub,
-        "mul": operator.mul,
-        "div": _divide,
-        "neg": operator.neg,
-        "abs": abs,
+        **OPERATORS,
+        "div": lambda dividend, divisor: UNDEFINED if divisor == 0 else dividend / divisor,
         "sqrt": square_root,
-        "gt": operator.gt,
-        "lt": operator.lt,
-        "ge": operator.ge,
-        "le": operator.le,
-        "eq": operator.eq,
-        "ne": operator.ne,
-        "and": operator.and_,
-        "or": operator.or_,
         "not": operator.not_,
-        "select": _select,
+        "select": lambda condition, yes, no: yes if condition else no,
     },
 )
 """Inputs may be int, Fraction or float (its exact value)."""

@@ -1,9 +1,8 @@
-"""Machine arithmetic: every operation of a program rounded to one numpy format, over scalars or whole arrays; TwoSum.
+"""Float arithmetic for programs: each operation rounded once to one numpy format, over scalars or arrays; TwoSum.
 
-Each ufunc call is one IEEE operation, rounded to nearest, and all operands have the one format, constants included,
-so that no promotion rule of any numpy version has a say. binary16 is computed by numpy in binary32 and rounded again,
-which is the correctly rounded result for + − × ÷ √, since 24 ≥ 2·11 + 2; cosines are as good as numpy's. Infinities and
-NaN go through in silence.
+All operands have the one format, constants included, so that no promotion rule of any numpy version matters. numpy
+computes binary16 in binary32 and rounds again, which is the correctly rounded result for + − × ÷ √, since
+24 ≥ 2·11 + 2; cosines are as good as numpy's. Infinities and NaN raise nothing.
 """
 
 from __future__ import annotations
@@ -14,32 +13,19 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.evaluation import Arithmetic
-from hypcheck.geometry.rows import Floats, Positions
+from hypcheck.derivation.evaluation import OPERATORS, Arithmetic
+from hypcheck.geometry.rows import Floats
 
-FORMATS = ("float16", "float32", "float64", "longdouble")
-
-_UFUNCS: dict[str, Callable[..., Any]] = {
-    "add": np.add,
-    "sub": np.subtract,
-    "mul": np.multiply,
-    "div": np.divide,
-    "neg": np.negative,
-    "abs": np.abs,
+_OPERATIONS: dict[str, Callable[..., Any]] = {
+    **OPERATORS,
     "sqrt": np.sqrt,
     "cos": np.cos,
     "arccos": np.arccos,
-    "gt": np.greater,
-    "lt": np.less,
-    "ge": np.greater_equal,
-    "le": np.less_equal,
-    "eq": np.equal,
-    "ne": np.not_equal,
-    "and": np.logical_and,
-    "or": np.logical_or,
     "not": np.logical_not,
     "select": np.where,
 }
+
+FORMATS = ("float16", "float32", "float64", "longdouble")
 
 
 @cache
@@ -55,8 +41,8 @@ def float_arithmetic(format_name: str) -> Arithmetic:
     return Arithmetic(
         name=format_name,
         convert=partial(np.asarray, dtype=np.dtype(format_name)),
-        operations=_UFUNCS,
-        integers=_integers,
+        operations=_OPERATIONS,
+        integers=lambda values: np.asarray(values).astype(np.int8),
         guard=partial(np.errstate, all="ignore"),
     )
 
@@ -74,7 +60,3 @@ def two_sum(first: Floats, second: Floats | float) -> tuple[Floats, Floats]:
     total = first + second
     shadow = total - first
     return total, (first - (total - shadow)) + (second - shadow)
-
-
-def _integers(values: Any) -> Positions:
-    return np.asarray(values).astype(np.int8)

@@ -1,19 +1,16 @@
-"""Every formula for the relative position as a straight-line program: as printed, repaired, and by the roots of g.
+"""Every formula for the relative position, each a straight-line program: as printed, repaired, derived, and by roots.
 
-Every way to compute the relative position that this project knows, each as a straight-line program.
+The paper's procedures stand as they are printed, mistakes included: they are under test. The derived formulas answer
+for every size of both bodies.
 
-The paper's procedures stand as they are printed, mistakes included; they are what is under test. The others answer for
-every size of both bodies.
+REPAIRED has the paper's Procedures 1, 2.a and 2.b put right. Procedure 1 asks where Q = 0, in the plane of the waist,
+whether the distance from the axis exceeds a + 1: that is E = P − A − 1 > 0 and E² > 4·A. Elsewhere it is as printed.
+A test for the ring beside Δ would be right in exact arithmetic but useless in floats, which round Δ to 0 beside the
+ring too. Procedures 2.a and 2.b ask for Δ > 0 and not (c2 < 0 and c1 > 0); 2.b asks the rotors wherever the bounding
+spheroid is not interior, and not only where Δ ≤ 0. The chains "Procedure 1, repaired" and "Proposition 5, repaired"
+prove them.
 
-The paper's Procedures 1, 2.a and 2.b put right, as programs beside those that are printed (formulas.py).
-
-Procedure 1 asks where Q = 0, in the plane of the waist, whether the distance from the axis exceeds a + 1: that is
-E = P − A − 1 > 0 and E² > 4·A. Elsewhere it is as printed. A test for the ring beside Δ would be right in exact
-arithmetic and useless in floats, which round Δ to 0 beside the ring too. Procedures 2.a and 2.b ask for Δ > 0 and not
-(c2 < 0 and c1 > 0); 2.b asks the rotors wherever the bounding spheroid is not interior, and not only where Δ ≤ 0. The
-chains "Procedure 1, repaired" and "Proposition 5, repaired" prove them.
-
-The roots' way as programs, to be counted beside the formulas of formulas.py, which need no root.
+ROOTS_TRIGONOMETRIC and SWEEP compute the roots of g. They are counted beside the other formulas, which need no root.
 """
 
 from __future__ import annotations

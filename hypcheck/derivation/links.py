@@ -1,13 +1,10 @@
-"""Proofs as chains of small links: identities, signs and finite cases that a machine checks.
+"""Proofs as chains of small links: each has a reason, and parts that a machine checks.
 
-Signs that can be read off: every term of the expanded expression has the same one.
+What a link says in words follows from its parts and from the links before it. A slip of algebra would hide in the
+parts, so those are checked anew whenever a chain is printed. A part is an identity, a sign that can be read off (every
+term of the expanded expression has the same one), or a rule on finitely many cases.
 
-The identities that the decision rules rest on, each an expression that must vanish.
-
-Proofs as chains of small links, each with a reason and with parts that a machine checks.
-
-What a link says in words follows from its parts and from the links before it; the parts are where a slip of algebra
-would hide, and those are checked anew whenever a chain is printed.
+`identities` are the derivation's own: the decision rules rest on them, and `known` takes one into a link.
 """
 
 from __future__ import annotations
@@ -108,9 +105,10 @@ def local_maximum() -> sympy.Expr:
     return (-C2 - sympy.sqrt(hessian_coefficients()[0])) / 3
 
 
-def identities() -> tuple[tuple[str, sympy.Expr], ...]:
-    """Each identity as a sentence, with left side − right side."""
-    return (*_surface_identities(), *_cubic_identities(), *_generic_identities())
+@cache
+def identities() -> dict[str, sympy.Expr]:
+    """Left side − right side of each identity, by its sentence."""
+    return dict((*_surface_identities(), *_cubic_identities(), *_generic_identities()))
 
 
 def vanishes(expression: sympy.Expr) -> bool:
@@ -275,13 +273,8 @@ def identity(text: str, left: sympy.Expr, **meanings: sympy.Expr) -> Identity:
 
 
 def known(text: str) -> Identity:
-    """One of the derivation's own identities (identities.py), by its sentence. Raises KeyError where it has none."""
-    return Identity(text, _identities()[text], sympy.Integer(0))
-
-
-@cache
-def _identities() -> dict[str, sympy.Expr]:
-    return dict(identities())
+    """One of the derivation's own identities, by its sentence. Raises KeyError where there is none."""
+    return Identity(text, identities()[text], sympy.Integer(0))
 
 
 def matrix_identity(text: str, left: sympy.Matrix) -> Identity:

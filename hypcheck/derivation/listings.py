@@ -1,15 +1,24 @@
-"""Listings that formulas share: the coefficients of g and a discriminant, and the decisions that give a position.
-
-Listings that the formulas share: from the seven numbers to A, B, P, Q, the coefficients of g and a discriminant.
+"""Listings that formulas share: the seven numbers to A, B, P, Q; coefficients of g; discriminants; decisions.
 
 A = (α/b)², B = (γ/d)², P = (x0² + y0²)/b², Q = (z0/d)², and g(λ) = λ³ + c2 λ² + c1 λ + c0. Sums are taken from left to
 right. A subexpression that is printed twice is computed once: it would round to the same value.
 
-Listings that turn coefficients, discriminants and values of g into a position.
-
 Why the rules hold. g(−A) = −AP(A+B) ≤ 0, g(0) = −AB < 0, g(B) = −BQ(A+B) ≤ 0 and g grows without bound, so one root is
 at least B, and the other two are complex or lie together in one of (−∞, −A], [−A, 0), (0, B], [B, ∞). The spheroid is
 exterior exactly where g > 0 somewhere in (0, B), interior where g > 0 somewhere in (−A, 0), else in contact.
+
+Why `all_regimes` holds. Δ > 0 means three simple roots. They are all positive exactly if c2 < 0 and c1 > 0 (Descartes,
+c0 < 0). If so, the pair is exterior unless no root is below B; and no root is below B exactly if c2 < −3B (their sum
+exceeds 3B) and g'(B) > 0. (If there are roots r1 < r2 ≤ B, then B is beyond the first critical point of g; g'(B) > 0
+puts it beyond the second, hence beyond the inflection −c2/3, which contradicts c2 < −3B.) If they are not all positive,
+two are negative, and the pair is interior unless both are ≤ −A; by the same argument both are > −A, or one is −A and
+one above, exactly if c2 < 3A and g'(−A) > 0.
+
+Δ = 0 with a double root m and a simple root s: g = (λ−m)²(λ−s). Contact, unless g > 0 somewhere in (0, B), that is
+s < B; then g(B) ≤ 0 leaves only m = B, so Q = 0 and g'(B) = 0, and s = AB/m² = A/B < B reads A < B². Conversely
+these three give m = B and 0 < s < B: the ring of exterior positions with Δ = 0. In (−A, 0) g > 0 would ask for
+s < 0, but s = AB/m² > 0; with a triple root λ³ = AB, so g < 0 below it and it is ≥ B. Δ < 0: the one real root
+is ≥ B and g < 0 below it: contact.
 """
 
 from __future__ import annotations
@@ -187,21 +196,7 @@ POSITION = """
 
 
 def all_regimes(discriminant: str) -> str:
-    """Position from c1, c2, A, B, Q and a positive multiple of Δ by that name, for every a, c > 0.
-
-    Δ > 0 means three simple roots. They are all positive exactly if c2 < 0 and c1 > 0 (Descartes, c0 < 0). If so, the
-    pair is exterior unless no root is below B; and no root is below B exactly if c2 < −3B (their sum exceeds 3B) and
-    g'(B) > 0. (If there are roots r1 < r2 ≤ B, then B is beyond the first critical point of g; g'(B) > 0 puts it beyond
-    the second, hence beyond the inflection −c2/3, which contradicts c2 < −3B.) If they are not all positive, two
-    are negative, and the pair is interior unless both are ≤ −A; by the same argument both are > −A, or one is −A and
-    one above, exactly if c2 < 3A and g'(−A) > 0.
-
-    Δ = 0 with a double root m and a simple root s: g = (λ−m)²(λ−s). Contact, unless g > 0 somewhere in (0, B), that is
-    s < B; then g(B) ≤ 0 leaves only m = B, so Q = 0 and g'(B) = 0, and s = AB/m² = A/B < B reads A < B². Conversely
-    these three give m = B and 0 < s < B: the ring of exterior positions with Δ = 0. In (−A, 0) g > 0 would ask for
-    s < 0, but s = AB/m² > 0; with a triple root λ³ = AB, so g < 0 below it and it is ≥ B. Δ < 0: the one real root
-    is ≥ B and g < 0 below it: contact.
-    """
+    """Position from c1, c2, A, B, Q and a positive multiple of Δ by that name, for every a, c > 0; proved above."""
     return (
         f"""
     distinct = {discriminant} > 0

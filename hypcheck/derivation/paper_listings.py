@@ -1,16 +1,13 @@
 """Listings of the paper's section 3: the rotors of Procedures 2.a and 2.b, and the three roots of g in numbers.
 
-Listings of Procedures 2.a and 2.b: four rotors on arms of length l about the centre of a quadcopter.
+Procedures 2.a and 2.b have four rotors on arms of length l about the centre of a quadcopter. The rotors' spheroids have
+semi-axes b_s, b_s, d_s; `cosine` and `sine` are those of g1. Since g_i = g1 + (i−1)π/2, with T1 = cos g1 − sin g1 and
+T2 = cos g1 + sin g1 the pairs (T1(g_i), T2(g_i)) of equation (15) are (T1, T2), (−T2, T1), (−T1, −T2) and (T2, −T1).
+Changing a sign rounds nothing, so T1 x0 + T2 y0 and T1 y0 − T2 x0 serve all four.
 
-The rotors' spheroids have semi-axes b_s, b_s, d_s; `cosine` and `sine` are those of g1. Since g_i = g1 + (i−1)π/2, with
-T1 = cos g1 − sin g1 and T2 = cos g1 + sin g1 the pairs (T1(g_i), T2(g_i)) of equation (15) are (T1, T2), (−T2, T1),
-(−T1, −T2) and (T2, −T1). Changing a sign rounds nothing, so T1 x0 + T2 y0 and T1 y0 − T2 x0 serve all four.
-
-Listings of the roots' way: g's three roots in numbers, of which the paper's section 3.1 asks for the signs.
-
-The paper compares itself with [13], which looks at the roots "instead of computing only the coefficients, which implies
-to evaluate trigonometric functions when Δ > 0" (the text of [13] was not consulted). Two ways are written down: the
-trigonometric one, which is that, and a sweep of a general root finder.
+The roots of g: the paper compares itself in section 3.1 with [13], which looks at their signs "instead of computing
+only the coefficients, which implies to evaluate trigonometric functions when Δ > 0" (the text of [13] was not
+consulted). Two ways to compute roots are written down: the trigonometric one, and a sweep of a general root finder.
 """
 
 from __future__ import annotations
@@ -177,7 +174,30 @@ def correction(root: int, others: tuple[int, int]) -> str:
 
     The next approximation, new, is z less the correction.
     """
-    first, second = others
+    name = f"_{root}"
+    return (
+        _value_of_g(root)
+        + _product_of_differences(root, others)
+        + f"""
+    d_re_squared{name} = d_re{name} * d_re{name}
+    d_im_squared{name} = d_im{name} * d_im{name}
+    norm{name} = d_re_squared{name} + d_im_squared{name}
+    top_rr{name} = g_re{name} * d_re{name}
+    top_ii{name} = g_im{name} * d_im{name}
+    top_re{name} = top_rr{name} + top_ii{name}
+    top_ir{name} = g_im{name} * d_re{name}
+    top_ri{name} = g_re{name} * d_im{name}
+    top_im{name} = top_ir{name} - top_ri{name}
+    step_re{name} = top_re{name} / norm{name}
+    step_im{name} = top_im{name} / norm{name}
+    new_x{root} = x{root} - step_re{name}
+    new_y{root} = y{root} - step_im{name}
+"""
+    )
+
+
+def _value_of_g(root: int) -> str:
+    """g(z) = ((z + c2) z + c1) z + c0."""
     name = f"_{root}"
     return f"""
     a{name} = x{root} + c2
@@ -195,6 +215,14 @@ def correction(root: int, others: tuple[int, int]) -> str:
     g_xy{name} = square_re_c1{name} * y{root}
     g_yx{name} = square_im{name} * x{root}
     g_im{name} = g_xy{name} + g_yx{name}
+"""
+
+
+def _product_of_differences(root: int, others: tuple[int, int]) -> str:
+    """(z − z')(z − z'')."""
+    first, second = others
+    name = f"_{root}"
+    return f"""
     dx_first{name} = x{root} - x{first}
     dy_first{name} = y{root} - y{first}
     dx_second{name} = x{root} - x{second}
@@ -205,19 +233,6 @@ def correction(root: int, others: tuple[int, int]) -> str:
     dxy{name} = dx_first{name} * dy_second{name}
     dyx{name} = dy_first{name} * dx_second{name}
     d_im{name} = dxy{name} + dyx{name}
-    d_re_squared{name} = d_re{name} * d_re{name}
-    d_im_squared{name} = d_im{name} * d_im{name}
-    norm{name} = d_re_squared{name} + d_im_squared{name}
-    top_rr{name} = g_re{name} * d_re{name}
-    top_ii{name} = g_im{name} * d_im{name}
-    top_re{name} = top_rr{name} + top_ii{name}
-    top_ir{name} = g_im{name} * d_re{name}
-    top_ri{name} = g_re{name} * d_im{name}
-    top_im{name} = top_ir{name} - top_ri{name}
-    step_re{name} = top_re{name} / norm{name}
-    step_im{name} = top_im{name} / norm{name}
-    new_x{root} = x{root} - step_re{name}
-    new_y{root} = y{root} - step_im{name}
 """
 
 

@@ -1,22 +1,14 @@
-"""From the two surfaces to the cubic g in symbols and plain text; the rotors; differences to printed formulas.
+"""The derivation in symbols: from the two surfaces to det(λH + S), its factor, the cubic g and its discriminant Δ.
 
-Formulas in plain text, both ways: "(α/b)²·B1 − λ" to sympy and back.
+Everything is computed from the equations of the two bodies. Nothing is taken from the paper's formulas: those are
+checked against this (printed_equations.py), and `repair` finds what is wrong with a printed formula from its difference
+to the derived one. A misprint is one place where one changed term makes the formula right: a factor, a term too many or
+a missing term. The place is searched for, not known beforehand. The last part is the quadcopter of the paper's
+section 3.2: where its rotors are, and the cubic of one rotor's spheroid.
 
-A product is written with a dot, never by juxtaposition; raised digits are powers; √2 is a root; diag(…) is a diagonal
-matrix. Greek letters stand for the symbols of their names. Arguments that say no more than what a letter depends on, as
-in f(λ) and c1(g_i), are read over.
-
-From the two surfaces to the cubic g, in symbols: Theorem 1, the pencil's determinant, its factor, g and Δ.
-
-Everything is computed from the equations of the two bodies; nothing is taken from the paper's formulas, which are
-checked against this (printed_equations.py).
-
-What is wrong with a printed formula, found from its difference to the derived one.
-
-A misprint is one place where one term changed makes the formula right: a factor, a term too many or a term that lacks.
-The place is searched for, not known beforehand.
-
-The quadcopter of the paper's section 3.2 in symbols: where the rotors are, and the cubic of one rotor's spheroid.
+`read` and `plain` turn plain text into sympy expressions and back, as in "(α/b)²·B1 − λ". A product is written with a
+dot, never by juxtaposition; raised digits are powers; √2 is a root; diag(…) is a diagonal matrix. Greek letters stand
+for the symbols of their names. Arguments that only say what a letter depends on, as in f(λ) and c1(g_i), are skipped.
 """
 
 from __future__ import annotations
@@ -330,7 +322,4 @@ def mean_over_rotors(expression: sympy.Expr) -> sympy.Expr:
 def rotor_cubic() -> SymbolicCubic:
     """The derivation for the rotor's spheroid, of semi-axes b_s, b_s, d_s."""
     x, y, z = rotor_centre()
-    whole = cubic_in_seven()
-    here = {SMALL_B: ROTOR_B, SMALL_D: ROTOR_D, X0: x, Y0: y, Z0: z}
-    fields = (whole.f, whole.factor, whole.denominator, whole.c0, whole.c1, whole.c2, whole.discriminant)
-    return SymbolicCubic(*(field.subs(here, simultaneous=True) for field in fields))
+    return _substituted(cubic_in_seven(), {SMALL_B: ROTOR_B, SMALL_D: ROTOR_D, X0: x, Y0: y, Z0: z})

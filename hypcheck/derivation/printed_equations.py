@@ -1,11 +1,8 @@
-"""The paper's displayed formulas as printed, each beside what it must equal, and which of them hold.
-
-The paper's displayed formulas (1) to (23) and those of its Appendix A, as printed, each beside what it must equal.
+"""The paper's displayed formulas (1) to (23) and those of its Appendix A as printed, and which of them hold.
 
 The statements are the paper's text in one-line notation, in the order printed. What they must equal comes from the
-derivation (pencil.py, rotors.py) and from no other printed formula, except where a formula claims to follow from one.
-
-Which of the paper's displayed formulas hold, and what is wrong with those that do not.
+derivation (pencil.py) and from no other printed formula, except where a formula claims to follow from one. For one that
+does not hold, the check says what is wrong with it.
 """
 
 from __future__ import annotations

@@ -1,24 +1,21 @@
-"""A formula as a straight-line program: its steps, its written form, and the number of its operations.
-
-A formula as a straight-line program: a list of steps, each one rounded operation, in the order of evaluation.
+"""A formula as a straight-line program: a list of steps, each one rounded operation, in the order of evaluation.
 
 Evaluation, operation counts, rounding bounds, proofs and printed kernels all read this one object, so what is proved
 is what runs. A program has no loops and no branches: every step is evaluated, and a decision is a `select`.
 
-The written form of a program: one step a line, as `name = left + right`.
+In its written form, the listing, a program has one step a line:
 
     h1 = c2_squared - three_c1      two arguments, with one of + - * / > < >= <= == != and or between them
     root = sqrt h1                  one argument, after one of - abs sqrt not cos arccos
-    side = inside ? -1 : 0          select: the condition, then what holds and what does not
+    side = inside ? -1 : 0          select: the condition, the value if it holds, the value if not
     # a remark
 
 Nothing nests: what is written is what is rounded, and in that order.
-
-How many operations a program takes, by kind.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -34,37 +31,41 @@ LARGEST_CONSTANT = 2048
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """One operation: the kind of each argument, the kind of the result, and its sign in a listing."""
+    """One operation: the kind of each argument, the kind of the result, its sign in a listing.
+
+    `counted` is the field of Operations that counts it; a change of the sign bit alone is not counted.
+    """
 
     takes: tuple[str, ...]
     gives: str
     sign: str
+    counted: str | None = None
 
 
 OPERATIONS = {
-    "add": Operation((NUMBER, NUMBER), NUMBER, "+"),
-    "sub": Operation((NUMBER, NUMBER), NUMBER, "-"),
-    "mul": Operation((NUMBER, NUMBER), NUMBER, "*"),
-    "div": Operation((NUMBER, NUMBER), NUMBER, "/"),
+    "add": Operation((NUMBER, NUMBER), NUMBER, "+", "additions"),
+    "sub": Operation((NUMBER, NUMBER), NUMBER, "-", "additions"),
+    "mul": Operation((NUMBER, NUMBER), NUMBER, "*", "multiplications"),
+    "div": Operation((NUMBER, NUMBER), NUMBER, "/", "divisions"),
     "neg": Operation((NUMBER,), NUMBER, "-"),
     "abs": Operation((NUMBER,), NUMBER, "abs"),
-    "sqrt": Operation((NUMBER,), NUMBER, "sqrt"),
-    "gt": Operation((NUMBER, NUMBER), BOOLEAN, ">"),
-    "lt": Operation((NUMBER, NUMBER), BOOLEAN, "<"),
-    "ge": Operation((NUMBER, NUMBER), BOOLEAN, ">="),
-    "le": Operation((NUMBER, NUMBER), BOOLEAN, "<="),
-    "eq": Operation((NUMBER, NUMBER), BOOLEAN, "=="),
-    "ne": Operation((NUMBER, NUMBER), BOOLEAN, "!="),
-    "and": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "and"),
-    "or": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "or"),
-    "not": Operation((BOOLEAN,), BOOLEAN, "not"),
+    "sqrt": Operation((NUMBER,), NUMBER, "sqrt", "square_roots"),
+    "gt": Operation((NUMBER, NUMBER), BOOLEAN, ">", "comparisons"),
+    "lt": Operation((NUMBER, NUMBER), BOOLEAN, "<", "comparisons"),
+    "ge": Operation((NUMBER, NUMBER), BOOLEAN, ">=", "comparisons"),
+    "le": Operation((NUMBER, NUMBER), BOOLEAN, "<=", "comparisons"),
+    "eq": Operation((NUMBER, NUMBER), BOOLEAN, "==", "comparisons"),
+    "ne": Operation((NUMBER, NUMBER), BOOLEAN, "!=", "comparisons"),
+    "and": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "and", "logical"),
+    "or": Operation((BOOLEAN, BOOLEAN), BOOLEAN, "or", "logical"),
+    "not": Operation((BOOLEAN,), BOOLEAN, "not", "logical"),
     # select(condition, x, y) is x where the condition holds and y elsewhere; x and y are of one kind, and so is it.
-    "select": Operation((BOOLEAN, NUMBER, NUMBER), NUMBER, "?"),
+    "select": Operation((BOOLEAN, NUMBER, NUMBER), NUMBER, "?", "selections"),
 }
 
 FUNCTIONS = {
-    "cos": Operation((NUMBER,), NUMBER, "cos"),
-    "arccos": Operation((NUMBER,), NUMBER, "arccos"),
+    "cos": Operation((NUMBER,), NUMBER, "cos", "functions"),
+    "arccos": Operation((NUMBER,), NUMBER, "arccos", "functions"),
 }
 """What the roots' way needs besides. No standard says how these round, so programs with them have no error bounds and
 are not printed as kernels: they are proved, evaluated in floats and counted."""
@@ -235,28 +236,6 @@ def _argument(word: str) -> Argument:
     return int(word) if word.lstrip("-").isdigit() else word
 
 
-_FIELD_OF = {
-    "add": "additions",
-    "sub": "additions",
-    "mul": "multiplications",
-    "div": "divisions",
-    "sqrt": "square_roots",
-    "cos": "functions",
-    "arccos": "functions",
-    "gt": "comparisons",
-    "lt": "comparisons",
-    "ge": "comparisons",
-    "le": "comparisons",
-    "eq": "comparisons",
-    "ne": "comparisons",
-    "and": "logical",
-    "or": "logical",
-    "not": "logical",
-    "select": "selections",
-}
-# neg and abs only touch the sign bit and are not counted.
-
-
 @dataclass(frozen=True, slots=True)
 class Operations:
     """Operations by kind; a subtraction counts as an addition, a sign change as nothing.
@@ -281,9 +260,5 @@ class Operations:
 
 def count(steps: Iterable[Step]) -> Operations:
     """The operations in `steps`."""
-    counts: dict[str, int] = {}
-    for step in steps:
-        field = _FIELD_OF.get(step.operation)
-        if field is not None:
-            counts[field] = counts.get(field, 0) + 1
-    return Operations(**counts)
+    counts = Counter(KNOWN[step.operation].counted for step in steps)
+    return Operations(**{kind: number for kind, number in counts.items() if kind is not None})

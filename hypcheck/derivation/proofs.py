@@ -1,29 +1,22 @@
-"""The proof that each program computes its formula: programs over sympy, and what each step must equal.
+"""The proof that each program computes its formula: what each step must equal, over sympy, and each decision.
 
-Programs over sympy expressions. Sums and products are left as they are built; who compares expands them.
-
-What has to be true of each formula's numbers: which step must equal which derived expression.
-
-The proof that each program is the formula it is said to be.
-
-Its numbers are evaluated in symbols and compared with the derivation, and its decision is asked for every combination
-of signs. What the rules themselves rest on is in identities.py and in the words of decision_listings.py.
+The numbers of a program are evaluated in symbols and compared with the derivation. Its decision is asked for every
+combination of signs (decisions.py). The rules themselves rest on the identities of links.py and on the argument in
+listings.py.
 """
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 import sympy
 
 from hypcheck.derivation import pencil
 from hypcheck.derivation.decisions import DecisionRule, decisions
-from hypcheck.derivation.evaluation import Arithmetic, evaluate, outputs
+from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
 from hypcheck.derivation.links import (
@@ -58,34 +51,18 @@ from hypcheck.derivation.pencil import (
 )
 from hypcheck.derivation.program import Program, cut
 
-
-def _select(condition: Any, yes: Any, no: Any) -> Any:
-    return sympy.Piecewise((yes, condition), (no, True))
-
-
 SYMBOLIC = Arithmetic(
     name="symbolic",
     convert=sympy.sympify,
     operations={
-        "add": operator.add,
-        "sub": operator.sub,
-        "mul": operator.mul,
-        "div": operator.truediv,
-        "neg": operator.neg,
-        "abs": sympy.Abs,
+        **OPERATORS,
         "sqrt": sympy.sqrt,
         "cos": sympy.cos,
         "arccos": sympy.acos,
-        "gt": sympy.StrictGreaterThan,
-        "lt": sympy.StrictLessThan,
-        "ge": sympy.GreaterThan,
-        "le": sympy.LessThan,
         "eq": sympy.Equality,
         "ne": sympy.Unequality,
-        "and": sympy.And,
-        "or": sympy.Or,
         "not": sympy.Not,
-        "select": _select,
+        "select": lambda condition, yes, no: sympy.Piecewise((yes, condition), (no, True)),
     },
 )
 """Inputs may be expressions, integers or rationals; comparisons become relations, and a selection is a Piecewise."""
@@ -244,7 +221,7 @@ class Proof:
 @cache
 def prove_formulas() -> tuple[Proof, ...]:
     """Every proof: the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
-    found = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities()]
+    found = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities().items()]
     for formula in (*FORMULAS.values(), *REPAIRED.values()):
         found.extend(proofs_of(formula))
     found.extend(_prove_one_rotor())
@@ -266,17 +243,12 @@ def prove(formula: Formula) -> Iterable[Proof]:
 
 
 def _prove_number(formula: Formula, obligation: Obligation) -> Proof:
-    values = _symbolic_values(formula.program, obligation.letters, obligation.step)
-    holds = _equal(values, obligation.expected)
-    of = f" of {', '.join(obligation.letters)}" if obligation.letters else ""
-    statement = f"{obligation.step}{of} is {plain(obligation.expected)}"
-    return Proof(formula.name, obligation.step, holds, statement)
-
-
-def _symbolic_values(program: Program, letters: tuple[str, ...], step: str) -> sympy.Expr:
-    part = cut(program, letters, (step,))
+    step, letters = obligation.step, obligation.letters
+    part = cut(formula.program, letters, (step,))
     (value,) = outputs(part, SYMBOLIC, {name: letter(name) for name in part.inputs}, (step,))
-    return value
+    of = f" of {', '.join(letters)}" if letters else ""
+    statement = f"{step}{of} is {plain(obligation.expected)}"
+    return Proof(formula.name, step, _equal(value, obligation.expected), statement)
 
 
 def _equal(value: sympy.Expr, expected: sympy.Expr) -> bool:

@@ -1,10 +1,8 @@
-"""The roots of g beside −A, 0 and B, and what exterior and interior mean for them.
+"""Chains about the roots of g: their places beside −A, 0 and B, and what exterior and interior mean for them.
 
-Links about any cubic with real roots that several chains use: Vieta's formulas, signs between roots, Δ.
-
-Where the roots of g stand to −A, 0 and B: signs at three places, and Vieta's product.
-
-From the rule to the roots: what exterior and interior mean for them, and where Δ = 0 deceives.
+First come links about any cubic with real roots (Vieta's formulas, signs between roots, Δ), then the chain "roots":
+signs of g at three places and Vieta's product; then the chain "positions", from the rule to the roots, with the cases
+of Δ = 0 that are no contact.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rounding error bounds counted from a program.
+"""Bounds of rounding errors, counted from a program.
 
 Let u be the unit roundoff, and F_k the interval [(1−u)^k, (1−u)^−k]. Every operation rounded to nearest, without
 overflow or underflow, returns the exact result of its operands times some 1+δ, |δ| ≤ u, which lies in F_1 because
@@ -20,7 +20,7 @@ Hence |computed − v| ≤ ((1−u)^−k − 1) M ≤ γ_k M with M = Σ|t_j| an
 
 M is itself a program: the same operations on |inputs| with every subtraction an addition. It has no cancellation, and
 its steps round no more often, so in floating point M is known up to a factor in F_k, and |computed − v| is at most
-((1−u)^−k − 1)(1−u)^−k ≤ ku/(1−ku)² times the *computed* M. No FMA is needed or harmful: it only removes roundings.
+((1−u)^−k − 1)(1−u)^−k ≤ ku/(1−ku)² times the *computed* M. FMA only removes roundings, so it is allowed, not needed.
 """
 
 from __future__ import annotations

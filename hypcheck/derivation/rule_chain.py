@@ -1,11 +1,8 @@
-"""Theorem 1, and the rule without hypothesis: the bodies are clear where g > 0 between −A and B, nowhere else.
+"""Theorem 1, and the rule without hypothesis: the bodies are clear if g > 0 somewhere between −A and B, and only then.
 
-Theorem 1: dividing x, y by b and z by d changes no position, and makes the spheroid the unit sphere.
-
-The rule that needs no hypothesis: where g is positive between −A and B, the bodies are clear, and nowhere else.
-
-φ is the Lagrange dual of the squared distance to the hyperboloid H (docs/mathematics.md). Letters: C = (x_c, y_c, z_c)
-the centre, h(X) = (x² + y²)/A − z²/B − 1, and for −A < λ < B the positive u = A + λ, v = B − λ.
+Theorem 1: dividing x, y by b and z by d changes no position, and makes the spheroid the unit sphere. φ is the Lagrange
+dual of the squared distance to the hyperboloid H (docs/mathematics.md). Letters: C = (x_c, y_c, z_c) the centre,
+h(X) = (x² + y²)/A − z²/B − 1, and for −A < λ < B the positive u = A + λ, v = B − λ.
 """
 
 from __future__ import annotations

@@ -1,12 +1,8 @@
 """The derivation step by step: from the two surfaces to the coefficients, the rotors, and the paper's Appendix A.
 
-The last two sections of the derivation: a quadcopter's rotors (section 3.2 of the paper) and its Appendix A.
-
-The derivation as a person follows it: from the two surfaces to the coefficients, and to those of the rotors.
-
 Each section is a chain of links whose parts are the displayed formulas, in the paper's letters and in the order in
-which the paper prints them; every one is held against what sympy makes of the two surfaces. Where the paper misprints a
-formula the right one stands here.
+which the paper prints them; every one is compared with what sympy makes of the two surfaces. Where the paper misprints
+a formula the right one stands here.
 """
 
 from __future__ import annotations

@@ -78,7 +78,7 @@ def broken(part):
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_no_part_survives_a_mistake_nor_do_its_link_and_chain(name):
+def test_a_mistake_in_any_part_makes_its_link_and_chain_fail(name):
     chain = everything()[name]
     for link in chain.links:
         for part in link.parts:
@@ -117,17 +117,17 @@ def test_chains_come_after_those_that_they_need():
 
 
 @pytest.mark.parametrize("coefficient", ["c0", "c1", "c2"])
-def test_another_cubic_is_noticed(monkeypatch, coefficient):
+def test_chains_fail_if_the_cubic_has_a_misprint(monkeypatch, coefficient):
     """The chains rest on the derived cubic: with a misprint in it they fail."""
     right = pencil.cubic()
     wrong = replace(right, **{coefficient: getattr(right, coefficient) + pencil.P * pencil.Q})
     monkeypatch.setattr(pencil, "cubic", lambda: wrong)
-    links._identities.cache_clear()
+    links.identities.cache_clear()
     try:
         assert not all(make().holds for make in MAKERS)
         assert not roots_chain().holds
     finally:
-        links._identities.cache_clear()
+        links.identities.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -155,12 +155,12 @@ def test_each_condition_of_the_roots_case_split_is_needed(one, two, excluded_by)
     assert all(in_one_interval(*pair) for pair in ((-3, -2), (-2, -1), (1, 2), (2, 3)))
 
 
-def test_texts_that_say_no_sign_are_refused():
+def test_a_text_that_states_no_sign_raises_an_error():
     with pytest.raises(ValueError, match="states no sign"):
         sign("A = B")
 
 
-def test_an_identity_reads_what_it_shows():
+def test_an_identity_checks_the_text_that_it_shows():
     a, b = symbol("A"), symbol("B")
     assert identity("(A + B)² = A² + 2·A·B + B²", (a + b) ** 2).holds
     assert not identity("(A + B)² = A² + A·B + B²", (a + b) ** 2).holds

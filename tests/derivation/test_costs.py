@@ -20,7 +20,7 @@ def test_table_2():
     assert loop_as_printed() == Operations(additions=11, multiplications=20, divisions=2, comparisons=3, logical=2)
 
 
-def test_the_roots_way():
+def test_operations_of_the_roots_way_are_those_counted_by_hand():
     trigonometric, sweep = costs()[-2:]
     assert trigonometric.query.functions == 4  # one arccos, three cosines; the third of a turn is a constant
     assert trigonometric.query.square_roots == 1
@@ -34,13 +34,13 @@ def test_the_roots_way():
     assert sweep.scene == Operations()
 
 
-def test_the_discriminants_of_four_rotors():
+def test_the_share_of_four_discriminants_is_that_counted_by_hand():
     # Per rotor 11 products and 4 sums: c0² and 27 c0² are the same for all, and depend on the sizes alone.
     assert discriminant_share() == (4 * 15, 100)
 
 
 @pytest.mark.parametrize("cost", costs(), ids=lambda cost: cost.name)
-def test_every_way_has_a_cost(cost):
+def test_every_formula_has_a_cost(cost):
     assert cost.query.rounded > 0
     assert cost.title
     assert cost.source

@@ -34,7 +34,7 @@ def triples(draw):
 
 
 @given(triples())
-def test_the_laws_of_a_field(numbers):
+def test_surds_obey_the_laws_of_a_field(numbers):
     x, y, z = numbers
     assert x + y == y + x
     assert x * y == y * x
@@ -49,14 +49,14 @@ def test_the_laws_of_a_field(numbers):
 
 
 @given(triples(), rationals, comparisons)
-def test_comparisons_agree_with_two_hundred_digits(numbers, rational, compare):
+def test_comparisons_of_surds_agree_with_two_hundred_digits(numbers, rational, compare):
     x, y, _ = numbers
     assert compare(x, y) == compare(decimal_of(x), decimal_of(y))
     assert compare(x, rational) == compare(decimal_of(x), decimal_of(rational))
     assert compare(rational, x) == compare(decimal_of(rational), decimal_of(x))
 
 
-def test_signs_that_no_float_could_tell():
+def test_surds_have_right_signs_where_floats_would_not():
     # (√2 − 1)ⁿ = p − q√2 with p² − 2q² = ±1 is tiny, while p and q are huge.
     power = Fraction(1)
     for _ in range(400):
@@ -75,7 +75,7 @@ def test_roots_of_squares_are_rational():
     assert square_root(Fraction(0)) == 0
 
 
-def test_two_different_roots_do_not_mix():
+def test_surds_of_two_different_roots_cannot_be_added():
     with pytest.raises(ValueError, match="one quadratic field"):
         square_root(Fraction(2)) + square_root(Fraction(3))
     with pytest.raises(TypeError):
@@ -83,7 +83,7 @@ def test_two_different_roots_do_not_mix():
 
 
 @pytest.mark.parametrize("other", [Fraction(3), surd(Fraction(1), Fraction(1), Fraction(2)), UNDEFINED])
-def test_the_undefined_goes_through_everything_and_compares_with_nothing(other):
+def test_undefined_passes_through_every_operation_and_every_comparison_is_false(other):
     for name in ("add", "sub", "mul", "div"):
         assert EXACT.operations[name](UNDEFINED, other) is UNDEFINED
         assert EXACT.operations[name](other, UNDEFINED) is UNDEFINED
@@ -94,7 +94,7 @@ def test_the_undefined_goes_through_everything_and_compares_with_nothing(other):
     assert EXACT.operations["ne"](other, UNDEFINED) is True
 
 
-def test_what_has_no_value():
+def test_division_by_zero_and_roots_of_negative_numbers_are_undefined():
     assert EXACT.operations["div"](Fraction(1), Fraction(0)) is UNDEFINED
     assert EXACT.operations["div"](square_root(Fraction(2)), Fraction(0)) is UNDEFINED
     assert EXACT.operations["sqrt"](Fraction(-1)) is UNDEFINED
@@ -104,5 +104,5 @@ def test_what_has_no_value():
     assert EXACT.operations["select"](False, UNDEFINED, Fraction(1)) == 1
 
 
-def test_inputs_are_taken_exactly():
+def test_exact_arithmetic_takes_floats_at_their_exact_value():
     assert EXACT.convert(0.1) == Fraction(3602879701896397, 2**55)

@@ -99,7 +99,7 @@ def test_overflow_and_nan_are_silent_and_answer_no():
 
 
 @pytest.mark.parametrize("name", ["procedure-2a-spheroid", "procedure-2b-spheroid"])
-def test_as_printed_a_discriminant_that_is_nan_is_a_valid_movement(name):
+def test_procedures_2_as_printed_call_a_movement_valid_if_the_discriminant_is_nan(name):
     # "if Δ ≤ 0 … else": NaN is not ≤ 0. A body of radius 0.01 at distance 29.995 from the axis reaches through the
     # waist of radius 30, and in binary32 the printed procedure lets it.
     row = dict(zip(COLUMNS, (30.0, 70.0, 0.01, 0.005, 29.995, 0.0, 0.0), strict=True))

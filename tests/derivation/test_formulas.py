@@ -71,11 +71,11 @@ def test_formulas_for_every_size_are_right_on_the_witnesses(name, a, c, center, 
         (3, 3, (1, 0, 0), 0, CONTACT),
     ],
 )
-def test_the_dual_form_at_a_given_multiplier(a, c, center, multiplier, position):
+def test_the_dual_form_answers_by_the_given_multiplier(a, c, center, multiplier, position):
     assert answer("dual", a, c, center, lambda_=multiplier) == position
 
 
-def test_a_proof_within_a_hair_needs_the_right_multiplier():
+def test_the_dual_form_beside_a_tangency_proves_only_with_the_right_multiplier():
     row = {"alpha": 1, "gamma": 1, "b": 3, "d": 1, "x": 4, "y": 1e-160, "z": 0}
     for name in RIGHT_EVERYWHERE:
         assert answers(FORMULAS[name], EXACT, row) == EXTERIOR
@@ -106,7 +106,7 @@ def test_procedure_1_outside_its_regime_lets_a_crossing_pair_pass(name):
     assert answer(name, 2, HALF, (4, 0, 0)) == 1
 
 
-def test_contact_does_not_imply_a_discriminant_at_most_zero_where_c_is_small():
+def test_contact_can_have_a_positive_discriminant_if_c_is_small():
     row = dict(zip(COLUMNS, (1, QUARTER, 1, 1, 2, 0, HALF), strict=True))
     assert evaluate(FORMULAS["table-2"].program, EXACT, row)["delta"] == Fraction(2023, 4096)
     # All four rotors, b/40 wide on arms of b/20·√2, are interior: at height 1/2 ± d/40 the radius exceeds 2.1.
@@ -142,7 +142,7 @@ def rotor_scenes(draw):
 
 @settings(max_examples=40)
 @given(rotor_scenes())
-def test_procedures_2_are_their_test_of_one_spheroid_asked_of_each(scene):
+def test_procedures_2_equal_their_test_of_one_spheroid_for_each_rotor(scene):
     rotors = evaluate(FORMULAS["procedure-2a"].program, EXACT, scene)
     # Rotor i stands at l/√2·(T1, T2) from the centre, and the next one a quarter of a turn on.
     cosine, sine = scene["cosine"], scene["sine"]
@@ -237,7 +237,7 @@ def test_printed_procedures_are_right_in_their_regime_but_for_the_witnessed_exce
             assert answer(name, a, c, (r, 0, z)) == (position == INTERIOR and not dropped)
 
 
-def test_the_table_of_formulas_says_what_each_is():
+def test_the_table_of_formulas_has_the_expected_questions_and_regimes():
     for name, formula in FORMULAS.items():
         assert formula.name == formula.program.name == name
         assert formula.question in {"position", "exterior", "interior"}

@@ -40,7 +40,7 @@ def test_every_value_is_the_same_in_floats(name, precision):
         assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
-def test_the_loop_can_go_on_with_other_centres():
+def test_a_loop_body_can_be_called_again_with_other_centres():
     program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float32")
     constants, centre = parts(inputs(ROWS))
     body = loop_body(program, arithmetic, constants, ("delta",))
@@ -58,7 +58,7 @@ def test_exact_numbers_are_the_same():
     assert body(centre) == outputs(program, EXACT, values, ("delta", "valid"))
 
 
-def test_what_is_fixed_is_not_computed_again():
+def test_a_loop_body_does_not_compute_constants_again():
     program, counted = FORMULAS["table-2"].program, []
     arithmetic = float_arithmetic("float64")
     counting = type(arithmetic)(
@@ -77,7 +77,7 @@ def test_what_is_fixed_is_not_computed_again():
     assert len(counted) == 28  # 12 for P, Q, c1 and c2, 16 for Δ without 27 c0²
 
 
-def test_a_name_that_is_missing_is_an_error():
+def test_a_missing_name_raises_an_error():
     program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float64")
     with pytest.raises(KeyError):
         loop_body(program, arithmetic, {}, ("nothing",))

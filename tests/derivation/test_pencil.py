@@ -47,7 +47,7 @@ def test_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):
     assert sympy.Rational(determinant(matrix)) == value
 
 
-def test_the_cubic_as_derived_by_hand():
+def test_the_cubic_is_the_one_derived_by_hand():
     # (A+λ)(B−λ)(P+Q−1−λ) − AP(B−λ) − BQ(A+λ), multiplied out on paper.
     cubic = pencil.cubic()
     assert plain(cubic.c0) == "−A·B"
@@ -69,7 +69,7 @@ def test_the_discriminant_is_that_of_the_roots(roots):
     assert pencil.discriminant_of_cubic().subs(values) == expected
 
 
-def test_the_three_derivations_are_one():
+def test_the_three_derivations_agree():
     scaled, seven = pencil.scaled_cubic(), pencil.cubic_in_seven()
     for name in ("c0", "c1", "c2", "f", "denominator", "discriminant"):
         in_sizes = getattr(pencil.cubic(), name).subs(pencil.IN_SEVEN)
@@ -77,8 +77,8 @@ def test_the_three_derivations_are_one():
         assert vanishes(getattr(scaled, name).subs(pencil.SCALED) - getattr(seven, name)), name
 
 
-def test_each_identity_holds_and_fails_with_one_term_more():
-    for statement, gap in identities():
+def test_each_identity_holds_and_fails_with_an_added_term():
+    for statement, gap in identities().items():
         assert vanishes(gap), statement
         assert not vanishes(gap + read("A·B/1000")), statement
 
@@ -95,7 +95,7 @@ def test_a_surface_that_breaks_the_derivation_is_noticed(monkeypatch):
         pencil.scaled_cubic.__wrapped__()
 
 
-def test_text_reads_as_what_it_says_and_back():
+def test_a_formula_in_plain_text_reads_as_its_expression_and_back():
     alpha, lambda_, c1 = symbol("alpha"), symbol("lambda"), symbol("c1")
     assert read("−(α/b)²·λ³ + c1(g_i)/2 − √2") == -((alpha / symbol("b")) ** 2) * lambda_**3 + c1 / 2 - sympy.sqrt(2)
     assert read("diag(1/α², −1)") == sympy.diag(1 / alpha**2, -1)

@@ -25,7 +25,7 @@ def test_every_numbered_formula_is_checked_in_the_papers_order():
 
 
 @pytest.mark.parametrize("number", NUMBERS)
-def test_what_holds_and_what_does_not(number):
+def test_each_printed_formula_has_the_expected_verdict(number):
     (equation,) = (equation for equation in check_equations() if equation.number == number)
     assert equation.holds == (equation.number not in MISPRINTS)
     assert equation.verdict == ("holds" if equation.holds else "misprint")
@@ -38,7 +38,7 @@ def test_what_holds_and_what_does_not(number):
 
 
 @pytest.mark.parametrize("number", MISPRINTS)
-def test_the_correction_holds(number):
+def test_the_correction_of_each_misprint_holds(number):
     (claim,) = (claim for claim in printed_claims() if claim.number == number)
     (equation,) = (equation for equation in check_equations() if equation.number == number)
     corrected = read(equation.correction.partition("=")[2]).subs(claim.meanings)
@@ -59,7 +59,7 @@ CUBIC = "g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c² − z_c²)·λ² �
         ("λ³", "λ³ + λ²·λ²", "has a stray + λ⁴"),
     ],
 )
-def test_any_other_misprint_is_found_and_put_right(printed, misprinted, finding):
+def test_an_introduced_misprint_is_found_and_put_right(printed, misprinted, finding):
     before, found, after = CUBIC.rpartition(printed)
     assert found
     g = pencil.scaled_cubic().g
@@ -70,24 +70,24 @@ def test_any_other_misprint_is_found_and_put_right(printed, misprinted, finding)
     assert check((equality("12", CUBIC, g=g),)).holds
 
 
-def test_what_no_single_term_repairs_is_called_false():
+def test_a_formula_that_no_single_term_repairs_is_called_false():
     result = check((equality("0", "g(λ) = λ³ + a·λ² + c", g=pencil.scaled_cubic().g),))
     assert (result.holds, result.verdict) == (False, "false")
 
 
-def test_what_should_vanish_and_does_not_is_a_stray_term():
+def test_a_nonzero_formula_that_should_vanish_has_a_stray_term():
     result = check((PrintedClaim("0", "H = diag(1, 1, 1)", ((symbol("a"), sympy.Integer(0)),), {}),))
     assert result.finding == "right − left = a: the sum a has a stray + a"
 
 
-def test_a_factor_that_moves_roots_is_not_called_harmless():
+def test_a_wrong_factor_that_moves_roots_is_not_called_harmless():
     right = read("(a² + λ)·g")
     result = check((PrintedClaim("0", "f = λ·(a² + λ)·g", ((symbol("lambda") * right, right),), {}),))
     assert result.finding == "the right side is λ times the left"
 
 
 @pytest.mark.parametrize("number", NUMBERS)
-def test_each_claim_would_be_seen_to_fail(number):
+def test_each_printed_claim_fails_if_it_is_changed(number):
     for claim in printed_claims():
         if claim.number == number:
             for index, (printed, derived) in enumerate(claim.pairs):
@@ -96,7 +96,7 @@ def test_each_claim_would_be_seen_to_fail(number):
                 assert not check((PrintedClaim(number, claim.statement, tuple(broken), claim.meanings),)).holds
 
 
-def test_the_circle_is_taken_into_account():
+def test_differences_use_that_cosine_and_sine_lie_on_the_unit_circle():
     cosine, sine = symbol("cosine"), symbol("sine")
     assert difference(cosine**2 + sine**2, sympy.Integer(1)) == 0
     assert difference(cosine**2 - sine**2, sympy.Integer(1)) != 0

@@ -62,7 +62,7 @@ def test_a_line_that_is_no_step_is_refused(line):
         steps_of(line)
 
 
-def test_every_intermediate_value_is_found():
+def test_evaluate_gives_every_intermediate_value():
     assert evaluate(SMALL, EXACT, {"x": 1, "y": 2}) == {
         "x": 1,
         "y": 2,
@@ -82,18 +82,18 @@ def test_outputs_are_the_values_of_a_whole_evaluation(formula):
     assert outputs(formula.program, EXACT, inputs, wanted) == tuple(whole[name] for name in wanted)
 
 
-def test_inputs_that_matter_must_be_given():
+def test_a_missing_input_that_is_read_raises_an_error():
     with pytest.raises(ValueError, match="program small needs a value for y"):
         evaluate(SMALL, EXACT, {"x": 1})
     assert outputs(program_of("p", ("x", "y"), "s = x + 1\nt = y + 1"), EXACT, {"x": 1}, ("s",)) == (2,)
 
 
-def test_an_operation_the_arithmetic_lacks_is_refused():
+def test_an_operation_that_the_arithmetic_lacks_raises_an_error():
     with pytest.raises(ValueError, match="bare arithmetic has no add"):
         evaluate(SMALL, Arithmetic("bare", Fraction, {}), {"x": 1, "y": 2})
 
 
-def test_a_wanted_name_must_exist():
+def test_a_wanted_name_that_does_not_exist_raises_an_error():
     with pytest.raises(KeyError, match="program small has no z"):
         outputs(SMALL, EXACT, {"x": 1, "y": 2}, ("z",))
 
@@ -105,7 +105,7 @@ class _Boxed:
         self.number = number
 
 
-def test_outputs_let_go_of_what_is_no_longer_needed():
+def test_outputs_free_values_that_no_later_step_reads():
     formula = FORMULAS["table-2"]
     alive, counts = weakref.WeakSet(), []
 
@@ -132,7 +132,7 @@ def test_outputs_let_go_of_what_is_no_longer_needed():
     assert max(counts) < 20
 
 
-def test_a_cut_takes_steps_for_inputs_and_drops_the_rest():
+def test_cut_makes_known_steps_inputs_and_drops_unneeded_steps():
     part = cut(SMALL, ("t",), ("answer",))
     assert part.inputs == ("t",)
     assert [step.name for step in part.steps] == ["large", "answer"]
@@ -142,11 +142,11 @@ def test_a_cut_takes_steps_for_inputs_and_drops_the_rest():
 
 
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=lambda formula: formula.name)
-def test_no_formula_has_a_step_in_vain(formula):
+def test_every_step_of_every_formula_is_needed(formula):
     assert needed(formula.program, (formula.answer,)) == formula.program.steps
 
 
-def test_operations_of_table_2_as_counted_by_hand():
+def test_operations_of_table_2_are_those_counted_by_hand():
     # Before the loop: α/b, γ/d, their squares, A·B, + A, − B, and what the table prints inside though it is constant:
     # b², A − B + 1, 27·c0².
     parts = hoist(FORMULAS["table-2"].program, SIZES)
@@ -167,7 +167,7 @@ def test_sign_changes_are_free_and_roots_and_choices_are_counted():
     assert count(program.steps) == Operations(square_roots=1, comparisons=1, logical=1, selections=1)
 
 
-def test_hoisting_knows_its_inputs():
+def test_hoisting_an_unknown_input_raises_an_error():
     with pytest.raises(ValueError, match="has no input height"):
         hoist(SMALL, ("height",))
     assert [step.name for step in hoist(SMALL, ("x", "y")).inside] == []

@@ -31,7 +31,7 @@ def test_the_chain_of_procedure_1_holds():
     assert proved("Procedure 1, repaired")
 
 
-def test_procedure_1_put_right_is_exterior_for_every_tall_pair_of_the_space():
+def test_repaired_procedure_1_is_exterior_for_every_tall_pair_of_the_space():
     asked = [each for each in facts_in_order() if entry.tall(each)]
     assert len(asked) > 5000
     wrong = 0
@@ -49,7 +49,7 @@ def quadcopter_says(formula, each):
     return bool(answers(formula, EXACT, {name: inputs[name] for name in formula.program.inputs}))
 
 
-def test_procedure_2a_put_right_is_all_four_rotors_interior_on_the_axis():
+def test_repaired_procedure_2a_on_the_axis_is_that_all_four_rotors_are_interior():
     """All four rotors stand alike to the hyperboloid then: one unit sphere at r says it."""
     for each in facts_in_order():
         if entry.wide(each) and each.point.r**2 >= 2:
@@ -59,7 +59,7 @@ def test_procedure_2a_put_right_is_all_four_rotors_interior_on_the_axis():
             assert bool(found) == entry.interior(each), point
 
 
-def test_procedure_2b_put_right_is_hull_or_rotors_interior_where_the_printed_one_refuses():
+def test_repaired_procedure_2b_is_that_hull_or_rotors_are_interior_where_the_printed_one_refuses():
     """At hulls whose farthest rotor is interior, and at hulls that are; all with a zero coefficient, some others."""
     differ = 0
     for place, hull in enumerate(facts_in_order()):
@@ -73,7 +73,7 @@ def test_procedure_2b_put_right_is_hull_or_rotors_interior_where_the_printed_one
     assert differ > 10
 
 
-def test_the_ring_and_its_neighbourhood_are_clear_in_float32():
+def test_repaired_procedure_1_in_float32_answers_exterior_on_and_near_the_ring():
     """Table 2 in float32 says contact about some of these, the procedure put right about none."""
     beside = np.linspace(2.499, 2.501, 4001)
     row = dict(zip(COLUMNS, (1.0, 2.0, 1.0, 1.0, beside, 0.0, 0.0), strict=True))
@@ -83,7 +83,7 @@ def test_the_ring_and_its_neighbourhood_are_clear_in_float32():
     assert facts(Point(*map(Fraction, (1, 2, 2.5, 0)))).position is Position.EXTERIOR
 
 
-def test_procedure_1_put_right_with_one_step_changed_is_not_proved():
+def test_repaired_procedure_1_with_one_step_changed_is_not_proved():
     formula = REPAIRED["procedure-1-repaired"]
     names = {"E", "EE", "four_A", "beyond", "wide_apart", "clear_at_waist", "answer", "P_minus_A"}
     for step, program in mutants(formula.program):

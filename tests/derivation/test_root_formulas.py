@@ -22,7 +22,7 @@ def rows():
     return FAMILIES["tower-body"].block(3, 0)[:200]
 
 
-def test_it_is_proved():
+def test_the_trigonometric_formula_is_proved():
     assert all(proof.holds for proof in prove(ROOTS_TRIGONOMETRIC))
 
 
@@ -45,7 +45,7 @@ def test_it_is_proved():
         "valid = distinct or all_positive",
     ],
 )
-def test_a_slip_is_not_proved(line):
+def test_the_trigonometric_formula_with_a_slip_is_not_proved(line):
     (wrong,) = steps_of(line)
     steps = tuple(wrong if step.name == wrong.name else step for step in ROOTS_TRIGONOMETRIC.program.steps)
     program = replace(ROOTS_TRIGONOMETRIC.program, steps=steps)
@@ -53,7 +53,7 @@ def test_a_slip_is_not_proved(line):
     assert not all(proof.holds for proof in prove(replace(ROOTS_TRIGONOMETRIC, program=program)))
 
 
-def test_its_roots_are_those_of_the_cubic():
+def test_roots_of_the_trigonometric_formula_are_those_of_the_cubic():
     columns = dict(zip(COLUMNS, rows().T, strict=True))
     values = evaluate(ROOTS_TRIGONOMETRIC.program, FLOAT64, columns)
     three_real = np.flatnonzero(values["delta_27"] > 1e-6 * values["h1_cubed_4"])
@@ -64,7 +64,7 @@ def test_its_roots_are_those_of_the_cubic():
         assert np.allclose(found, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
 
 
-def test_it_answers_as_the_printed_procedure_does():
+def test_the_trigonometric_formula_answers_as_the_printed_procedure_does():
     columns = dict(zip(COLUMNS, rows().T, strict=True))
     by_roots = answers(ROOTS_TRIGONOMETRIC, FLOAT64, columns)
     assert 0 < np.count_nonzero(by_roots) < len(by_roots)
@@ -72,7 +72,7 @@ def test_it_answers_as_the_printed_procedure_does():
 
 
 @pytest.mark.parametrize("wanted", [(1, 2, 5), (-3, -1, 4), (2 + 1j, 2 - 1j, 3), (1e-3, 1, 1e3)])
-def test_sweeps_of_the_root_finder_lead_to_the_roots(wanted):
+def test_repeated_sweeps_of_the_root_finder_converge_to_the_roots(wanted):
     c2, c1, c0 = np.poly(wanted)[1:].real
     starts = [(0.4 + 0.9j) ** power for power in range(3)]
     state = {

@@ -43,16 +43,16 @@ A, B, P, Q = (symbol(name) for name in "ABPQ")
         ("A²·P + B/A", ">", (A, B), (P,), True),
     ],
 )
-def test_signs_are_read_off_the_form(text, relation, positive, nonnegative, shown):
+def test_has_sign_reads_the_sign_off_the_form(text, relation, positive, nonnegative, shown):
     assert has_sign(read(text), relation, positive, nonnegative) is shown
 
 
-def test_a_factor_that_is_no_power_of_a_letter_shows_nothing():
+def test_has_sign_is_false_for_a_factor_that_is_no_power_of_a_letter():
     assert not has_sign(sympy.sin(A) + 2, ">", (A,), ())
     assert not has_sign(sympy.sqrt(A), ">", (A,), ())
 
 
-def test_other_relations_are_refused():
+def test_has_sign_raises_an_error_for_an_unknown_relation():
     with pytest.raises(ValueError, match="none of"):
         has_sign(A, "=", (A,), ())
 
@@ -64,7 +64,7 @@ values = st.fractions(Fraction(1, 9), 9)
 
 
 @given(terms, terms, values, st.fractions(-9, 9), st.one_of(st.just(Fraction(0)), values))
-def test_what_is_shown_is_true_of_numbers(top, bottom, a, b, p):
+def test_signs_that_has_sign_shows_are_true_of_random_numbers(top, bottom, a, b, p):
     """A is above 0, P not below it, and of B nothing is said."""
     numerator, denominator = (
         sum((n * A**i * B**j * P**k for n, i, j, k in part), sympy.Integer(0)) for part in (top, bottom)

@@ -41,7 +41,7 @@ def test_matrices_are_read_as_they_are_shown():
     assert not matrix_identity("S = [1, 0; 0, 1]", sphere).holds
 
 
-def test_a_wrong_pencil_is_seen(monkeypatch):
+def test_a_wrong_pencil_makes_a_section_fail(monkeypatch):
     right = pencil.scaled_cubic()
     monkeypatch.setattr(pencil, "scaled_cubic", lambda: replace(right, c2=right.c2 + pencil.ZC**2))
     assert [section.name for section in walk.walk() if not section.holds] == ["The pencil and its cubic"]

@@ -35,7 +35,7 @@ def test_negative_zero_becomes_zero(column):
     assert math.copysign(1, getattr(pair, column)) == 1
 
 
-def test_the_sign_of_a_position_speaks():
+def test_positions_have_the_signs_that_files_print():
     assert [position.label for position in sorted(Position)] == ["interior", "contact", "exterior"]
 
 

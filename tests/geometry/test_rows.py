@@ -23,7 +23,7 @@ def test_numbers_in_seven_columns_are_rows(values):
     assert rows.flags.c_contiguous
 
 
-def test_rows_that_are_fit_are_not_copied():
+def test_contiguous_float64_rows_are_not_copied():
     rows = np.array([GOOD, GOOD])
     assert as_rows(rows) is rows
 
@@ -41,7 +41,7 @@ def test_rows_that_are_fit_are_not_copied():
         ([[10**400] * 7], "the rows are"),
     ],
 )
-def test_anything_else_is_refused(values, why):
+def test_values_that_are_no_rows_of_seven_numbers_raise_an_error(values, why):
     with pytest.raises(InputError, match=why):
         as_rows(values)
 
@@ -57,5 +57,5 @@ def test_the_first_bad_row_is_named(column, value):
         require_valid(rows)
 
 
-def test_good_rows_are_no_trouble():
+def test_valid_rows_raise_no_error():
     assert first_trouble(np.array([GOOD])) is None
