@@ -1,14 +1,8 @@
-"""The whole answer about one pair: position, kind, clearance and a checked proof; as JSON and as text.
+"""The answer about one pair: position, kind, clearance, and a checked proof; as JSON and as text.
 
-Two oracles are asked about every pair, and an answer is given only where they say the same.
-
-The whole answer about one pair: position, kind, clearance and a checked proof. Loads no numpy.
-
-The exact numbers that check a proof by hand (docs/mathematics.md, "A certificate for every answer").
-
-An answer for a program: one JSON object whose rationals are exact strings, "3/2".
-
-An answer for a person: the position first, then what it means, then how to check it by hand.
+The exact decision and the nearest point are asked about every pair. An answer is given only if they agree and its proof
+holds. The numbers that check a proof by hand are explained in docs/mathematics.md, "A certificate for every answer".
+Loads no numpy.
 """
 
 from __future__ import annotations
@@ -29,7 +23,7 @@ from hypcheck.truth.prove import prove
 
 
 class DisagreementError(HypcheckError):
-    """The exact decision and the nearest point contradict each other about a pair: one of them is wrong."""
+    """The exact decision and the nearest point contradict each other about a pair, so one of them is wrong."""
 
     exit_code = Exit.ORACLES_DISAGREE
 
@@ -37,7 +31,7 @@ class DisagreementError(HypcheckError):
 def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measured: tuple[int, float]) -> None:
     """Raise DisagreementError unless the decision (position, tangent) and the measure (position, clearance) agree.
 
-    They do when the positions are the same and a clearance of 0 means tangency and nothing else.
+    They agree if the positions are equal, and the clearance is 0 exactly for a tangency.
     """
     position, tangent = decided
     if measured[0] == position and (measured[1] == 0) == tangent:
@@ -52,7 +46,13 @@ def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measure
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What is known of a pair: the exact decision, its clearance in spheroid radii, and what proves the decision."""
+    """The answer about a pair.
+
+    pair: the pair that was asked about.
+    decision: its position, tangency and kind, decided in integers.
+    clearance: in spheroid radii, 0 for a tangency, negative where the surfaces cross.
+    certificate: proves the decision, and was checked.
+    """
 
     pair: Pair
     decision: Decision
@@ -61,8 +61,8 @@ class Answer:
 
 
 def answer(pair: Pair) -> Answer:
-    """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict."""
-    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath
+    """Decide, measure and prove. Raises DisagreementError if two oracles disagree, or the proof does not hold."""
+    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath, which replay does without
 
     decision = exact.decide(pair.lengths)
     measured = nearest(pair)
@@ -77,7 +77,7 @@ def answer(pair: Pair) -> Answer:
 
 @dataclass(frozen=True, slots=True)
 class PairSquares:
-    """A = (α/b)², B = (γ/d)², P = (x²+y²)/b², Q = (z/d)²: all that the position depends on."""
+    """A = (α/b)², B = (γ/d)², P = (x²+y²)/b² and Q = (z/d)² of a pair. Its position depends on nothing else."""
 
     A: Fraction
     B: Fraction
@@ -86,7 +86,7 @@ class PairSquares:
 
     @classmethod
     def of(cls, pair: Pair) -> PairSquares:
-        """Those of a pair."""
+        """The four numbers of a pair, exact."""
         alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
         return cls((alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2)
 
@@ -96,19 +96,19 @@ class PairSquares:
         return (A + at) * (B - at) * (P + Q - 1 - at) - A * P * (B - at) - B * Q * (A + at)
 
     def third_root(self, double: Fraction) -> Fraction:
-        """The root of g that is left when `double` is a double one: the three add up to −c2."""
+        """The third root of g, if `double` is a double root: the sum of all three is −c2."""
         return self.B + self.P + self.Q - self.A - 1 - 2 * double
 
 
 def height_of_point(pair: Pair, point: Point) -> Fraction:
-    """h = x²/α² + y²/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
+    """h = (x²+y²)/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
     u, v, w = point
     alpha, gamma = Fraction(pair.alpha), Fraction(pair.gamma)
     return (u * u + v * v) / (alpha * alpha) - (w / gamma) ** 2 - 1
 
 
 def reach_of_point(pair: Pair, point: Point) -> Fraction:
-    """s, the square of a point's distance from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
+    """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
     u, v, w = (
         coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)
     )
@@ -116,7 +116,7 @@ def reach_of_point(pair: Pair, point: Point) -> Fraction:
 
 
 def answer_as_json(answer: Answer) -> str:
-    """The object, on one line. An infinite clearance is the string "inf", for which JSON has no number."""
+    """The answer as one JSON object on one line, rationals as strings such as "3/2", an infinite clearance as "inf"."""
     decision = answer.decision
     return json.dumps(
         {
@@ -131,7 +131,7 @@ def answer_as_json(answer: Answer) -> str:
 
 
 def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """A certificate of what is claimed of a pair, and the numbers that check it."""
+    """A certificate about a pair, and the numbers that check it, as values for JSON."""
     squares = PairSquares.of(pair)
     if certificate.multiplier is not None:
         outside = certificate.position is Position.EXTERIOR
@@ -139,7 +139,7 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
             "by": "multiplier",
             "lambda": exact_text(certificate.multiplier),
             "between": ["0", exact_text(squares.B)] if outside else [exact_text(-squares.A), "0"],
-            **_squares(squares),
+            **_squares_as_json(squares),
             "g": exact_text(squares.g(certificate.multiplier)),
         }
     if certificate.double_root is not None:
@@ -147,61 +147,50 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
             "by": "double root",
             "m": exact_text(certificate.double_root),
             "third_root": exact_text(squares.third_root(certificate.double_root)),
-            **_squares(squares),
+            **_squares_as_json(squares),
         }
-    return {"by": "points", "points": [_point(pair, point) for point in certificate.points]}
+    return {"by": "points", "points": [_point_as_json(pair, point) for point in certificate.points]}
 
 
-def _point(pair: Pair, point: tuple[Fraction, Fraction, Fraction]) -> dict[str, str]:
+def _point_as_json(pair: Pair, point: Point) -> dict[str, str]:
     named = dict(zip(("x", "y", "z"), map(exact_text, point), strict=True))
     return named | {"h": exact_text(height_of_point(pair, point)), "s": exact_text(reach_of_point(pair, point))}
 
 
-def _squares(squares: PairSquares) -> dict[str, str]:
-    return {
-        "A": exact_text(squares.A),
-        "B": exact_text(squares.B),
-        "P": exact_text(squares.P),
-        "Q": exact_text(squares.Q),
-    }
+def _squares_as_json(squares: PairSquares) -> dict[str, str]:
+    return {name: exact_text(getattr(squares, name)) for name in "ABPQ"}
 
 
 def answer_as_text(answer: Answer) -> str:
-    """Several lines, without an end of line after the last."""
-    kind = answer.decision.kind
-    label = answer.decision.position.label
+    """The answer as lines of text, without an end of line after the last: position, clearance, kind, proof."""
+    decision, clearance = answer.decision, answer.clearance
+    radii = f"{repr(clearance).removesuffix('.0')} spheroid {'radius' if clearance == 1 else 'radii'}"
+    proof = proof_lines(answer.pair, answer.certificate)
     lines = [
-        f"{label}, tangent" if answer.decision.tangent else label,
-        f"clearance  {_radii(answer.clearance)} ({_meaning(answer.clearance)})",
-        f"kind       {kind_as_text(kind)}",
-        *_titled("proof", proof_lines(answer.pair, answer.certificate)),
+        decision.position.label + ", tangent" * decision.tangent,
+        f"clearance  {radii} ({_meaning(clearance)})",
+        f"kind       {kind_as_text(decision.kind)}",
+        f"proof      {proof[0]}",
+        *(f"{'':11}{line}" for line in proof[1:]),
     ]
     return "\n".join(lines)
 
 
-def _radii(value: float) -> str:
-    return f"{repr(value).removesuffix('.0')} spheroid {'radius' if value == 1 else 'radii'}"
-
-
 def _meaning(clearance: float) -> str:
     if clearance == float("inf"):
-        return "more than float64 can tell: scaled about its centre by such a factor, the spheroid would just touch"
+        return "too large for float64; scaled about its centre by 1 + clearance, the spheroid would just touch"
     if clearance == -1:
         return "its centre lies on the hyperboloid"
     return "scaled about its centre by 1 + clearance, the spheroid would just touch the hyperboloid"
 
 
-def _titled(title: str, lines: list[str]) -> list[str]:
-    return [f"{title if not index else '':11}{line}" for index, line in enumerate(lines)]
-
-
 def kind_as_text(kind: Kind) -> str:
-    """The name of a kind and what it means, on one line."""
+    """The name of a kind and its meaning, on one line."""
     return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
 
 
 def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
-    """A certificate of what is claimed of a pair, and how to check it by hand."""
+    """A certificate about a pair as lines of text, and how to check it by hand."""
     if certificate.multiplier is not None:
         lines = _by_multiplier(pair, certificate.position, certificate.multiplier)
     elif certificate.double_root is not None:
@@ -243,13 +232,15 @@ def _definitions(squares: PairSquares) -> list[str]:
 
 
 def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
-    on_it = [point for point in points if height_of_point(pair, point) == 0][:1]
-    if on_it:
+    on_hyperboloid = [point for point in points if height_of_point(pair, point) == 0][:1]
+    if on_hyperboloid:
         lines = ["a point of the spheroid (s ≤ 1) lies on the hyperboloid (h = 0):"]
     else:
-        lines = ["two points of the spheroid (s ≤ 1) lie on different sides of the hyperboloid, outside (h > 0) and"]
-        lines.append("inside (h < 0), so the surfaces meet:")
-    for point in on_it or points:
+        lines = [
+            "two points of the spheroid (s ≤ 1) lie on different sides of the hyperboloid, outside (h > 0) and",
+            "inside (h < 0), so the surfaces meet:",
+        ]
+    for point in on_hyperboloid or points:
         h, s = height_of_point(pair, point), reach_of_point(pair, point)
         lines.append(f"({', '.join(map(readable_text, point))}) has s {equals_text(s)} and h {equals_text(h)},")
     lines.append("where h = (x²+y²)/α² − z²/γ² − 1, s = ((x−x₀)²+(y−y₀)²)/b² + (z−z₀)²/d², centre (x₀, y₀, z₀).")

@@ -118,5 +118,7 @@ def _format_of(target: str) -> str:
     if target == "-":
         return _FORMATS[0]
     if end not in _FORMATS:
-        raise InputError(f"--output {target}: its name must end in .json, .csv or .npy, or --format must tell")
+        raise InputError(
+            f"--output {target}: its name must end in .json, .csv or .npy, or --format must name one of them"
+        )
     return end

@@ -1,10 +1,9 @@
-"""`hypcheck classify`: options into one pair or one table, and the answer about it."""
+"""`hypcheck classify`: the answer about one pair, or about every row of a table."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import click
 
@@ -12,24 +11,7 @@ from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Pair
 from hypcheck.tables.numbers import number_of_text
-from hypcheck.tables.streams import FORMATS, Route, route
-
-
-@dataclass(frozen=True, slots=True)
-class OnePair:
-    """The question about a single pair."""
-
-    pair: Pair
-    as_json: bool
-
-
-@dataclass(frozen=True, slots=True)
-class OneTable:
-    """The question about every row of a table."""
-
-    route: Route
-    mark: bool
-
+from hypcheck.tables.streams import FORMATS, route
 
 _HELP = """Say where a spheroid stands to a hyperboloid: exterior, contact (tangency included) or interior.
 
@@ -58,7 +40,9 @@ appears when it is complete, or not at all; standard output is written as the ro
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
 )
 @click.option("--output", "target", metavar="FILE", help="Where its answers go: .csv, .jsonl, .npy, or - .")
-@click.option("--format", "said", type=click.Choice(FORMATS), help="The format of - and of names that do not tell.")
+@click.option(
+    "--format", "said", type=click.Choice(FORMATS), help="The format of - and of names without a known ending."
+)
 @click.option(
     "--on-invalid",
     type=click.Choice(("fail", "flag")),
@@ -76,38 +60,36 @@ def classify(
     said: str | None,
     on_invalid: str | None,
 ) -> None:
-    """Ask about one pair or one table, whichever the options are for."""
+    """Answer about one pair, or about a table if --input names one."""
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
-    alone = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
-    table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
-    if source is None:
-        _refuse(table, "is for tables; name one with --input")
-        answer_pair(OnePair(pair_of(sizes, center), as_json))
-    else:
-        _refuse(alone | {"--center": center is not None}, "is for one pair, and --input for a table; use one of them")
-        answer_table(OneTable(_route(source, target, said), on_invalid == "flag"))
+    for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
+    for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
+    if source is not None:
+        _refuse(
+            for_a_pair | {"--center": center is not None}, "is for one pair, and --input for a table; use one of them"
+        )
+        _answer_table(source, target, said, mark=on_invalid == "flag")
+        return
+    _refuse(for_a_table, "is for tables; name one with --input")
+    from hypcheck.answer import answer, answer_as_json, answer_as_text
+
+    found = answer(_pair_of(sizes, center))
+    click.echo(answer_as_json(found) if as_json else answer_as_text(found))
 
 
-def answer_pair(question: OnePair) -> None:
-    """Print the answer about one pair."""
-    from hypcheck.answer import answer
-
-    found = answer(question.pair)
-    if question.as_json:
-        from hypcheck.answer import answer_as_json
-
-        click.echo(answer_as_json(found))
-    else:
-        from hypcheck.answer import answer_as_text
-
-        click.echo(answer_as_text(found))
+def _refuse(options: dict[str, bool], reason: str) -> None:
+    given = [option for option, is_given in options.items() if is_given]
+    if given:
+        raise InputError(f"{given[0]} {reason}")
 
 
-def answer_table(question: OneTable) -> None:
-    """Write the answers about a table."""
+def _answer_table(source: str, target: str | None, said: str | None, *, mark: bool) -> None:
+    if target is None:
+        raise InputError("--output is missing; name a file for the answers, or - for standard output")
+    way = route(source, target, said)
     from hypcheck.answers import classify_table
 
-    classify_table(question.route, mark=question.mark, watch=_watch)
+    classify_table(way, mark=mark, watch=_watch)
 
 
 @contextmanager
@@ -116,8 +98,8 @@ def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
         yield pace.advance
 
 
-def pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -> Pair:
-    """The pair of the given texts. Raises InputError naming what is missing or no valid number."""
+def _pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -> Pair:
+    """The pair that these texts write. Raises InputError naming what is missing or no valid number."""
     missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
     if len(missing) == len(sizes) + 1:
         raise InputError("nothing to classify; give --alpha --gamma --b --d --center X Y Z, or --input and --output")
@@ -131,17 +113,5 @@ def pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -
 def _number(begin: str, name: str, text: str) -> float:
     try:
         return number_of_text(name, text)
-    except ValueError as trouble:
-        raise InputError(f"{begin}{trouble}") from None
-
-
-def _route(source: str, target: str | None, said: str | None) -> Route:
-    if target is None:
-        raise InputError("--output is missing; name a file for the answers, or - for standard output")
-    return route(source, target, said)
-
-
-def _refuse(options: dict[str, bool], reason: str) -> None:
-    given = [option for option, is_given in options.items() if is_given]
-    if given:
-        raise InputError(f"{given[0]} {reason}")
+    except ValueError as error:
+        raise InputError(f"{begin}{error}") from None

@@ -1,10 +1,7 @@
-"""A chunk of a table: the names of its columns, its rows and their answers, and where a value is invalid.
+"""A chunk of a table: its rows and their answers, the names of its columns, and where an invalid value stands.
 
-The names of a table's columns: the seven that are read, the four that are added, and what is wrong with a header.
-
-What passes between a table's reader, the one who answers, and its writer: a few thousand rows at a time.
-
-The slow and thorough reading of a chunk's values, for when the fast one found something amiss.
+Chunks of some thousand rows pass from a table's reader to the process that answers and on to the writer. Readers check
+a chunk as a whole; if that fails, `read_values` reads it value by value and names the one that is wrong.
 """
 
 from __future__ import annotations
@@ -30,9 +27,9 @@ _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "
 
 
 def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
-    """Raise InputError, beginning with `where`, unless the seven columns are there, once, and none of the added ones.
+    """Raise InputError, beginning with `where`, unless each of the seven columns is there once, and no added one.
 
-    Other names are allowed and passed through, as long as none but the empty one stands twice.
+    Other names are allowed and passed through; none but the empty one may stand twice.
     """
     double = first_double([name for name in names if name])
     if double is not None:
@@ -48,7 +45,7 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 
 
 def first_double(names: Sequence[str]) -> str | None:
-    """The end of a sentence about the first name that stands more than once, or None."""
+    """The end of a sentence about the first name that stands more than once; None if there is none."""
     for name, count in Counter(names).items():
         if count > 1:
             return f"{shown(name)} stands {'twice' if count == 2 else f'{count} times'}; it must stand once"
@@ -56,7 +53,7 @@ def first_double(names: Sequence[str]) -> str | None:
 
 
 def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
-    """What would be right, with the name that was meant where one is near."""
+    """What would be right: the nearest name, if one is near."""
     others = [name for name in names if name not in COLUMNS][:_MOST_COMPARED]
     for wanted in missing:
         for name in others:
@@ -71,17 +68,18 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
 
 
 CHUNK = 8192
-"""Rows at a time: memory stays flat, and the work on a chunk in the cache."""
+"""Rows at a time: memory stays flat, and a chunk fits into the cache."""
 
 LABELS = {int(position): position.label for position in Position} | {REFUSED: "refused"}
 
 
 @dataclass(frozen=True, slots=True)
 class TableChunk:
-    """Rows of a table, float64 (n, 7), and the text of each without its line end (None where the table has no text).
+    """Some rows of a table.
 
-    `refused`, bool (n,), marks rows that are no valid query, whatever numbers stand in them; all False unless marking
-    was asked for.
+    rows: float64 (n, 7); the numbers of a refused row mean nothing.
+    refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
+    texts: the text of each row without its line end; None if the table is no text.
     """
 
     rows: Rows
@@ -89,24 +87,26 @@ class TableChunk:
     texts: list[str] | None
 
 
-Unread: TypeAlias = Callable[[], TableChunk]
-"""A chunk whose values are still to be read, here or in another process. Raises InputError about a row."""
+UnreadChunk: TypeAlias = Callable[[], TableChunk]
+"""Reads the values of a chunk when it is called, here or in another process. Raises InputError about a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table to be read: its chunks, and for text its header (None where it has none) and the end of its lines."""
+    """A table to be read: its chunks, and for CSV its header and the end of its lines."""
 
-    chunks: Iterator[Unread]
+    chunks: Iterator[UnreadChunk]
     header: str | None = None
     line_end: str = "\n"
 
 
 @dataclass(frozen=True, slots=True)
 class TableAnswers:
-    """The answers about a chunk, (n,) each: exact positions int8 (127 marks a refused row), tangency, and clearance.
+    """The answers about a chunk, (n,) each.
 
-    Clearance is in spheroid radii; it and tangency mean nothing in a refused row.
+    positions: exact, int8; 127 marks a refused row, in which the other two mean nothing.
+    tangent: whether the surfaces touch without crossing.
+    clearance: in spheroid radii.
     """
 
     positions: Positions
@@ -116,9 +116,10 @@ class TableAnswers:
 
 @dataclass(frozen=True, slots=True)
 class Sink:
-    """What a table's writer offers while its block lasts.
+    """A table that is being written.
 
-    `render` makes bytes of a chunk and its answers, here or in another process; `add` writes them. Raises InputError.
+    render: makes bytes of a chunk and its answers, here or in another process.
+    add: writes these bytes. Raises InputError.
     """
 
     render: Callable[[TableChunk, TableAnswers], bytes]
@@ -130,28 +131,28 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, slots=True)
 class RowPlaces:
-    """Where the rows of a chunk stand: in which file, after how many rows, on which of its lines (from 1)."""
+    """The places of a chunk's rows: the file, how many rows stand before them, and the line of each, from 1."""
 
     name: str
     rows_before: int
     lines: Sequence[int]
 
     def of(self, index: int) -> str:
-        """How a message names a row of the chunk."""
+        """The place of a row of the chunk, as a message names it."""
         return f"{self.name}, row {self.rows_before + index + 1} (line {self.lines[index]})"
 
 
-def examine(
+def read_values(
     values: Iterable[Sequence[Value]],
     number_of: Callable[[str, Value], float],
     places: RowPlaces,
     *,
     mark: bool,
 ) -> tuple[Rows, NDArray[np.bool_]]:
-    """The rows (n, 7), and which of them are refused, (n,).
+    """The rows (n, 7) of these values, and which of them are refused, (n,).
 
-    `number_of(column, value)` raises ValueError with the end of a sentence that begins with the row's place. Without
-    `mark` the first such row raises InputError; with it the row becomes NaN and is refused.
+    `number_of(column, value)` raises ValueError with the end of a sentence about a value that is wrong. Without `mark`
+    the first such row raises InputError; with it the row is refused, and NaN stands in it.
     """
     rows: list[list[float]] = []
     refused: list[bool] = []

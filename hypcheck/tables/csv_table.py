@@ -1,11 +1,7 @@
 """Comma-separated tables (RFC 4180): seven columns found by name, every row kept as it was written.
 
-The records of a CSV text (RFC 4180), each with the very text that it was written as.
-
-Comma-separated tables: seven columns found by name, every row kept as it was written.
-
-A row's own text goes to the output untouched, with four cells added, so that no other column is changed in anything.
-Blank lines are left out; line ends become those of the header; a byte order mark stays where it was.
+A row's own text goes to the output untouched, with four cells added, so all other columns stay as they are. Blank lines
+are left out; line ends become those of the header; a byte order mark stays.
 """
 
 from __future__ import annotations
@@ -32,16 +28,16 @@ from hypcheck.tables.chunk import (
     Table,
     TableAnswers,
     TableChunk,
-    Unread,
+    UnreadChunk,
     check_names,
-    examine,
+    read_values,
 )
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer
 
 
-class Records:
-    """A CSV text, record by record: `text` and `line` (of its beginning) are those of the record last read."""
+class _Records:
+    """A CSV text, record by record; `text` is the last record as it was written, `line` the line where it begins."""
 
     def __init__(self, reader: Reader) -> None:
         self.name = reader.name
@@ -51,7 +47,7 @@ class Records:
         lines = self._lines.each
         first = next(lines, "")
         self.byte_order_mark = BYTE_ORDER_MARK if first.startswith(BYTE_ORDER_MARK) else ""
-        # The parser runs over one copy of the lines; what it took for a record is then taken from the other.
+        # The parser reads one copy of the lines; the lines that it took for a record are then taken from the other.
         parsed, self._written = tee(chain([first.removeprefix(BYTE_ORDER_MARK)], lines))
         self._parser = csv.reader(parsed, strict=True)
         self._lines_taken = 0
@@ -63,7 +59,7 @@ class Records:
         return self._lines.at_block(self._lines_taken)
 
     def block(self) -> TextBlock | None:
-        """The next records as a block without quotes, in which every line is one; None where they are none."""
+        """A block without quotes, in which every line is a record, if one comes next; else None."""
         block = self._lines.block(self._lines_taken, avoiding=b'"')
         if block is not None:
             self._lines_taken += block.count
@@ -90,7 +86,7 @@ class Records:
 
 
 def _explained(error: str) -> str:
-    """What the csv module's own words mean."""
+    """An error of the csv module in plain words."""
     if "field larger" in error:
         return f"a cell is longer than {csv.field_size_limit()} characters; a quote may have been left open"
     if "unexpected end of data" in error:
@@ -106,7 +102,7 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
     With `mark` a row whose value is no number, or not allowed, is marked as refused; a row with too few or too many
     cells is an error all the same.
     """
-    records = Records(reader)
+    records = _Records(reader)
     header = records.next()
     if header is None:
         raise InputError(f"{reader.name} is empty; it must begin with a line of column names")
@@ -127,10 +123,10 @@ def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
     end = table.line_end
     header = table.header if table.header is not None else ",".join(COLUMNS)
     writer.write(f"{header},{','.join(ADDED)}{end}".encode())
-    yield Sink(partial(_lines, end), writer.write)
+    yield Sink(partial(_render, end), writer.write)
 
 
-def _lines(end: str, chunk: TableChunk, answers: TableAnswers) -> bytes:
+def _render(end: str, chunk: TableChunk, answers: TableAnswers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
     added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
@@ -147,7 +143,7 @@ _CELLS = {
 }
 
 
-def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> Iterator[Unread]:
+def _chunks(records: _Records, width: int, columns: list[int], *, mark: bool) -> Iterator[UnreadChunk]:
     pick = itemgetter(*columns)
     count = 0
     while True:
@@ -179,7 +175,7 @@ def _chunks(records: Records, width: int, columns: list[int], *, mark: bool) -> 
 def _chunk_of_block(
     block: TextBlock, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: RowPlaces, *, mark: bool
 ) -> TableChunk:
-    """Without quotes, what stands between two commas is a cell."""
+    """Read the chunk of a block: without quotes, the text between two commas is a cell."""
     texts = block.plain_lines()
     records = [text.split(",") for text in texts]
     for index, record in enumerate(records):
@@ -191,21 +187,21 @@ def _chunk_of_block(
 def _broken(
     cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, record: list[str], width: int, *, mark: bool
 ) -> NoReturn:
-    """Raise InputError about the first of these rows that is bad, or about the record of another width behind them."""
+    """Raise InputError about the first bad one of these rows, or else about the record of another width after them."""
     _chunk(cells, texts, places, mark=mark)
     noun = "cell" if len(record) == 1 else "cells"
     raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")
 
 
 def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
-    rows = _quickly(cells)
+    rows = _rows_if_valid(cells)
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
-    return TableChunk(*examine(cells, number_of_text, places, mark=mark), texts)
+    return TableChunk(*read_values(cells, number_of_text, places, mark=mark), texts)
 
 
-def _quickly(cells: Sequence[tuple[str, ...]]) -> Rows | None:
-    """The rows where every one is good, else None."""
+def _rows_if_valid(cells: Sequence[tuple[str, ...]]) -> Rows | None:
+    """The rows if all of them are valid, else None."""
     flat = list(chain.from_iterable(cells))
     if "".join(flat).encode().translate(None, CHARACTERS):
         return None

@@ -28,9 +28,9 @@ from hypcheck.tables.chunk import (
     Table,
     TableAnswers,
     TableChunk,
-    Unread,
+    UnreadChunk,
     check_names,
-    examine,
+    read_values,
 )
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer
@@ -49,10 +49,10 @@ def read_jsonl(reader: Reader, *, mark: bool) -> Table:
 @contextmanager
 def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
     """Objects with four keys more: a row's own object where the table has text, else one of its seven numbers."""
-    yield Sink(_lines, writer.write)
+    yield Sink(_render, writer.write)
 
 
-def _lines(chunk: TableChunk, answers: TableAnswers) -> bytes:
+def _render(chunk: TableChunk, answers: TableAnswers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
     added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     clearances = list(map(repr, answers.clearance.tolist()))
@@ -66,28 +66,25 @@ def _lines(chunk: TableChunk, answers: TableAnswers) -> bytes:
 
 
 _KEYS = {
-    (
-        position,
-        tangent,
-    ): f', "position": {position}, "label": "{label}", "tangent": {json.dumps(tangent)}, "clearance": '
+    (position, flag): f', "position": {position}, "label": "{label}", "tangent": {json.dumps(flag)}, "clearance": '
     for position, label in LABELS.items()
-    for tangent in (False, True)
+    for flag in (False, True)
 }
 _REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangent": null, "clearance": null'
 
 
 def _object(row: list[float]) -> str:
-    """The object of seven numbers, null standing for what JSON has no number for (in a refused row)."""
+    """The object of seven numbers; null stands for a number that JSON does not have (in a refused row)."""
     return json.dumps({name: value if isfinite(value) else None for name, value in zip(COLUMNS, row, strict=True)})
 
 
-_FAST, _THOROUGH = strict_decoder(), strict_decoder(Literal)
+_DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
 _PICK = itemgetter(*COLUMNS)
 _BLANKS = " \t\r\n"
 _CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
 
 
-def _chunks(reader: Reader, *, mark: bool) -> Iterator[Unread]:
+def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
     lines, number, count = TextLines(reader), 0, 0
     while True:
         while (block := lines.block(number)) is not None:
@@ -117,17 +114,17 @@ def _chunk_of_block(block: TextBlock, places: RowPlaces, *, mark: bool) -> Table
 
 
 def _chunk(texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
-    rows = _quickly(texts)
+    rows = _rows_if_valid(texts)
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
     values = (_values(text, places.of(index)) for index, text in enumerate(texts))
-    return TableChunk(*examine(values, number_of_json, places, mark=mark), texts)
+    return TableChunk(*read_values(values, number_of_json, places, mark=mark), texts)
 
 
-def _quickly(texts: Sequence[str]) -> Rows | None:
-    """The rows where every one is good, else None."""
+def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
+    """The rows if all of them are valid, else None."""
     try:
-        objects = list(map(_FAST.decode, texts))
+        objects = list(map(_DECODER.decode, texts))
         flat = list(chain.from_iterable(map(_PICK, objects)))
         if not (set(map(type, flat)) <= {float, int} and all(map(_CLEAR_OF_ADDED, objects))):
             return None
@@ -139,9 +136,9 @@ def _quickly(texts: Sequence[str]) -> Rows | None:
 
 
 def _values(text: str, where: str) -> tuple[object, ...]:
-    """The seven values of a line, numbers as Literal or int. Raises InputError where it is no object with them."""
+    """The seven values of a line, numbers as Literal or int. Raises InputError if it is no object that has them."""
     try:
-        row = _THOROUGH.decode(text)
+        row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:
         cut = " (the line may have been cut off)" if error.pos >= len(text) else ""
         raise InputError(f"{where}: not JSON at character {error.pos + 1}: {error.msg.lower()}{cut}") from None

@@ -1,7 +1,7 @@
 """numpy's .npy files: float64 (n, 7) in, int8 (n,) out, read in blocks and never unpickled.
 
-Blocks rather than a memory map: if another process shortens a mapped file the next access kills ours with SIGBUS, and a
-pipe cannot be mapped.
+Files are not mapped into memory: if another process shortens a mapped file, the next access ends this process with
+SIGBUS, and a pipe cannot be mapped.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import Rows, first_trouble, invalid
 from hypcheck.messages import counted
-from hypcheck.tables.chunk import CHUNK, Sink, Table, TableAnswers, TableChunk, Unread
+from hypcheck.tables.chunk import CHUNK, Sink, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.streams import Reader, Writer
 
 WIDTH = len(COLUMNS)
 _COPIED_AT_ONCE = 1 << 20
-_BEYOND = 1 << 63
+_TOO_LONG = 1 << 63
 
 
 def read_npy(reader: Reader, *, mark: bool) -> Table:
@@ -40,7 +40,7 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 @contextmanager
 def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
     """Positions alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
-    # The header comes first and tells the count, which is known last, and an output may be a pipe.
+    # The header comes first and has the count, which is known at the end, and an output may be a pipe.
     with tempfile.TemporaryFile() as file:
         kept, count = Writer(file, "a temporary file"), 0
 
@@ -49,7 +49,7 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
             kept.write(data)
             count += len(data)
 
-        yield Sink(_positions, add)
+        yield Sink(_render, add)
         kept.flush()
         header = {"descr": "|i1", "fortran_order": False, "shape": (count,)}
         npy.write_array_header_1_0(cast("IO[bytes]", writer), header)
@@ -58,13 +58,13 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
             writer.write(block)
 
 
-def _positions(_chunk: TableChunk, answers: TableAnswers) -> bytes:
+def _render(_chunk: TableChunk, answers: TableAnswers) -> bytes:
     return answers.positions.tobytes()
 
 
 @dataclass(frozen=True, slots=True)
 class _NpyLayout:
-    """What a header says: how many rows, in which byte order, by rows or by columns, and where they begin."""
+    """What a header says: the number of rows, their byte order, whether by columns, and where they begin."""
 
     count: int
     type: np.dtype[np.float64]
@@ -73,11 +73,11 @@ class _NpyLayout:
 
 
 def _layout(reader: Reader) -> _NpyLayout:
-    """The layout of a .npy file that holds what is asked for, and all of it. Raises InputError."""
+    """The layout of a .npy file. Raises InputError unless it holds float64 (n, 7), and all of it."""
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
-    if max(map(abs, shape), default=0) >= _BEYOND:  # which could have more digits than Python writes
+    if max(map(abs, shape), default=0) >= _TOO_LONG:  # which could have more digits than Python writes
         raise InputError(f"{reader.name} has a shape beyond 2^63; it must be (n, 7): {', '.join(COLUMNS)}")
     if len(shape) != 2 or shape[1] != WIDTH or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be (n, 7): {', '.join(COLUMNS)}")
@@ -87,29 +87,28 @@ def _layout(reader: Reader) -> _NpyLayout:
     if size is None:
         if by_columns:
             raise InputError(f"{reader.name} is stored by columns, which a stream cannot be read in; use a file")
-        return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, 0)
-    begin = reader.taken
-    _require_length(reader.name, size - begin, shape[0])
-    return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, begin)
+    else:
+        _require_length(reader.name, size - reader.taken, shape[0])
+    return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, reader.taken)
+
+
+_HEADER_READERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
 
 
 def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]]:
     file = cast("IO[bytes]", reader)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # numpy's about headers as Python 2 wrote them, which read as well
+            warnings.simplefilter("ignore")  # about headers that Python 2 wrote, which are valid
             version = npy.read_magic(file)
-            if version == (1, 0):
-                shape, by_columns, stored = npy.read_array_header_1_0(file)
-                return shape, by_columns, stored
-            if version == (2, 0):
-                shape, by_columns, stored = npy.read_array_header_2_0(file)
+            if version in _HEADER_READERS:
+                shape, by_columns, stored = _HEADER_READERS[version](file)
                 return shape, by_columns, stored
     except InputError:
         raise
     except Exception as error:  # noqa: BLE001 - numpy evaluates the header's text, which may hold anything
         reason = str(error).partition("\n")[0] or "it cannot be read"
-        if reason.startswith("malformed node"):  # Python's name for it would be an object at an address
+        if reason.startswith("malformed node"):  # the message names an object and its address
             reason = "it has an expression where a plain value must stand"
         raise InputError(f"{reader.name} is no .npy file, or one cut off in its header: {reason}") from None
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
@@ -119,18 +118,18 @@ def _require_length(name: str, size: int, count: int) -> None:
     """Raise InputError unless `size` bytes are `count` rows."""
     needed = count * WIDTH * 8
     if size < needed:
-        have = size // (WIDTH * 8)
-        raise InputError(_cut_off(name, count, have))
+        raise _cut_off(name, count, size // (WIDTH * 8))
     if size > needed:
         more = f"for {counted(size - needed, 'byte')} after its {counted(count, 'row')}"
         raise InputError(f"{name} goes on {more}; it must hold one array")
 
 
-def _cut_off(name: str, count: int, have: int) -> str:
-    return f"{name} is cut off: its header says {counted(count, 'row')}, and the data ends after {have} of them"
+def _cut_off(name: str, count: int, have: int) -> InputError:
+    says = f"its header says {counted(count, 'row')}, and the data ends after {have} of them"
+    return InputError(f"{name} is cut off: {says}")
 
 
-def _chunks(reader: Reader, layout: _NpyLayout, *, mark: bool) -> Iterator[Unread]:
+def _chunks(reader: Reader, layout: _NpyLayout, *, mark: bool) -> Iterator[UnreadChunk]:
     for start in range(0, layout.count, CHUNK):
         rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
         yield partial(_chunk, rows, reader.name, start + 1, mark=mark)
@@ -146,15 +145,14 @@ def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> TableChunk:
 
 
 def _rows(reader: Reader, layout: _NpyLayout, start: int, count: int) -> Rows:
-    """Rows `start` to `start + count`. Raises InputError where they end too early."""
+    """Rows `start` to `start + count`. Raises InputError if they end too early."""
     if layout.by_columns:
         places = [layout.begin + 8 * (column * layout.count + start) for column in range(WIDTH)]
         data = b"".join(reader.read_at(place, 8 * count) for place in places)
     else:
         data = reader.read(8 * WIDTH * count)
     if len(data) != 8 * WIDTH * count:
-        have = start + len(data) // (8 * WIDTH)
-        raise InputError(_cut_off(reader.name, layout.count, have))
+        raise _cut_off(reader.name, layout.count, start + len(data) // (8 * WIDTH))
     values = np.frombuffer(data, dtype=layout.type)
     rows = values.reshape(WIDTH, count).T if layout.by_columns else values.reshape(count, WIDTH)
     return np.ascontiguousarray(rows, dtype=np.float64)

@@ -1,14 +1,9 @@
-"""Numbers as text: read by the same rules everywhere; written as decimals, hexadecimal floats and rationals.
+"""Numbers as text: read by the same rules on the command line and in every table, and written so that nothing is lost.
 
-One number from a person's text or a JSON value, by the same rules on the command line and in every table.
-
-A number is decimal: an optional sign, ASCII digits with an optional point, an optional exponent, blanks around it. It
-is rounded to the nearest float64, as every reader of decimals does. Python's float() takes more ("1_000", digits of
-other scripts, "infinity"); none of that is a number here.
-
-Exact rationals as text.
-
-How vector files write numbers: shortest decimals, hexadecimal floats as C prints them, rationals as "p/q".
+A number in text is decimal: an optional sign, ASCII digits with an optional point, an optional exponent, blanks around
+it. It is rounded to the nearest float64, as every reader of decimals does. Python's float() takes more ("1_000", digits
+of other scripts, "infinity"); none of that is a number here. Rationals are written exactly as "p/q", or for a reader to
+17 digits. Vector files hold shortest decimals, hexadecimal floats as C prints them, and rationals.
 """
 
 from __future__ import annotations
@@ -23,18 +18,18 @@ from hypcheck.geometry.pair import SIZES, trouble_with
 from hypcheck.messages import escaped
 
 CHARACTERS = b"0123456789+-.eE \t"
-"""All that a number is written with: text of these alone that float() accepts is a number by the rules above."""
+"""The characters of numbers: text of these alone that float() accepts is a number by the rules above."""
 
 LONGEST_SHOWN = 40
 _DECIMAL = re.compile(r"[ \t]*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?[ \t]*", re.ASCII)
-"""Of digits in one group alone, or the time to refuse them would grow with the square of their number."""
+"""Digits are matched by one group alone, or the time to refuse them would grow with the square of their number."""
 _NOT_ZERO = re.compile(r"^[^eE]*[1-9]")
 """A digit other than 0 before the exponent."""
 _UNBOUNDED = re.compile(r"\s*[+-]?(nan|inf|infinity)\s*", re.ASCII | re.IGNORECASE)
 
 
 def number_of_text(name: str, text: str) -> float:
-    """The float64 nearest to `text`, valid in column `name`. Raises ValueError, the end of a sentence that says why."""
+    """The float64 nearest to `text`, valid in column `name`. Raises ValueError, a sentence about `name`."""
     if not text.strip():
         raise ValueError(f"{name} is empty; it must be a number")
     if _UNBOUNDED.fullmatch(text):
@@ -50,7 +45,7 @@ def is_number(text: str) -> bool:
 
 
 class Literal(float):
-    """A JSON number that remembers its text: 1e999 is not to be called inf in a message."""
+    """A JSON number that keeps its text, so that a message says 1e999 and not inf."""
 
     text: str
 
@@ -85,23 +80,26 @@ def _valid(name: str, number: float, text: str) -> float:
 
 
 def shown(text: str, *, quoted: bool = True) -> str:
-    """`text` as a message shows it: on one line, quoted, and cut where it is long."""
+    """`text` as a message shows it: on one line, quoted unless `quoted` is false, and cut if it is long."""
     cut = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"
     return repr(cut) if quoted else escaped(cut)
 
 
 def shown_json(value: object) -> str:
-    """A JSON value as a message shows it: as JSON writes it, cut where it is long."""
+    """A JSON value as a message shows it: as JSON writes it, cut if it is long."""
     text = value.text if isinstance(value, Literal) else json.dumps(value, ensure_ascii=False, default=repr)
     return shown(text, quoted=False)
 
 
-_SHORT = 24
-_DIGITS = Context(prec=17, Emin=-(10**6), Emax=10**6)
-_BITS = 10_000
-_DIGITS_WRITTEN = (
-    3_000  # 10**_PLACES has fewer bits than _BITS, and Python writes no integer of more than 4300 digits by itself
-)
+_LONGEST_EXACT = 24
+_SEVENTEEN_DIGITS = Context(prec=17, Emin=-(10**6), Emax=10**6)
+_DIRECT_BITS = 10_000
+_PIECE_DIGITS = 3_000
+"""Python writes and reads no integer of more than 4300 digits by itself, so a longer one goes by pieces.
+
+10**3000 has 9966 bits, fewer than _DIRECT_BITS, so the high piece of a longer integer is never 0.
+"""
+_PIECE: int = 10**_PIECE_DIGITS
 
 
 def exact_text(value: Fraction) -> str:
@@ -111,14 +109,17 @@ def exact_text(value: Fraction) -> str:
 
 
 def readable_text(value: Fraction) -> str:
-    """`value` for a person: exact where that is short, else to 17 digits with a sign that it was rounded."""
-    if value.numerator.bit_length() + value.denominator.bit_length() < 4 * _SHORT and len(exact_text(value)) <= _SHORT:
+    """`value` for a reader: exact if that is short, else to 17 digits after a sign that it is rounded."""
+    if (
+        value.numerator.bit_length() + value.denominator.bit_length() < 4 * _LONGEST_EXACT
+        and len(exact_text(value)) <= _LONGEST_EXACT
+    ):
         return exact_text(value)
-    return f"≈ {_DIGITS.divide(Decimal(value.numerator), Decimal(value.denominator))}"
+    return f"≈ {_SEVENTEEN_DIGITS.divide(Decimal(value.numerator), Decimal(value.denominator))}"
 
 
 def equals_text(value: Fraction) -> str:
-    """`value` after an equals sign: "= 3/2", or "≈ 0.33333333333333333" where it is rounded."""
+    """`value` after an equals sign: "= 3/2", or "≈ 0.33333333333333333" if it is rounded."""
     text = readable_text(value)
     return text if text.startswith("≈") else f"= {text}"
 
@@ -126,19 +127,16 @@ def equals_text(value: Fraction) -> str:
 def _integer_text(number: int) -> str:
     if number < 0:
         return "-" + _integer_text(-number)
-    if number.bit_length() < _BITS:
+    if number.bit_length() < _DIRECT_BITS:
         return str(number)
-    high, low = divmod(number, 10**_DIGITS_WRITTEN)
-    return _integer_text(high) + str(low).zfill(_DIGITS_WRITTEN)
+    high, low = divmod(number, _PIECE)
+    return _integer_text(high) + str(low).zfill(_PIECE_DIGITS)
 
 
 _ZEROS = re.compile(r"\.?0+(?=p)")
 _RATIONAL = re.compile(r"(-?)(0|[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _LONGEST_RATIONAL = 100_000
 """Characters of a rational. Shipped ones have 1,236 at most; reading takes a time that grows with the square."""
-_DIGITS_READ = 4000
-_SHIFT: int = 10**_DIGITS_READ
-"""Python turns no text of more than 4300 digits into an integer by itself, so a longer one goes by pieces."""
 
 
 def decimal_of(value: float) -> str:
@@ -147,14 +145,14 @@ def decimal_of(value: float) -> str:
 
 
 def hex_of(value: float) -> str:
-    """`value` exactly, as C's %a has it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
+    """`value` exactly, as C's %a writes it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
     return _ZEROS.sub("", value.hex())
 
 
 def is_shortest(number: float | int) -> bool:
     """Whether a number read from a file (Literal or int) has the digits of the shortest decimal of its float64.
 
-    Notation is free, so that 2, 2.0 and 20e-1 are the same; a digit too many or too few is not.
+    Notation is free: 2, 2.0 and 20e-1 are all right. A digit too many or too few is not.
     """
     text = number.text if isinstance(number, Literal) else str(number)
     try:
@@ -163,7 +161,7 @@ def is_shortest(number: float | int) -> bool:
         return False
     try:
         return math.isfinite(value) and Decimal(text) == Decimal(repr(value))
-    except InvalidOperation:  # of a zero, or what rounds to it, with an exponent that even Decimal cannot hold
+    except InvalidOperation:  # a zero, or what rounds to it, with an exponent too large even for Decimal
         return False
 
 
@@ -182,6 +180,6 @@ def rational_of(text: str) -> Fraction:
 
 
 def _integer_of(digits: str) -> int:
-    if len(digits) <= _DIGITS_READ:
+    if len(digits) <= _PIECE_DIGITS:
         return int(digits)
-    return _integer_of(digits[:-_DIGITS_READ]) * _SHIFT + int(digits[-_DIGITS_READ:])
+    return _integer_of(digits[:-_PIECE_DIGITS]) * _PIECE + int(digits[-_PIECE_DIGITS:])

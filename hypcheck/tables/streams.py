@@ -1,14 +1,9 @@
-"""Files by name: their format, binary input and output, UTF-8 text by lines. Every error names the file.
+"""Files by name: the formats of tables, binary input and output, UTF-8 text by lines. Every error names the file.
 
-From which file to which, and the format of each: by its name, or by the caller's word where the name is silent.
-
-Binary input and output with a name: whatever the system refuses becomes one sentence that says which file it was.
-
-An output file is written beside its target and takes the target's place only when everything is in it: after an error
-nothing is left behind, and what stood there before stands there still. Devices and pipes cannot be replaced and are
-written as they are. A pipe closed by its reader is no error of ours: BrokenPipeError passes through.
-
-UTF-8 text by lines, at a block's cost rather than a line's, with the line's number in every complaint.
+An output file is written beside its target and takes the target's place when it is complete. After an error nothing is
+left behind, and the target is as before. Devices and pipes cannot be replaced and are written directly. A pipe closed
+by its reader is no error of hypcheck: BrokenPipeError passes through. Text is read by blocks, for speed, and errors
+still name the line.
 """
 
 from __future__ import annotations
@@ -34,7 +29,7 @@ FORMATS = ("csv", "jsonl", "npy")
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """A table's file and its format, and those of its answers; "-" for the standard streams."""
+    """The file of a table and its format, and those of its answers; "-" means a standard stream."""
 
     source: str
     source_format: str
@@ -43,19 +38,21 @@ class Route:
 
 
 def route(source: str, target: str, said: str | None) -> Route:
-    """The route from `source` to `target`, `said` being the format of those whose names do not tell.
+    """The route from `source` to `target`; `said` is the format of names without a known ending.
 
-    Raises InputError where a format is unknown, or the two do not go together: text keeps its format, .npy becomes
-    any, and anything becomes .npy (positions alone).
+    Raises InputError if a format is unknown, or the two do not fit: text keeps its format, .npy becomes any, and any
+    becomes .npy (positions alone).
     """
-    source_format = _of_name(source) or said
+    source_format = _format_of_name(source) or said
     if source_format is None:
         raise InputError(
-            f"--input {source}: its name tells no format; say --format {', '.join(FORMATS[:-1])} or {FORMATS[-1]}"
+            f"--input {source}: its name must end in .csv, .jsonl or .npy, or --format must name one of them"
         )
-    target_format = _of_name(target) or said or (source_format if target == STREAM else None)
+    target_format = _format_of_name(target) or said or (source_format if target == STREAM else None)
     if target_format is None:
-        raise InputError(f"--output {target}: its name must end in .csv, .jsonl or .npy, or --format must tell")
+        raise InputError(
+            f"--output {target}: its name must end in .csv, .jsonl or .npy, or --format must name one of them"
+        )
     if said is not None and said not in (source_format, target_format):
         raise InputError(f"--format {said} contradicts the names {source} and {target}; leave it out")
     if source_format != target_format and "npy" not in (source_format, target_format):
@@ -66,7 +63,7 @@ def route(source: str, target: str, said: str | None) -> Route:
     return Route(source, source_format, target, target_format)
 
 
-def _of_name(path: str) -> str | None:
+def _format_of_name(path: str) -> str | None:
     end = os.path.splitext(path)[1].lower().removeprefix(".")
     return end if path != STREAM and end in FORMATS else None
 
@@ -81,28 +78,28 @@ class Reader:
         """How many bytes have been read."""
 
     def read(self, size: int = -1) -> bytes:
-        """Up to `size` bytes, fewer at the end alone. Raises InputError."""
-        with _blamed("read", self.name):
+        """The next `size` bytes, fewer only at the end. Raises InputError."""
+        with _errors_name("read", self.name):
             data = self._file.read(size)
         self.taken += len(data)
         return data
 
     def read_at(self, offset: int, size: int) -> bytes:
-        """`size` bytes from a place in a file (see `size`). Raises InputError."""
-        with _blamed("read", self.name):
+        """`size` bytes from a place in a regular file. Raises InputError."""
+        with _errors_name("read", self.name):
             self._file.seek(offset)
         return self.read(size)
 
     def line(self, most: int) -> bytes:
-        """The next line with its end, or the first `most` bytes of it; nothing at the end. Raises InputError."""
-        with _blamed("read", self.name):
+        """The next line with its end, or the first `most` bytes of it; b"" at the end. Raises InputError."""
+        with _errors_name("read", self.name):
             data = self._file.readline(most)
         self.taken += len(data)
         return data
 
     def size(self) -> int | None:
         """The length of a regular file in bytes; None for a stream."""
-        with _blamed("read", self.name):
+        with _errors_name("read", self.name):
             status = os.fstat(self._file.fileno())
         return status.st_size if stat.S_ISREG(status.st_mode) else None
 
@@ -116,12 +113,12 @@ class Writer:
 
     def write(self, data: bytes) -> None:
         """Write all of `data`. Raises InputError."""
-        with _blamed("write", self.name):
+        with _errors_name("write", self.name):
             self._file.write(data)
 
     def flush(self, *, to_disk: bool = False) -> None:
-        """Hand over what is buffered, to the disk itself where asked for. Raises InputError."""
-        with _blamed("write", self.name):
+        """Write what is buffered, with `to_disk` to the disk itself. Raises InputError."""
+        with _errors_name("write", self.name):
             self._file.flush()
             if to_disk:
                 os.fsync(self._file.fileno())
@@ -129,12 +126,12 @@ class Writer:
 
 @contextmanager
 def reading(path: str) -> Iterator[Reader]:
-    """The file at `path`, or standard input for "-". Raises InputError where it cannot be opened."""
+    """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened."""
     if path == STREAM:
         yield Reader(_binary(sys.stdin, "standard input"), "standard input")
         return
-    with _blamed("read", path):
-        file = open(path, "rb")  # noqa: SIM115 - opening alone is blamed on the path, not what the caller does with it
+    with _errors_name("read", path):
+        file = open(path, "rb")  # noqa: SIM115 - only errors of opening name the path, not those of the caller's block
     with file:
         yield Reader(file, path)
 
@@ -143,19 +140,19 @@ def reading(path: str) -> Iterator[Reader]:
 def writing(path: str, *, follow: bool = True) -> Iterator[Writer]:
     """A new file that takes the place of `path` when the block ends well; standard output for "-".
 
-    Raises InputError where it cannot be written. A link is followed, and a device or pipe written as it is, unless
-    `follow` is false: such a name is ours and not the user's, and the new file takes its place. An existing file's mode
-    is kept.
+    Raises InputError if it cannot be written. A link is followed, and a device or pipe written directly, unless
+    `follow` is false: then the name is one that hypcheck chose, and the new file replaces what is there. The mode of an
+    existing file is kept.
     """
     if path == STREAM:
         writer = Writer(_binary(sys.stdout, "standard output"), "standard output")
         yield writer
         writer.flush()
         return
-    with _blamed("write", path):
+    with _errors_name("write", path):
         mode = _mode(path) if follow else _mode_to_replace(path)
     if mode is not None and not stat.S_ISREG(mode):
-        with _blamed("write", path):
+        with _errors_name("write", path):
             device = open(path, "wb")  # noqa: SIM115 - as above
         with device:
             writer = Writer(device, path)
@@ -170,12 +167,12 @@ def same_file(first: str, second: str) -> bool:
     """Whether two paths lead to one existing regular file."""
     try:
         return os.path.isfile(first) and os.path.samefile(first, second)
-    except (OSError, ValueError):  # what is wrong with the name is said where it is opened
+    except (OSError, ValueError):  # opening the file reports what is wrong with its name
         return False
 
 
 def _binary(stream: TextIO | None, name: str) -> BinaryIO:
-    if stream is None:  # as Python has it where the descriptor is closed
+    if stream is None:  # Python does this if the descriptor is closed
         raise InputError(f"{name} is closed")
     return stream.buffer
 
@@ -183,14 +180,14 @@ def _binary(stream: TextIO | None, name: str) -> BinaryIO:
 @contextmanager
 def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
     beside = os.path.join(os.path.dirname(target), f".hypcheck-{secrets.token_hex(8)}")
-    with _blamed("write", path):
+    with _errors_name("write", path):
         handle = os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
     try:
         with os.fdopen(handle, "wb") as file:
             writer = Writer(file, path)
             yield writer
             writer.flush(to_disk=True)
-        with _blamed("write", path):
+        with _errors_name("write", path):
             if mode is not None:
                 os.chmod(beside, stat.S_IMODE(mode))
             os.replace(beside, target)
@@ -201,7 +198,7 @@ def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
 
 
 def _mode(path: str) -> int | None:
-    """The mode of what is at `path`, None where nothing is. Raises OSError where it may not be written."""
+    """The mode of the file at `path`, None if there is none. Raises OSError if it may not be written."""
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
@@ -214,17 +211,17 @@ def _mode(path: str) -> int | None:
 
 
 def _mode_to_replace(path: str) -> int | None:
-    """The mode of a regular file at `path`, None where nothing is or what a new file replaces. Raises OSError."""
+    """The mode of a regular file at `path`, None if a new file may take the place. Raises OSError."""
     try:
         linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
-    except ValueError:  # what is wrong with the name is said where it is opened
+    except ValueError:  # opening the file reports what is wrong with its name
         return None
     return None if linked else _mode(path)
 
 
 @contextmanager
-def _blamed(verb: str, name: str) -> Iterator[None]:
-    """Turn what the system refuses into a sentence about the file `name`."""
+def _errors_name(verb: str, name: str) -> Iterator[None]:
+    """Turn an error of the system into a sentence about the file `name`."""
     try:
         yield
     except BrokenPipeError:
@@ -238,7 +235,7 @@ def _blamed(verb: str, name: str) -> Iterator[None]:
 
 BLOCK = 1 << 20
 LONGEST = 1 << 20
-"""Bytes of a line: a longer one is no row of eleven cells, and memory stays flat."""
+"""Bytes of a line, at most: a row of a table is shorter, and memory stays flat."""
 
 BYTE_ORDER_MARK = "\ufeff"
 
@@ -247,18 +244,18 @@ _LONGEST_PLAIN = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class TextBlock:
-    """Some whole lines of a text, the first of which has this number."""
+    """Some whole lines of a text; `first` is the number of the first one."""
 
     first: int
     data: bytes
 
     @property
     def count(self) -> int:
-        """How many lines they are; the last of a text may have no end."""
+        """The number of lines; the last of a text may have no end."""
         return self.data.count(b"\n") + (not self.data.endswith(b"\n"))
 
     def is_plain(self, avoiding: bytes) -> bool:
-        """Whether every line is short, ASCII, and does not begin as a blank one, and none of these bytes is in them."""
+        """Whether every line is short, ASCII, does not begin with a blank, and has none of these bytes."""
         data = self.data
         if not data.isascii() or b"\0" in data or (avoiding and avoiding in data):
             return False
@@ -274,7 +271,7 @@ class TextBlock:
 
 
 class TextLines:
-    """A text by lines: one after the other, or where a block begins, if it is plain, the block as a whole."""
+    """A text by lines: one after the other, or where a block begins, and if it is plain, the whole block."""
 
     def __init__(self, reader: Reader) -> None:
         self._name = reader.name
@@ -288,11 +285,11 @@ class TextLines:
         """
 
     def at_block(self, taken: int) -> bool:
-        """Whether a block begins, or the text ends, behind the first `taken` lines."""
+        """Whether a block begins, or the text ends, after the first `taken` lines."""
         return taken == self._given
 
     def block(self, taken: int, avoiding: bytes = b"") -> TextBlock | None:
-        """The next block, if `taken` lines are all before it, and it is plain. Raises InputError as `each` does."""
+        """The next block, if `taken` lines stand before it, and it is plain; else None. Raises InputError."""
         if not self.at_block(taken):
             return None
         if self._ahead is None:
@@ -311,7 +308,7 @@ class TextLines:
 
 
 def text_lines(reader: Reader) -> Iterator[str]:
-    """The lines of a text, as Lines has each."""
+    """The lines of a text, as TextLines.each gives them."""
     return TextLines(reader).each
 
 

@@ -1,13 +1,8 @@
-"""JSON read strictly: keys stand once, numbers are finite, members are known, and errors name the line.
+"""JSON read strictly: a key stands once, every number is finite, an object has known members, and errors name the line.
 
-JSON read strictly: a key stands once, every number is finite JSON, and an object has the members it may have.
-
-Python's own reader takes the last of two equal keys and accepts NaN, and readers disagree about both.
-
-A JSON document with a list of cases, read strictly, each part with the line it stands on.
-
-Python's own reader takes 1e999 for infinity and forgets where a value stood. Here every number is finite and keeps its
-text, and every message names a line.
+Python's own reader takes the last of two equal keys, accepts NaN, takes 1e999 for infinity, and forgets where a value
+stood. A document with a list of cases is read part by part, each with the line where it begins, numbers with their
+text.
 """
 
 from __future__ import annotations
@@ -24,7 +19,7 @@ from hypcheck.tables.numbers import Literal, shown, shown_json
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, reading, text_lines
 
 _LONGEST_INTEGER = 400
-"""Digits of what is still made an int; more are beyond float64 anyway, and Python refuses to convert some of them."""
+"""Digits of an integer that is read as int; more are beyond float64, and beyond 4300 Python refuses them."""
 
 
 def refused_constant(text: str) -> NoReturn:
@@ -35,10 +30,10 @@ def refused_constant(text: str) -> NoReturn:
 def strict_decoder(
     number: Callable[[str], float] | None = None, constant: Callable[[str], float] = refused_constant
 ) -> json.JSONDecoder:
-    """A decoder that raises ValueError, the end of a sentence, on what is not strict JSON.
+    """A decoder that raises ValueError, the end of a sentence, about text that is not strict JSON.
 
-    `number`, where given, makes a number of its text, but for integers of ordinary length; `constant` one of NaN,
-    Infinity and -Infinity.
+    `number`, if given, makes a number of its text, except for integers of ordinary length; `constant` makes a number of
+    NaN, Infinity and -Infinity.
     """
     if number is None:
         return json.JSONDecoder(object_pairs_hook=_members, parse_constant=constant)
@@ -59,9 +54,9 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def object_of(
     value: object, what: str, names: Sequence[str], required: Sequence[str] | None = None
 ) -> Mapping[str, Any]:
-    """The value, once it is known to be an object with `required` members (None: all of `names`) and no others.
+    """The value, if it is an object with the `required` members (None: all of `names`) and none but `names`.
 
-    Raises InputError, beginning with `what`.
+    Raises InputError, beginning with `what`, if it is not.
     """
     if not isinstance(value, Mapping):
         raise InputError(f"{what} is {shown_json(value)}; it must be an object with {', '.join(names)}")
@@ -76,14 +71,14 @@ def object_of(
 
 CASES = "cases"
 LARGEST = 256 << 20
-"""Bytes of a document, which is held in memory: two hundred thousand cases, or the beginning of a pipe without end."""
+"""Bytes of a document, which is held in memory: two hundred thousand cases."""
 
 _BLANKS = re.compile(r"[ \t\n\r]*")
 
 
 @dataclass(frozen=True, slots=True)
 class JsonPlace:
-    """Where something stands, for messages: a file, a line of it, and the id of a case."""
+    """A place, as messages name it: a file, a line of it, and the id of a case."""
 
     file: str
     line: int
@@ -96,21 +91,21 @@ class JsonPlace:
 
 @dataclass(frozen=True, slots=True)
 class JsonDocument:
-    """The members of a document but for its cases, and these, each with its place."""
+    """A document: its members except the cases, and the cases, each with its place."""
 
     members: Mapping[str, tuple[JsonPlace, Any]]
     cases: tuple[tuple[JsonPlace, Any], ...]
 
 
 def read_document(path: str) -> JsonDocument:
-    """The document in the file at `path` ("-" is standard input). Raises InputError where it is none."""
+    """The document in the file at `path` ("-" is standard input). Raises InputError if it is none."""
     with reading(path) as reader:
         text = "".join(_bounded(reader))
         return _JsonScanner(text.removeprefix(BYTE_ORDER_MARK), reader.name).document()
 
 
 def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -> tuple[Any, ...]:  # noqa: ANN401 - JSON
-    """The members of an object that has these and no others, in the order of `names`. Raises InputError."""
+    """The members of an object that has exactly `names`, in their order. Raises InputError."""
     members = object_of(value, f"{place}: {what}", names)
     return tuple(members[name] for name in names)
 
@@ -123,7 +118,7 @@ def _bounded(reader: Reader) -> Iterator[str]:
 
 
 class _JsonScanner:
-    """A place in a text that moves on as parts of the document are read."""
+    """Reads a document from its text, part by part, and knows the line of each."""
 
     def __init__(self, text: str, name: str) -> None:
         self._text = text
@@ -176,7 +171,7 @@ class _JsonScanner:
         return value
 
     def _more(self, end: str) -> bool:
-        """Whether a comma, and not the end, follows."""
+        """Whether a comma follows, and not the end of the list or object."""
         found = self._peek()
         if found not in (",", end) or not found:
             raise self._not_json(self._at, f"expecting ',' or '{end}'")
@@ -191,7 +186,7 @@ class _JsonScanner:
         self._peek()
 
     def _peek(self) -> str:
-        """The next character that is no blank, "" at the end."""
+        """The next character that is no blank; "" at the end."""
         blanks = _BLANKS.match(self._text, self._at)
         self._at = blanks.end() if blanks else self._at
         return self._text[self._at : self._at + 1]

@@ -1,4 +1,4 @@
-"""`hypcheck classify` about one pair: the answer, its proof checked anew from the printed numbers, and bad options."""
+"""`hypcheck classify` about one pair: the answer, its proof checked from the printed numbers, and bad options."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def options(*row: object) -> list[str]:
     return ["classify", "--alpha", alpha, "--gamma", gamma, "--b", b, "--d", d, "--center", *center]
 
 
-# By hand. The waist is the unit circle or one of radius 4; a unit ball's distance from it is what is left to the eye.
+# By hand. The waist is a circle of radius 1 or 4, and the distance of a unit ball from it is seen at once.
 KNOWN = {
     (1, 2, 1, 1, 2.5, 0, 0): ("exterior", 1, False, 0.5),
     (1, 2, 1, 1, 2, 0, 0): ("contact", 0, True, 0.0),
@@ -37,7 +37,7 @@ KNOWN = {
 
 
 @pytest.mark.parametrize(("row", "known"), KNOWN.items())
-def test_the_answer_is_what_a_hand_computes(row, known, capsys):
+def test_the_answer_equals_one_computed_by_hand(row, known, capsys):
     label, position, tangent, clearance = known
     assert main([*options(*row), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -69,7 +69,7 @@ def test_the_printed_proof_of_the_readme_example(capsys):
 
 
 def check_printed_proof(pair: Pair, printed: dict) -> None:
-    """Everything claimed, from the definitions and the printed strings alone."""
+    """Check everything claimed, from the definitions and the printed strings alone."""
     alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
     proof = {name: number(value) for name, value in printed["proof"].items() if isinstance(value, str) and name != "by"}
     if printed["proof"]["by"] == "points":
@@ -125,8 +125,8 @@ def test_every_proof_can_be_checked_from_what_is_printed(pair):
 
 
 @pytest.mark.parametrize("row", [(4, 10, 1, 1, 3, 4, 1e-160), (1, 1, 3, 1, 4, 1e-160, 0), (1, 2, 1, 1, 2, 0, 0)])
-def test_a_false_proof_would_be_noticed(row):
-    """The check above is no formality: change any printed number a little, and it fails."""
+def test_a_printed_proof_with_one_changed_number_fails_the_check(row):
+    """The check above sees every number: change one, and it fails."""
     pair = Pair.from_row(map(float, row))
     proof = json.loads(answer_as_json(answer(pair)))
     for name, value in proof["proof"].items():
@@ -138,20 +138,20 @@ def test_a_false_proof_would_be_noticed(row):
 
 
 @pytest.mark.parametrize("power", [10, 2999, 3000, 3001, 4301, 12_345])
-def test_integers_are_written_whatever_their_length(power):
+def test_integers_of_any_length_are_written_exactly(power):
     for value in (10**power, 10**power - 1, -(7**power)):
         assert number(exact_text(Fraction(value))) == value
         assert number(exact_text(Fraction(value, 3**power))) == Fraction(value, 3**power)
         assert len(readable_text(Fraction(value, 3))) < 40
 
 
-def test_what_is_rounded_says_so():
+def test_a_rounded_number_is_marked():
     assert readable_text(Fraction(25, 4)) == "25/4"
     assert readable_text(Fraction(1, 3) ** 80).startswith("≈ 6.765")
 
 
 @pytest.mark.parametrize("left_out", ["--alpha", "--gamma", "--b", "--d", "--center"])
-def test_a_missing_option_is_named(left_out, capsys):
+def test_a_missing_option_is_refused_by_name(left_out, capsys):
     words = options(1, 2, 1, 1, 2.5, 0, 0)
     place = words.index(left_out)
     del words[place : place + (4 if left_out == "--center" else 2)]
@@ -174,7 +174,7 @@ def test_a_missing_option_is_named(left_out, capsys):
         (("", 2, 1, 1, 0, 0, 0), "--alpha is empty; it must be a number"),
     ],
 )
-def test_a_bad_number_is_named_with_what_would_be_right(row, sentence, capsys):
+def test_a_bad_number_is_refused_naming_the_option_and_what_would_be_right(row, sentence, capsys):
     assert main(options(*row)) == 2
     assert capsys.readouterr().err == f"hypcheck: error: {sentence}\n"
 

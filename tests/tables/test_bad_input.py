@@ -1,5 +1,5 @@
-"""Bad tables: exit 2, one message that names file, row, column and value, nothing left behind."""
-# ruff: noqa: E501 - each table stands on one line with what is said of it
+"""Bad tables: exit 2, one message that names file, row, column and value, and no output."""
+# ruff: noqa: E501 - each table stands on one line with its message
 
 from __future__ import annotations
 
@@ -83,11 +83,11 @@ CSV = {
 
 
 @pytest.mark.parametrize(("text", "sentence"), CSV.items(), ids=range(len(CSV)))
-def test_csv(text, sentence, tmp_path, capsys):
+def test_bad_csv_is_named_by_line_row_and_value(text, sentence, tmp_path, capsys):
     assert message(tmp_path, capsys, "in.csv", text.encode()) == sentence
 
 
-def test_bad_csv_beyond_the_first_chunk_is_found_by_its_own_number(tmp_path, capsys):
+def test_bad_csv_beyond_the_first_chunk_is_named_by_its_row_in_the_file(tmp_path, capsys):
     text = f"{HEADER}\n" + f"{GOOD}\n" * 20_000 + "1,2,1,1,x,0,0\n" + f"{GOOD}\n" * 5
     sentence = ", row 20001 (line 20002): x is 'x'; it must be a decimal number such as 2.5 or -1e-3"
     assert message(tmp_path, capsys, "in.csv", text.encode()) == sentence
@@ -99,7 +99,7 @@ def test_bad_csv_beyond_the_first_chunk_is_found_by_its_own_number(tmp_path, cap
 
 @pytest.mark.parametrize("data", [b"\x89PNG\r\n\x1a\n\0\0", "α".encode("utf-16"), b"\x1f\x8b\x08\0", b"\xff" * 100])
 @pytest.mark.parametrize("name", ["in.csv", "in.jsonl"])
-def test_bytes_that_are_no_text(name, data, tmp_path, capsys):
+def test_binary_data_under_a_text_name_is_refused_at_line_1(name, data, tmp_path, capsys):
     assert re.fullmatch(r", line 1: .*; it must be UTF-8 text", message(tmp_path, capsys, name, data))
 
 
@@ -136,7 +136,7 @@ JSONL = {
 
 
 @pytest.mark.parametrize(("text", "sentence"), JSONL.items(), ids=range(len(JSONL)))
-def test_jsonl(text, sentence, tmp_path, capsys):
+def test_bad_jsonl_is_named_by_line_row_and_value(text, sentence, tmp_path, capsys):
     assert message(tmp_path, capsys, "in.jsonl", text.encode()) == sentence
 
 
@@ -164,7 +164,7 @@ ROWS = np.array([[1, 2, 1, 1, 2.5, 0, 0]] * 9_000)
         (ROWS[:0], " has no rows; nothing was asked"),
     ],
 )
-def test_npy_of_another_kind(array, sentence, tmp_path, capsys):
+def test_npy_of_another_type_or_shape_is_refused(array, sentence, tmp_path, capsys):
     assert message(tmp_path, capsys, "in.npy", saved(array, tmp_path)) == sentence
 
 
@@ -178,14 +178,14 @@ def test_npy_of_another_kind(array, sentence, tmp_path, capsys):
         (3, -1, "d is -1.0; a semi-axis must be greater than 0"),
     ],
 )
-def test_npy_with_a_bad_row(column, value, sentence, order, tmp_path, capsys):
+def test_npy_with_a_bad_row_is_refused_naming_row_and_column(column, value, sentence, order, tmp_path, capsys):
     rows = ROWS.copy()
     rows[8_500, column] = value
     data = saved(np.asarray(rows, order=order), tmp_path)
     assert message(tmp_path, capsys, "in.npy", data) == f", row 8501: {sentence}"
 
 
-def test_npy_cut_off_anywhere(tmp_path, capsys):
+def test_npy_cut_off_at_any_byte_is_refused(tmp_path, capsys):
     data = saved(ROWS[:3], tmp_path)
     for length in range(len(data)):
         sentence = message(tmp_path, capsys, "in.npy", data[:length])
@@ -198,7 +198,7 @@ def test_npy_cut_off_anywhere(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("shape", ["9**9**9", "(9**9, 7)", "[x for x in y]", "f(7)", "(-x, 7)"])
-def test_npy_whose_header_holds_an_expression(shape, tmp_path, capsys):
+def test_npy_whose_header_holds_an_expression_is_refused(shape, tmp_path, capsys):
     head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}".ljust(117).encode() + b"\n"
     data = b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head
     assert message(tmp_path, capsys, "in.npy", data) == (
@@ -207,7 +207,7 @@ def test_npy_whose_header_holds_an_expression(shape, tmp_path, capsys):
 
 
 class Touching:
-    """Unpickled, it would leave a file behind."""
+    """Creates a file if it is unpickled."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -216,13 +216,13 @@ class Touching:
         return (open, (self.path, "w"))
 
 
-def test_nothing_is_ever_unpickled(tmp_path, capsys):
+def test_npy_with_pickled_objects_is_never_unpickled(tmp_path, capsys):
     array = np.full((1, 7), Touching(str(tmp_path / "touched")))
     message(tmp_path, capsys, "in.npy", saved(array, tmp_path))
 
 
 @given(st.sampled_from(["csv", "jsonl", "npy"]), st.integers(0, 2**32), st.sampled_from(["fail", "flag"]))
-def test_no_damage_is_ever_an_internal_error(tmp_path_factory, kind, seed, on_invalid):
+def test_a_damaged_table_is_answered_or_refused_in_one_sentence(tmp_path_factory, kind, seed, on_invalid):
     """Good files with bytes changed, removed and doubled: an answer or one sentence, and never half an output."""
     folder = tmp_path_factory.mktemp("damaged")
     good = {

@@ -1,4 +1,4 @@
-"""Tables read by blocks come to the same, answers and errors, as those read line by line."""
+"""Tables read by blocks have the same answers and errors as those read line by line."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def outcome(folder, data, kind, mark):
 
 
 def both(folder, data, kind, mark):
-    """By small blocks, and with no block that is plain."""
+    """The outcome by small blocks, and the outcome if no block is plain."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(streams, "BLOCK", 64)
         by_block = outcome(folder, data, kind, mark)
@@ -65,7 +65,7 @@ def folder(tmp_path_factory):
 @example([*[(GOOD, "\n")] * 5, (("1",) * 6, "\n"), *[(GOOD, "\n")] * 5], False)
 @example([*[(GOOD, "\n")] * 5, (("-1",) * 7, "\n"), (("1",) * 6, "\n"), (GOOD, "")], True)
 @given(st.lists(st.tuples(ROWS, ENDS), max_size=12), st.booleans())
-def test_csv(folder, rows, mark):
+def test_csv_read_by_blocks_has_the_answers_and_errors_of_csv_read_by_lines(folder, rows, mark):
     text = ",".join(COLUMNS) + "\n" + "".join(",".join(cells) + end for cells, end in rows)
     by_block, by_line = both(folder, text.encode(), "csv", mark)
     assert by_block == by_line
@@ -74,7 +74,7 @@ def test_csv(folder, rows, mark):
 @settings(max_examples=400)
 @example([(GOOD, "\n")] * 9, False)
 @given(st.lists(st.tuples(ROWS, ENDS), max_size=12), st.booleans())
-def test_jsonl(folder, rows, mark):
+def test_jsonl_read_by_blocks_has_the_answers_and_errors_of_jsonl_read_by_lines(folder, rows, mark):
     objects = ("{" + ", ".join(f'"{n}": {c}' for n, c in zip(COLUMNS, cells, strict=False)) + "}" for cells, _ in rows)
     text = "".join(line + end for line, (_, end) in zip(objects, rows, strict=True))
     by_block, by_line = both(folder, text.encode(), "jsonl", mark)
@@ -94,7 +94,7 @@ def test_most_of_a_plain_table_is_read_by_blocks(folder, monkeypatch):
     assert sum(each.count for each in taken if each) > 250
 
 
-def test_of_two_bad_rows_the_first_is_told(folder):
+def test_of_two_bad_rows_the_first_is_reported(folder):
     bad, short = ",".join(("-1", *GOOD[1:])), ",".join(GOOD[1:])
     head, good = ",".join(COLUMNS), ",".join(GOOD)
     for quoted in ("", '"a",' * 7):

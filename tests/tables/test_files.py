@@ -1,4 +1,4 @@
-"""Files: the output appears whole or not at all, where it was asked for, and nothing else is touched."""
+"""Files: the output appears whole or not at all, and no other file changes."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ def classify(source: object, target: object, *more: str) -> int:
 
 
 @pytest.mark.parametrize("kind", ["csv", "npy"])
-def test_after_a_bad_row_the_old_output_stands(kind, tmp_path, source, capsys):
+def test_a_bad_row_leaves_the_old_output_as_it_was(kind, tmp_path, source, capsys):
     source.write_text(f"{HEADER}\n" + f"{GOOD}\n" * 20_000 + "1,2,1,1,x,0,0\n")
     target = tmp_path / f"out.{kind}"
-    target.write_text("what was there")
+    target.write_text("old output")
     assert classify(source, target) == 2
     assert sorted(os.listdir(tmp_path)) == ["in.csv", target.name]
-    assert target.read_text() == "what was there"
+    assert target.read_text() == "old output"
 
 
-def test_after_oracles_disagree_nothing_is_left(tmp_path, source, monkeypatch, capsys):
+def test_oracles_that_disagree_leave_no_output(tmp_path, source, monkeypatch, capsys):
     from hypcheck.truth import float_filter
 
     right = float_filter.filtered
@@ -82,7 +82,7 @@ def test_a_replaced_file_keeps_its_permissions(tmp_path, source):
     assert (target.read_text(), stat.S_IMODE(target.stat().st_mode)) == (ANSWER, 0o604)
 
 
-def test_a_link_is_followed(tmp_path, source):
+def test_an_output_that_is_a_link_is_written_at_its_target(tmp_path, source):
     (tmp_path / "far").mkdir()
     (tmp_path / "link.csv").symlink_to(tmp_path / "far" / "out.csv")
     for _ in range(2):  # first it dangles, then it does not
@@ -91,7 +91,7 @@ def test_a_link_is_followed(tmp_path, source):
         assert (tmp_path / "far" / "out.csv").read_text() == ANSWER
 
 
-def test_the_output_may_be_no_name_of_the_input(tmp_path, source, capsys):
+def test_an_output_that_names_the_input_is_refused(tmp_path, source, capsys):
     (tmp_path / "soft.csv").symlink_to(source)
     os.link(source, tmp_path / "hard.csv")
     for target in (source, tmp_path / "soft.csv", tmp_path / "hard.csv", tmp_path / "." / "in.csv"):
@@ -100,8 +100,8 @@ def test_the_output_may_be_no_name_of_the_input(tmp_path, source, capsys):
     assert source.read_text() == f"{HEADER}\n{GOOD}\n"
 
 
-def test_what_cannot_be_replaced_is_written_as_it_is(tmp_path, source):
-    """A pipe stands for every device: to try the real ones would lose them if this failed."""
+def test_an_output_that_is_a_pipe_is_written_directly(tmp_path, source):
+    """A pipe stands for every device: a failure would destroy a real one."""
     pipe = tmp_path / "pipe.csv"
     os.mkfifo(pipe)
     reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
@@ -121,7 +121,7 @@ def refused(capsys: pytest.CaptureFixture[str], source: object, target: object, 
     return errors.removeprefix("hypcheck: error: ").removesuffix("\n")
 
 
-def test_what_cannot_be_opened_is_named_with_the_reason(tmp_path, source, capsys, monkeypatch):
+def test_a_file_that_cannot_be_opened_is_named_with_the_reason(tmp_path, source, capsys, monkeypatch):
     out = tmp_path / "out.csv"
     assert refused(capsys, tmp_path / "no.csv", out) == f"cannot read {tmp_path / 'no.csv'}: no such file or directory"
     (tmp_path / "d.csv").mkdir()
@@ -165,7 +165,7 @@ def test_files_that_may_not_be_read_or_written_are_left_alone(tmp_path, source, 
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="a superuser may read and write everything")
-def test_the_systems_own_refusals(tmp_path, source, capsys):
+def test_files_without_permission_are_refused_naming_the_reason(tmp_path, source, capsys):
     source.chmod(0)
     assert refused(capsys, source, tmp_path / "out.csv") == f"cannot read {source}: permission denied"
     source.chmod(0o600)
@@ -177,9 +177,19 @@ def test_the_systems_own_refusals(tmp_path, source, capsys):
 @pytest.mark.parametrize(
     ("source", "target", "more", "sentence"),
     [
-        ("in", "out.csv", [], "--input in: its name tells no format; say --format csv, jsonl or npy"),
-        ("-", "out.csv", [], "--input -: its name tells no format; say --format csv, jsonl or npy"),
-        ("in.csv", "out.txt", [], "--output out.txt: its name must end in .csv, .jsonl or .npy, or --format must tell"),
+        (
+            "in",
+            "out.csv",
+            [],
+            "--input in: its name must end in .csv, .jsonl or .npy, or --format must name one of them",
+        ),
+        ("-", "out.csv", [], "--input -: its name must end in .csv, .jsonl or .npy, or --format must name one of them"),
+        (
+            "in.csv",
+            "out.txt",
+            [],
+            "--output out.txt: its name must end in .csv, .jsonl or .npy, or --format must name one of them",
+        ),
         ("in.csv", "out.jsonl", [], "csv cannot become jsonl, "),
         ("in.jsonl", "-", ["--format", "csv"], "jsonl cannot become csv, "),
         (
@@ -190,11 +200,11 @@ def test_the_systems_own_refusals(tmp_path, source, capsys):
         ),
     ],
 )
-def test_formats_that_are_unclear_are_asked_for(source, target, more, sentence, capsys):
+def test_formats_that_are_unclear_or_do_not_fit_are_refused(source, target, more, sentence, capsys):
     assert refused(capsys, source, target, *more).startswith(sentence)
 
 
-def test_a_name_that_tells_nothing_has_the_format_that_is_said(tmp_path, source):
+def test_a_name_without_an_ending_has_the_format_of_the_option(tmp_path, source):
     source.rename(tmp_path / "in")
     assert classify(tmp_path / "in", tmp_path / "out", "--format", "csv") == 0
     assert (tmp_path / "out").read_text() == ANSWER

@@ -1,4 +1,4 @@
-"""What is a number in a table, and that the fast reading and the thorough one are the same."""
+"""Numbers as tables write them; fast and thorough reading accept the same texts."""
 
 from __future__ import annotations
 
@@ -39,15 +39,15 @@ def test_decimals_are_numbers(text):
         "\xa01",
     ],
 )
-def test_nothing_else_is(text):
+def test_other_texts_are_no_numbers(text):
     assert not is_number(text)
     with pytest.raises(ValueError, match=r"^x is .*; it must be a"):
         number_of_text("x", text)
 
 
 @given(st.text(CHARACTERS.decode(), max_size=12))
-def test_of_these_characters_float_accepts_the_same_texts(text):
-    """What the fast reading rests on: it looks at the characters only and leaves the grammar to float()."""
+def test_float_accepts_the_same_texts_of_number_characters(text):
+    """Fast reading depends on this: it checks the characters only and leaves the grammar to float()."""
     try:
         float(text)
     except ValueError:

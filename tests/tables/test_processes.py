@@ -1,4 +1,4 @@
-"""A long table is answered by several processes, and comes to the same as by one, errors included."""
+"""A long table has the same answers and errors by several processes as by one."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def rows():
 
 @pytest.fixture
 def classify(tmp_path, monkeypatch):
-    """Classifies a table by so many processes, which begin after the first chunk; the bytes of the answers."""
+    """A function that classifies a table with so many workers, from the second chunk on, and returns the output."""
 
     def run(source, kind, workers):
-        monkeypatch.setattr(answers, "ALONE", 1)
+        monkeypatch.setattr(answers, "CHUNKS_WITHOUT_WORKERS", 1)
         monkeypatch.setattr(answers, "usable_processors", lambda: workers)
         target = tmp_path / f"answers-{workers}.{kind}"
         classify_table(Route(str(source), source.suffix[1:], str(target), kind), mark=False)
@@ -43,7 +43,7 @@ def classify(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(("kind", "target"), [("npy", "npy"), ("npy", "csv"), ("csv", "csv"), ("jsonl", "jsonl")])
-def test_the_answers_are_the_same(rows, classify, tmp_path, kind, target):
+def test_two_workers_write_the_same_answers_as_one(rows, classify, tmp_path, kind, target):
     source = tmp_path / f"rows.{kind}"
     if kind == "npy":
         np.save(source, rows)
@@ -58,7 +58,7 @@ def text_of(rows, kind):
     return "".join(json.dumps(dict(zip(COLUMNS, row, strict=True))) + "\n" for row in rows.tolist())
 
 
-def test_the_first_bad_row_is_told_whatever_stands_behind_it(rows, classify, tmp_path):
+def test_the_first_bad_row_is_reported_whatever_follows_it(rows, classify, tmp_path):
     source = tmp_path / "rows.csv"
     bad = 2 * CHUNK + 3
     rows[bad, 2] = -0.25
@@ -83,7 +83,7 @@ def double(number):
 
 
 def killed_elsewhere(number):
-    """Ends any process but the one that is told."""
+    """Kills every process but the one that the task names."""
     if number[0] != os.getpid():
         os.kill(os.getpid(), signal.SIGKILL)
     return number[1]
@@ -94,7 +94,7 @@ def failing(some):
     raise InputError("no more")
 
 
-def test_results_come_in_order_and_so_do_errors():
+def test_results_and_errors_come_in_the_order_of_tasks():
     assert list(in_order(double, range(30), 2, 3)) == [2 * number for number in range(30)]
     assert list(in_order(double, range(2), 2, 3)) == [0, 2]
     for tasks, said in ((chain(range(35), range(40, 90)), "40 is too much"), (failing(range(35)), "no more")):
@@ -104,6 +104,6 @@ def test_results_come_in_order_and_so_do_errors():
         assert found[:35] == [2 * number for number in range(35)]
 
 
-def test_what_a_process_was_killed_over_is_done_here():
+def test_a_task_whose_worker_is_killed_is_done_by_the_parent():
     tasks = [(os.getpid(), number) for number in range(20)]
     assert list(in_order(killed_elsewhere, tasks, 2, 3)) == list(range(20))

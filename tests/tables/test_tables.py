@@ -1,4 +1,4 @@
-"""Tables in and out: the same answers as pair by pair, everything else passed through, memory flat."""
+"""Tables in and out: the same answers as pair by pair, other columns passed through, memory flat."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hypcheck.cli.main import main
 from hypcheck.geometry.pair import COLUMNS, Pair
 from tests.support.pairs import pairs
 
-# By hand: see test_cli_classify.py.
+# By hand: see tests/cli/test_classify.py.
 ROWS = [
     (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0),
     (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0),
@@ -60,7 +60,7 @@ def test_a_row_has_the_answer_of_its_pair_to_the_last_bit(some):
     assert found.clearance.tolist() == [one.clearance for one in alone]
 
 
-def test_csv(tmp_path):
+def test_csv_rows_get_four_cells_with_the_answer(tmp_path):
     source, target = tmp_path / "in.csv", tmp_path / "out.csv"
     source.write_text("\n".join([HEADER, *map(text_of, ROWS)]))  # no end of line at the end
     assert classify(source, target) == 0
@@ -94,7 +94,7 @@ def test_csv_keeps_the_line_ends_and_the_byte_order_mark_of_a_spreadsheet(tmp_pa
     assert target.read_bytes().decode() == "\r\n".join(['\ufeff"alpha",gamma,b,d,x,y,z,' + ADDED, *lines])
 
 
-def test_jsonl(tmp_path):
+def test_jsonl_objects_get_four_keys_with_the_answer(tmp_path):
     source, target = tmp_path / "in.jsonl", tmp_path / "out.jsonl"
     objects = [
         '{"alpha":1,"gamma":2,"b":1,"d":1,"x":2.50,"y":0,"z":-0.0,"note":"\\u03c0 \\"}","n":12345678901234567890123}',
@@ -115,7 +115,7 @@ def test_jsonl(tmp_path):
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("kind", ["<f8", ">f8"])
 @pytest.mark.parametrize("count", [1, 5, 8192, 8193])
-def test_npy(tmp_path, order, kind, count):
+def test_npy_in_any_layout_becomes_an_array_of_positions(tmp_path, order, kind, count):
     source, target = tmp_path / "in.npy", tmp_path / "out.npy"
     rows = np.resize(np.array([ROWS[2], ROWS[3], ROWS[0]]), (count, 7))
     np.save(source, np.asarray(rows, dtype=kind, order=order))
@@ -145,7 +145,7 @@ def run(words: list[str], data: bytes) -> subprocess.CompletedProcess[bytes]:
     return subprocess.run([*program, *words], input=data, capture_output=True, check=False)
 
 
-def test_standard_streams(tmp_path):
+def test_standard_input_and_output_are_read_and_written(tmp_path):
     np.save(tmp_path / "in.npy", ROWS)
     text = f"{HEADER}\n{text_of(ROWS[0])}\n".encode()
     answered = f"{HEADER},{ADDED}\n{text_of(ROWS[0])},1,exterior,false,0.5\n".encode()
@@ -175,7 +175,7 @@ def test_a_stream_of_npy_that_ends_early_or_late_is_an_error(tmp_path):
     assert not (tmp_path / "out.npy").exists()
 
 
-def test_marking_goes_on_past_rows_that_are_no_pairs(tmp_path):
+def test_with_on_invalid_flag_rows_that_are_no_pairs_are_marked_127(tmp_path):
     good, bad = text_of(ROWS[3]), ["1,2,1,1,nan,0,0", "1,2,0,1,1,0,0", "1,2,,1,1,0,0", "1,2,1,1,1,0,zero"]
     (tmp_path / "in.csv").write_text("\n".join([HEADER, bad[0], good, *bad[1:]]) + "\n")
     assert classify(tmp_path / "in.csv", tmp_path / "out.csv", "--on-invalid", "flag") == 0
@@ -203,10 +203,10 @@ def test_marking_goes_on_past_rows_that_are_no_pairs(tmp_path):
     assert [(one["position"], one["x"], one["b"]) for one in found] == [(127, None, 1), (0, 2, 1), (127, 1.5, -1)]
 
 
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not tell a process's peak memory")
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not report a process's peak memory")
 @pytest.mark.parametrize("kind", ["csv", "jsonl", "npy"])
 def test_memory_does_not_grow_with_the_table(tmp_path, kind):
-    """200,000 rows more: as bare numbers alone they would take 11 MB, as text 18 MB, were they held."""
+    """200,000 rows more: as bare numbers alone they would take 11 MB, as text 18 MB, if they were kept."""
     peaks = []
     for count in (100_000, 300_000):
         source = tmp_path / f"{count}.{kind}"
