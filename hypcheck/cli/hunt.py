@@ -121,7 +121,7 @@ def hunt(
     from hypcheck.runs.hunt import Hunt, HuntPlan
 
     if out is not None:
-        from hypcheck.runs.keep import require_keepable
+        from hypcheck.vectors.freezing import require_keepable
 
         require_keepable(str(out))
     plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
@@ -155,13 +155,13 @@ def _progress_shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public
 
 
 def _tell(run: Hunt, show: int, out: Path | None) -> None:
-    from hypcheck.runs.hunt_text import hunt_lines
+    from hypcheck.runs.hunt_results import hunt_lines
 
     for line in hunt_lines(run, show):
         click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
-        from hypcheck.runs.keep import keep_rows
+        from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         added = keep_rows(str(out), [cluster.worst.case.row for cluster in found], made_by)
@@ -209,7 +209,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of
     """Simplify, and tell what came of it."""
     from hypcheck.answer import answer, answer_as_text
     from hypcheck.geometry.pair import Pair
-    from hypcheck.runs.hunt_text import minimised_lines
+    from hypcheck.runs.hunt_results import minimised_lines
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.replay import case_of
     from hypcheck.vectors.families import is_extreme

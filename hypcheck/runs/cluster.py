@@ -1,68 +1,79 @@
-"""The connection to a dask scheduler: one that is running, or one that is started on this machine.
+"""The connection to a dask scheduler: to one that is running, or to one started here with `--cluster local:N`.
 
-What is sent is Python's pickle, which a scheduler and its workers execute: they belong in a network that is trusted.
+dask sends Python's pickle, which a scheduler and its workers execute, so they belong in a trusted network.
+
+Therefore the processes of `local:N` listen on the loopback interface alone and speak TLS. The certificate is made for
+this run and never leaves the memory of its processes: no other user of the machine can connect. No process has an HTTP
+server, and their files are in a folder that only this user can enter.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
-import re
+import os
+import shutil
+import sys
+import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent import futures
 from contextlib import contextmanager, suppress
+from multiprocessing import active_children
+from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
+
+import dask
+import distributed
+from distributed import Client
+from distributed.core import rpc
+from distributed.security import Security
+from distributed.versions import get_versions
 
 from hypcheck.errors import InputError, UnavailableError
-from hypcheck.processes import interrupts_held
+from hypcheck.processes import interrupts_held, require_semaphores
 from hypcheck.runs.fingerprint import code_fingerprint
+from hypcheck.runs.plan import LOCAL_CLUSTER
 from hypcheck.version import VERSION
 
-if TYPE_CHECKING:
-    from distributed import Client
-    from distributed.security import Security
-
+if sys.platform != "win32":
+    import fcntl
 
 Result = TypeVar("Result")
-
-LOCAL = re.compile(r"local:([1-9]\d{0,3})")
-"""`local:N`: a scheduler here, with N workers."""
 
 CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
-CLOSE = 5
-"""Seconds that a client has to close."""
+CLOSE, CLOSE_LOCAL = 5, 1
+"""Seconds that a client has to close, and the workers of a local cluster: they hold nothing that could be lost."""
 
 SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
-"""What must be of one version everywhere, of Python its first two numbers."""
+"""Packages that must have the same version everywhere; of Python the first two numbers count."""
 
+OTHER_FILES = f"has other files of hypcheck {VERSION} than this machine; install the same files there"
 
-OTHER_FILES = f"has other files of hypcheck {VERSION} than there are here; install the same there"
+ALLOWED_FAILURES = 1
+"""A task may cost this many workers of a local cluster and one more; then it is tried alone."""
 
+LOOPBACK = "127.0.0.1"
 
-def check_address(address: str) -> None:
-    """Raise InputError where the text is no address at all."""
-    named = re.fullmatch(r"(?!local:)((tcp|tls|ws|wss|ucx)://)?[^\s/:][^\s/]*:(?P<port>\d{1,5})", address)
-    if not LOCAL.fullmatch(address) and not (named and int(named["port"]) < 1 << 16):
-        right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
-        raise InputError(f"--cluster is {address!r}; it must be {right}")
+SCRATCH = "hypcheck-cluster-"
+"""The beginning of the names of the folders for the files of workers."""
 
 
 def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
-    """What a call returns. Raises what it raises, or TimeoutError, and then leaves it to itself.
+    """What a call returns. Raises what the call raises, or TimeoutError, after which the call is left running.
 
-    A call may never return where the scheduler is there, as the system sees it, but does nothing any more. Seconds in
-    which this process stood still do not count.
+    A call may never return if the scheduler's process exists but no longer works. Seconds in which this process stood
+    still do not count.
     """
     future: futures.Future[Result] = futures.Future()
 
     def perform() -> None:
         try:
             future.set_result(call())
-        except BaseException as error:  # noqa: BLE001 - it is raised where it is waited for
+        except BaseException as error:  # noqa: BLE001 - future.result() raises it
             future.set_exception(error)
 
     Thread(target=perform, name="hypcheck-call", daemon=True).start()
@@ -75,42 +86,29 @@ def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
 
 @contextmanager
 def cluster_client(address: str) -> Iterator[Client]:
-    """A client of the scheduler at that address, which has a worker; what was started here is ended with the block.
+    """A client of the scheduler at that address, which has a worker. What was started here ends with the block.
 
-    Raises UnavailableError where dask.distributed is not installed, and InputError where the scheduler cannot be
-    reached, has no workers, or has other versions than there are here.
+    Raises UnavailableError if no certificate can be made for `local:N`, and InputError if the scheduler cannot be
+    reached, has no workers, or has other versions than this machine.
     """
-    try:
-        import distributed  # noqa: F401, PLC0415 - an extra, and slow to load
-    except ModuleNotFoundError as error:
-        raise UnavailableError(
-            f"--cluster needs dask.distributed ({error.name} is not installed): pip install 'hypcheck[cluster]'"
-        ) from None
     _silence_logs()
-    local = LOCAL.fullmatch(address)
+    local = LOCAL_CLUSTER.fullmatch(address)
     if local is None:
-        with _client(address) as client:
+        with _client(address, Security()) as client:  # connects as dask's settings say
             yield client
-        return
-    from hypcheck.runs.local_cluster import local_cluster  # noqa: PLC0415 - loads dask
-
-    with local_cluster(int(local[1])) as (found, security), _client(found, security) as client:
-        yield client
+    else:
+        with local_cluster(int(local[1])) as (found, security), _client(found, security) as client:
+            yield client
 
 
 @contextmanager
-def _client(address: str, security: Security | None = None) -> Iterator[Client]:
-    """A client; without `security` it connects as dask's settings say."""
-    from distributed import Client  # noqa: PLC0415
-    from distributed.security import Security  # noqa: PLC0415
-
-    security = security or Security()
+def _client(address: str, security: Security) -> Iterator[Client]:
     _require_scheduler(address, security)
     try:
         with warnings.catch_warnings(), interrupts_held():
-            warnings.simplefilter("ignore")  # of versions, which are looked at below
+            warnings.simplefilter("ignore")  # about versions, which are compared below
             client = Client(address, timeout=CONNECT, security=security, set_as_default=False, name="hypcheck")
-    except Exception as error:  # noqa: BLE001 - whatever it is that answers there may lead to any
+    except Exception as error:  # noqa: BLE001 - a foreign server may cause any error
         raise _no_scheduler(address, error) from None
     try:
         _require_workers(client, address)
@@ -128,41 +126,41 @@ def _client(address: str, security: Security | None = None) -> Iterator[Client]:
 
 
 def _require_scheduler(address: str, security: Security) -> None:
-    """Raise InputError where nobody answers as dask does, or dask of another version.
+    """Raise InputError if no dask scheduler of this version answers.
 
-    A Client would find that out by errors of its own, some of them printed as tracebacks when it is freed.
+    A Client would raise errors of its own, and print tracebacks of some when it is freed.
     """
-    from distributed.core import rpc  # noqa: PLC0415
-    from distributed.versions import get_versions  # noqa: PLC0415
 
-    async def who() -> tuple[str, Any]:
-        async with rpc(address, CONNECT, connection_args=security.get_connection_args("client")) as there:
-            kind = str((await there.identity())["type"])
-            return kind, await there.versions(packages=["hypcheck"]) if kind == "Scheduler" else None
+    async def identity() -> tuple[str, Any]:
+        async with rpc(address, CONNECT, connection_args=security.get_connection_args("client")) as node:
+            kind = str((await node.identity())["type"])
+            return kind, await node.versions(packages=["hypcheck"]) if kind == "Scheduler" else None
 
     try:
-        kind, versions = asyncio.run(asyncio.wait_for(who(), CONNECT + 3))  # dask waits longer for one who is silent
-    except Exception as error:  # noqa: BLE001 - a stranger's answer may lead to any, a MemoryError too
+        kind, versions = asyncio.run(asyncio.wait_for(identity(), CONNECT + 3))  # dask waits longer if nobody answers
+    except Exception as error:  # noqa: BLE001 - a foreign server may cause any error, a MemoryError too
         raise _no_scheduler(address, error) from None
     if kind != "Scheduler":
-        raise InputError(f"--cluster {address}: a dask {kind.lower()} is there, and no scheduler; name its scheduler")
+        raise InputError(
+            f"--cluster {address} is the address of a dask {kind.lower()}; it must be that of its scheduler"
+        )
     _require_same_versions("the scheduler", versions, get_versions(packages=["hypcheck"]), address)
 
 
 def _no_scheduler(address: str, error: BaseException) -> InputError:
-    chain = [error]
-    while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:  # dask wraps errors of connections, and
-        chain.append(before)  # goes on trying until it is out of time
-    told = [each.strerror for each in chain if isinstance(each, OSError) and each.strerror]
-    if told:
-        reason = told[-1].lower()
+    chain = [error]  # dask wraps errors of connections, and tries again until its time is over
+    while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:
+        chain.append(before)
+    reasons = [each.strerror for each in chain if isinstance(each, OSError) and each.strerror]
+    if reasons:
+        reason = reasons[-1].lower()
     elif isinstance(error, (TimeoutError, asyncio.TimeoutError)):
-        reason = f"nothing was said within {CONNECT} s"
+        reason = f"there was no answer within {CONNECT} s"
     elif isinstance(error, MemoryError):
-        reason = "what is said there is not what dask says"
+        reason = "the answer is not one of dask"
     else:
         reason = str(error) or type(error).__name__
-    tls = "; certificates are told by dask's settings distributed.comm.tls" if address.startswith("tls:") else ""
+    tls = "; dask's settings distributed.comm.tls name the certificates" if address.startswith("tls:") else ""
     return InputError(f"--cluster {address}: no dask scheduler answers there: {reason}{tls}")
 
 
@@ -176,24 +174,27 @@ def _require_workers(client: Client, address: str) -> None:
 
 
 def _require_versions(found: Mapping[str, Any], address: str) -> None:
-    """Raise InputError naming the first difference between here and the scheduler or a worker."""
-    there = {"the scheduler": found["scheduler"], **{f"worker {name}": each for name, each in found["workers"].items()}}
-    for who, each in there.items():
-        _require_same_versions(who, each, found["client"], address)
+    """Raise InputError naming the first difference between this machine and the scheduler or a worker."""
+    nodes = {"the scheduler": found["scheduler"], **{f"worker {name}": each for name, each in found["workers"].items()}}
+    for node, each in nodes.items():
+        _require_same_versions(node, each, found["client"], address)
 
 
-def _require_same_versions(who: str, there: Mapping[str, Any], here: Mapping[str, Any], address: str) -> None:
+def _require_same_versions(node: str, there: Mapping[str, Any], here: Mapping[str, Any], address: str) -> None:
     ours, theirs = _versions(here), _versions(there)
     for package in SAME:
         if theirs[package] != ours[package]:
             had = f"has {package} {theirs[package]}" if theirs[package] else f"has no {package}"
-            raise InputError(f"--cluster {address}: {who} {had}, and here it is {ours[package]}; both must be one")
+            raise InputError(
+                f"--cluster {address}: {node} {had}, this machine has {ours[package]}; both must have the same version"
+            )
 
 
 def _require_same_files(found: Mapping[str, Any], address: str) -> None:
-    """Raise InputError where a worker has other files of ours, though by its version they should be the same.
+    """Raise InputError if a worker has other files of hypcheck, though its version is the same.
 
-    One that was lost before it could tell is none of them; whoever comes in its place is looked at when it is asked.
+    `found` are the fingerprints by worker; an OSError stands for a worker that was lost before it answered. A worker
+    that replaces it is checked when it performs its first task.
     """
     here = code_fingerprint()
     for worker, there in found.items():
@@ -210,7 +211,124 @@ _LOUD = ("distributed", "tornado", "asyncio")
 
 
 def _silence_logs() -> None:
-    """Whatever there is to say of the cluster, this process says itself, in a sentence."""
+    """Silence the logs of dask: this process reports troubles of the cluster in sentences of its own."""
     for name in (*_LOUD, *logging.root.manager.loggerDict):
         if name.split(".")[0] in _LOUD:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
+
+class _WithoutHttp:
+    """A node of dask that starts no HTTP server; otherwise each node has one, even without a dashboard."""
+
+    def start_http_server(self, *_: Any, **__: Any) -> None:  # noqa: ANN401 - dask's signature
+        """Do nothing."""
+
+
+class Scheduler(_WithoutHttp, distributed.Scheduler):  # type: ignore[misc]  # of a package that is not checked
+    """dask's scheduler; it tells clients the name of its class."""
+
+
+class Worker(_WithoutHttp, distributed.Worker):  # type: ignore[misc]  # as above
+    """dask's worker."""
+
+
+@contextmanager
+def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
+    """The address of a scheduler that runs here with so many workers, and what a client needs to connect.
+
+    All processes end with the block. Raises UnavailableError if no certificate can be made.
+    """
+    security = _temporary_security()
+    require_semaphores()
+    others = active_children()
+    with _scratch_folder() as scratch:
+        try:
+            # The threads that start workers hold interrupts as long as they live.
+            with (
+                dask.config.set({"temporary-directory": str(scratch)}),
+                warnings.catch_warnings(),
+                interrupts_held(),
+            ):
+                warnings.simplefilter("ignore")
+                cluster = _started(workers, security)
+            try:
+                yield cluster.scheduler_address, security
+            finally:
+                with suppress(Exception):  # workers may need longer
+                    cluster.close(timeout=CLOSE_LOCAL)
+        finally:
+            for process in set(active_children()) - set(others):
+                process.kill()
+                process.join()
+
+
+def _started(workers: int, security: Security) -> distributed.SpecCluster:
+    here = {"host": LOOPBACK, "protocol": "tls://", "security": security, "dashboard": False}
+    scheduler = {**here, "port": 0, "allowed_failures": ALLOWED_FAILURES}
+    worker = {**here, "worker_class": Worker, "nthreads": 1, "memory_limit": 0, "silence_logs": logging.CRITICAL}
+    return distributed.SpecCluster(
+        scheduler={"cls": Scheduler, "options": scheduler},
+        workers={number: {"cls": distributed.Nanny, "options": worker} for number in range(workers)},
+        security=security,
+        silence_logs=logging.CRITICAL,
+    )
+
+
+def _temporary_security() -> Security:
+    try:
+        return Security.temporary()
+    except ImportError:
+        raise UnavailableError(
+            "--cluster local:N needs cryptography, for the certificate of its connections: "
+            "pip install 'hypcheck[cluster]'"
+        ) from None
+
+
+@contextmanager
+def _scratch_folder() -> Iterator[Path]:
+    """A folder for the files of workers, removed with the block. Folders that killed runs left are removed first.
+
+    A run holds a lock on its folder. The system releases the lock however the run ends.
+    """
+    for left in Path(tempfile.gettempdir()).glob(f"{SCRATCH}*"):
+        _remove_unless_in_use(left)
+    folder, lock = _locked_folder()
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        if lock is not None:
+            os.close(lock)
+
+
+def _locked_folder() -> tuple[Path, int | None]:
+    while True:
+        folder = Path(tempfile.mkdtemp(prefix=SCRATCH))
+        if sys.platform == "win32":
+            return folder, None
+        with suppress(OSError):  # another run took it for a folder that was left, and removed it
+            lock = os.open(folder, os.O_RDONLY)
+            if _try_lock(lock) and folder.exists():
+                return folder, lock
+            os.close(lock)
+
+
+def _remove_unless_in_use(folder: Path) -> None:
+    if sys.platform == "win32":
+        return
+    with suppress(OSError):  # another run removed it, or somebody put a link there
+        lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        try:
+            if os.fstat(lock).st_uid == os.getuid() and _try_lock(lock):
+                shutil.rmtree(folder, ignore_errors=True)
+        finally:
+            os.close(lock)
+
+
+def _try_lock(lock: int) -> bool:
+    """Lock an open folder; False if another process holds the lock."""
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

@@ -1,27 +1,34 @@
-"""A conformance run: it opens each implementation, performs its tasks, and writes the results to the record."""
+"""A conformance run: it opens each implementation, performs its tasks, and writes the lines of its record."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from hypcheck.errors import RunOutcome
+from msgspec import UNSET
+
+from hypcheck.errors import Exit, NothingJudgedError, RunOutcome, UnavailableError
+from hypcheck.implementations.description import Description
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, interrupts_deferred
-from hypcheck.record import Recorder
-from hypcheck.record.lines import NotStartedLine
+from hypcheck.record import Recorder, RecordLine
+from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine
+from hypcheck.runs import tally
 from hypcheck.runs.cases import CaseChunk
-from hypcheck.runs.cluster import cluster_client
-from hypcheck.runs.conformance_lines import ImplementationLines, outcome_of, recorded_description, require_all_tallied
+from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
-from hypcheck.runs.known_failures import KnownFailure
+from hypcheck.runs.judge import UNANSWERED, Status
+from hypcheck.runs.known_failures import KnownFailure, no_longer_failing
 from hypcheck.runs.plan import ConformancePlan, known_failures_of, planned_cases, planned_size, rules_of, steps_of
-from hypcheck.runs.results import JudgingRules
-from hypcheck.runs.resume import ProgressWriter
+from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
+from hypcheck.runs.resume import ProgressWriter, recorded_description
+from hypcheck.runs.retest import result_without_retest
 from hypcheck.runs.schedule import ImplementationOpener, RunState, Step, TaskExecution, perform_steps
+from hypcheck.runs.tally import Tally
+from hypcheck.vectors import frozen
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -30,95 +37,177 @@ if TYPE_CHECKING:
 def run_conformance(
     plan: ConformancePlan, recorder: Recorder, outcome: RunOutcome, advance: Advance, state: RunState | None = None
 ) -> None:
-    """Gate the implementations of the plan; `advance` is told how many cases have been asked.
+    """Ask and judge the implementations of the plan; `advance` is called with the number of cases that were asked.
 
-    Those whose lines the recorder begins with are not asked again, and the next one goes on from `state`; `advance`
-    is told of neither. Interrupted, it records what was finished. Raises NothingJudgedError where not one case was
-    judged, which proves nothing.
+    A resumed run skips implementations that its record has finished, and continues the next one from `state`;
+    `advance` is not called for either. An interrupted run records the finished part. Raises NothingJudgedError if no
+    case at all was judged, which proves nothing.
     """
-    listed, cases = known_failures_of(plan), planned_size(plan)
+    known, cases = known_failures_of(plan), planned_size(plan)
     keep_freed_memory()
-    with cluster_client(plan.cluster) if plan.cluster else nullcontext() as client:
+    with _cluster_client(plan.cluster) if plan.cluster else nullcontext() as client:
         for number in range(recorder.concluded, len(plan.specs)):
             try:
-                with _gating(plan, number, listed, recorder, state, client) as gating:
-                    for step, after in perform_steps(gating.steps, gating.performing, gating.state):
-                        gating.state = after
-                        advance(_cases_of(step))
-                        gating.keeper.offer(after)
+                with _implementation_run(plan, number, known, recorder, state, client) as run:
+                    for step, after in perform_steps(run.steps, run.execution, run.state):
+                        run.state = after
+                        advance(len(step) if isinstance(step, CaseChunk) else 0)
+                        run.progress.offer(after)
             except StartError as error:
                 spec = plan.specs[number]
                 recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
                 advance(cases)
             state = None
-    outcome_of(recorder.lines, outcome)
+    add_reasons(recorder.lines, outcome)
+
+
+def _cluster_client(address: str) -> AbstractContextManager[Client]:
+    try:
+        from hypcheck.runs.cluster import cluster_client  # noqa: PLC0415 - loads dask, an extra that is slow to load
+    except ModuleNotFoundError as error:
+        raise UnavailableError(
+            f"--cluster needs dask.distributed ({error.name} is not installed): pip install 'hypcheck[cluster]'"
+        ) from None
+    return cluster_client(address)
 
 
 @dataclass
-class _Gating:
-    """An implementation that is being asked: the steps, what performs them, and how far it is."""
+class _ImplementationRun:
+    """The run of one implementation: its steps, what performs them, its progress writer, and its state so far."""
 
     steps: Iterable[Step]
-    performing: TaskExecution
-    keeper: ProgressWriter
+    execution: TaskExecution
+    progress: ProgressWriter
     state: RunState
 
 
 @contextmanager
-def _gating(
+def _implementation_run(
     plan: ConformancePlan,
     number: int,
-    listed: tuple[KnownFailure, ...],
+    known: tuple[KnownFailure, ...],
     recorder: Recorder,
-    begun: RunState | None,
+    resumed: RunState | None,
     client: Client | None,
-) -> Iterator[_Gating]:
-    """The implementation of that number, from its beginning or from the state; its lines are recorded when it ends.
+) -> Iterator[_ImplementationRun]:
+    """The run of the implementation with this number, whose lines are recorded at the end.
 
-    Where it is interrupted, how far it is is kept too. Raises StartError where it cannot be started.
+    If the run is interrupted, its progress is recorded too. Raises StartError if the implementation does not start.
     """
-    opening = plan.opening(number)
-    with opening.open() as implementation:
+    opener = plan.opener(number)
+    with opener.open() as implementation:
         used = implementation.description
-        rules = rules_of(plan, used, listed)
-        lines = ImplementationLines(plan, opening.spec, implementation.declared, used, rules)
-        declared = recorded_description(implementation.declared)
-        keeper = ProgressWriter(recorder, number, declared, planned_size(plan))
-        begun = begun or RunState(implementation.allowance)
-        with _task_execution(implementation, opening, plan, rules, client) as performing:
-            gating = _Gating(steps_of(plan, used), performing, keeper, begun)
+        rules = rules_of(plan, used, known)
+        lines = ImplementationLines(plan, opener.spec, implementation.declared, used, rules)
+        progress = ProgressWriter(recorder, number, implementation.declared, planned_size(plan))
+        state = resumed or RunState(implementation.allowance)
+        with _task_execution(implementation, opener, plan, rules, client) as execution:
+            run = _ImplementationRun(steps_of(plan, used), execution, progress, state)
             try:
-                yield gating
+                yield run
             except StartError:
                 raise
             except BaseException:
-                with interrupts_deferred(), suppress(OSError):  # of a full disk: what was kept last is gone on from
-                    keeper.keep(gating.state)
-                lines.add(gating.state, recorder, finished=False)
+                with interrupts_deferred(), suppress(OSError):  # of a full disk: the progress before stays
+                    progress.keep(run.state)
+                lines.add(run.state, recorder, finished=False)
                 raise
-        tallies = gating.state.total.tallies
-        require_all_tallied(tallies, planned_cases(plan, used.domain, refuses=used.refuses))
-        lines.add(gating.state, recorder, finished=True)
-
-
-def _cases_of(step: Step) -> int:
-    return len(step) if isinstance(step, CaseChunk) else 0
+        require_all_tallied(run.state.total.tallies, planned_cases(plan, used.domain, refuses=used.refuses))
+        lines.add(run.state, recorder, finished=True)
 
 
 def _task_execution(
     implementation: Implementation,
-    opening: ImplementationOpener,
+    opener: ImplementationOpener,
     plan: ConformancePlan,
     rules: JudgingRules,
     client: Client | None,
 ) -> AbstractContextManager[TaskExecution]:
-    """What performs the tasks: this process; for large runs others, or a cluster: then nothing is asked here."""
-    count = plan.processes(planned_size(plan))
-    if client is None and count is None:
+    """What performs the tasks: this process, or a pool or a cluster, whose processes open the implementation."""
+    workers = plan.pool_workers
+    if client is None and workers is None:
         return execution_here(implementation, rules)
     implementation.close()
-    if count is not None and client is None:
-        return execution_in_pool(count, opening, rules, implementation)
-    from hypcheck.runs.dask_executor import execution_on_cluster  # noqa: PLC0415 - loads dask.distributed, which no other run needs
+    if client is None and workers is not None:
+        return execution_in_pool(workers, opener, rules, implementation)
+    from hypcheck.runs.dask_executor import execution_on_cluster  # noqa: PLC0415 - loads dask
 
-    return execution_on_cluster(client, opening, rules, implementation)
+    return execution_on_cluster(client, opener, rules, implementation)
+
+
+def add_reasons(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
+    """Add to the outcome why the run fails, as its lines say.
+
+    Raises NothingJudgedError if no case at all was judged, which proves nothing.
+    """
+    judged = 0
+    not_started, failed = outcome.because[Exit.NOT_STARTED], outcome.because[Exit.WRONG]
+    for line in recorded:
+        if isinstance(line, GroupLine):
+            judged += line.asked
+            failed += [f"{line.method} on {line.family}: {status}" for status in line.failing or ()]
+        elif isinstance(line, DriftLine):
+            failed.append(line.sentence)
+        elif isinstance(line, NotStartedLine):
+            not_started.append(line.trouble)
+        elif isinstance(line, ImplementationLine):
+            if line.broke_protocol_throughout:
+                not_started.append(f"{line.spec} broke the protocol throughout")
+            failed += line.troubles
+    if not judged and not not_started:
+        raise NothingJudgedError(
+            "no case was judged: every case is outside the domain, or the declared precision cannot hold its numbers"
+        )
+
+
+@dataclass(frozen=True)
+class ImplementationLines:
+    """Makes the lines about one implementation: its SPEC, its description as declared and as used, and the rules."""
+
+    plan: ConformancePlan
+    spec: str
+    declared: Description
+    used: Description
+    rules: JudgingRules
+
+    def add(self, state: RunState, recorder: Recorder, *, finished: bool) -> None:
+        """Record the state; in an unfinished run, pending cases are judged by their first answers."""
+        total = merged_result([replace(state.total, open=()), result_without_retest(state.total.open, self.rules)])
+        groups = [self._group(family, tallied) for family, tallied in total.tallies.items()]
+        for line in groups:
+            recorder.add(line)
+        if finished:
+            for sentence in no_longer_failing(self.rules.known, total.excusing, {*total.tallies, *total.named}):
+                recorder.add(DriftLine(sentence=f"{self.used.name}: {sentence}"))
+        recorder.add(
+            ImplementationLine(
+                spec=self.spec,
+                name=self.used.name,
+                declared=recorded_description(self.declared),
+                used=recorded_description(self.used),
+                restarts=self.plan.limits.restarts - state.left.restarts,
+                again=total.again,
+                broke_protocol_throughout=total.broke_protocol_throughout,
+                troubles=list(self._troubles(total, groups)),
+                finished=UNSET if finished else False,
+            )
+        )
+
+    def _group(self, family: str, tallied: Tally) -> GroupLine:
+        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family == frozen.INVALID_NAME
+        grave = (Status.WRONG, *UNANSWERED) if wrong_fails else UNANSWERED
+        failing = [status.value for status in grave if tallied.counts.get(status.value)]
+        name = self.used.name
+        return tally.group_line(
+            tallied, family, self.rules.criterion, method=name, title=name, spec=self.spec, failing=failing
+        )
+
+    def _troubles(self, total: CasesResult, groups: Sequence[GroupLine]) -> Iterator[str]:
+        """Reasons why the implementation fails as a whole, not in one family."""
+        abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups)
+        if abstained > self.plan.max_abstained:
+            allowed = f"at most {self.plan.max_abstained} are allowed"
+            yield f"{self.used.name} abstained from {abstained} cases; {allowed}"
+        if self.plan.deterministic and total.again.within:
+            changed = f"changed {total.again.within} answers within the tolerance"
+            yield f"{self.used.name} {changed} when asked again"

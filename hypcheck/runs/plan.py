@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -12,7 +13,6 @@ from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
 from hypcheck.runs.cases import CaseChunk, family_chunks, frozen_count, searched_chunks
-from hypcheck.runs.cluster import check_address
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import JudgingRules
@@ -20,23 +20,25 @@ from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import families as fixed_sizes
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import select
-from hypcheck.vectors.family import Family
 
 FAIL_ON = ("wrong", "false-clear")
 
 LARGE_RUN = 1 << 20
-"""Cases that are worth the start of several processes."""
+"""Cases from which on several processes are worth their start."""
+
+LOCAL_CLUSTER = re.compile(r"local:([1-9]\d{0,3})")
+"""`local:N`: a dask scheduler on this machine, with N workers."""
 
 
 @dataclass(frozen=True, slots=True)
 class ConformancePlan:
-    """Options of a gating run.
+    """Options of a conformance run.
 
-    `specs` name the implementations; `families` are names and globs (none: all but the extreme ones), of each of which
-    the frozen vectors and `count` generated rows are asked. `precision`, `question` and `domain` stand for what an
-    implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only one that claims clear in contact.
-    `workers` is how many processes ask; None: this one, but for a large run as many as there are processors.
-    `cluster` is the address of a scheduler whose workers ask instead.
+    `specs` name the implementations. `families` are names and globs (none: all families but the extreme ones); the
+    frozen vectors and `count` generated rows of each family are asked. `precision`, `question` and `domain` replace
+    what an implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only "clear" in contact.
+    `workers` processes ask; None: this process, or in a large run one for each processor. `cluster` is the address of
+    a dask scheduler whose workers ask instead.
     """
 
     specs: tuple[str, ...]
@@ -57,35 +59,44 @@ class ConformancePlan:
 
     def __post_init__(self) -> None:
         if not self.specs:
-            raise InputError("no implementation is named; name one as builtin:, python:, library: or command:")
+            raise InputError("no implementation is given; give one as builtin:, python:, library: or command:")
         if self.fail_on not in FAIL_ON:
             raise InputError(f"--fail-on is {self.fail_on!r}; it must be one of {', '.join(FAIL_ON)}")
         if self.max_abstained < 0:
             raise InputError(f"--max-abstained is {self.max_abstained}; it must be 0 or more")
         if self.cluster is not None:
-            check_address(self.cluster)
+            check_cluster_address(self.cluster)
             if self.workers is not None:
                 raise InputError("--workers is for a run on this machine; a cluster has workers of its own")
 
-    def processes(self, cases: int) -> int | None:
-        """How many processes of our own ask so many cases; None: none but this one, which takes no time to begin."""
-        return self.workers or (usable_processors() if cases >= LARGE_RUN else None)
+    @property
+    def pool_workers(self) -> int | None:
+        """Processes of a pool on this machine; None if this process asks, which needs no time to start."""
+        return self.workers or (usable_processors() if planned_size(self) >= LARGE_RUN else None)
 
-    def opening(self, number: int) -> ImplementationOpener:
-        """How one of its implementations is opened."""
+    def opener(self, number: int) -> ImplementationOpener:
+        """How the implementation with this number is opened."""
         return ImplementationOpener(self.specs[number], self.limits, self.precision, self.question, self.domain)
 
     @property
     def filtered(self) -> bool:
-        """Whether families were chosen, so that not everything a list of known failures speaks of is asked."""
+        """Whether families were chosen, so that known failures of other families are not asked."""
         return bool(self.families)
 
 
-def planned_cases(plan: ConformancePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
-    """The cases of each family that one implementation is asked, skipped ones included.
+def check_cluster_address(address: str) -> None:
+    """Raise InputError if the text is no address of a cluster."""
+    named = re.fullmatch(r"(?!local:)((tcp|tls|ws|wss|ucx)://)?[^\s/:][^\s/]*:(?P<port>\d{1,5})", address)
+    if not LOCAL_CLUSTER.fullmatch(address) and not (named and int(named["port"]) < 1 << 16):
+        right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
+        raise InputError(f"--cluster is {address!r}; it must be {right}")
 
-    A domain of given sizes alone has families of its own, and one that `refuses` is asked the invalid rows too. Raises
-    InputError naming a family that does not exist.
+
+def planned_cases(plan: ConformancePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
+    """The number of cases of each family for one implementation, skipped cases included.
+
+    A domain with fixed sizes has families of its own. An implementation that `refuses` is asked the invalid rows too.
+    Raises InputError naming a family that does not exist.
     """
     cases = {family.name: frozen_count(family.name) + plan.count for family in select(plan.families)}
     if not plan.filtered:
@@ -97,37 +108,33 @@ def planned_cases(plan: ConformancePlan, domain: Domain | None = None, *, refuse
     return {family: number for family, number in cases.items() if number}
 
 
-def chosen_families(plan: ConformancePlan) -> tuple[Family, ...]:
-    """The families of the plan. Raises InputError naming one that does not exist."""
-    return select(plan.families)
-
-
 def planned_size(plan: ConformancePlan) -> int:
-    """The cases that each implementation is asked, those that it will skip included."""
+    """The number of cases for each implementation, those that it will skip included."""
     return sum(planned_cases(plan).values())
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
-    """Those that the plan lists. Raises InputError as read_known_failures does."""
+    """The known failures that the plan lists. Raises InputError as read_known_failures does."""
     return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
-    """The steps that ask an implementation which is judged by this description."""
+    """The steps for an implementation that is judged by this description."""
     return steps_of_chunks(_chunks(plan, used.domain), refuses=used.refuses)
 
 
-def rules_of(plan: ConformancePlan, used: Description, listed: tuple[KnownFailure, ...]) -> JudgingRules:
-    """How an implementation is judged by this description."""
-    return JudgingRules(Criterion(used.question, used.precision, plan.tolerance), used.domain, listed, plan.seed)
+def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure, ...]) -> JudgingRules:
+    """How an implementation with this description is judged."""
+    return JudgingRules(Criterion(used.question, used.precision, plan.tolerance), used.domain, known, plan.seed)
 
 
-def _chunks(plan: ConformancePlan, domain: Domain | None = None) -> Iterator[CaseChunk]:
-    """The chunks of a run; a domain of given sizes alone has families made for them."""
-    for family in chosen_families(plan):
+def _chunks(plan: ConformancePlan, domain: Domain) -> Iterator[CaseChunk]:
+    """The chunks of a run; a domain with fixed sizes has families of its own."""
+    families = select(plan.families)
+    for family in families:
         yield from family_chunks(family, plan.seed, plan.count)
     if plan.filtered:
         return
     yield from searched_chunks()
-    for family in fixed_sizes.families_for(domain.settings) if domain is not None else ():
+    for family in fixed_sizes.families_for(domain.settings):
         yield from family_chunks(family, plan.seed, plan.count)

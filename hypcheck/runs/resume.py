@@ -1,6 +1,6 @@
-"""`--resume`: how far a run is, as a line of the record that it keeps, and back to what a run goes on from.
+"""`--resume`: the progress of a run as a line of its record, and the state of a run from such a line.
 
-A run goes on from a record only if it is the same run.
+Only a run with the same options, files and versions may be resumed.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
+from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
-from hypcheck.record.fields import as_json
+from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import DescriptionPart, HeaderLine, ImplementationLine, NotStartedLine
 from hypcheck.record.progress import (
     PendingCases,
@@ -36,7 +37,7 @@ from hypcheck.record.progress import (
 )
 from hypcheck.record.writer import Provenance, header
 from hypcheck.runs.cases import CaseChunk
-from hypcheck.runs.conformance_lines import recorded_description, require_lines, require_state
+from hypcheck.runs.consistency import require_lines, require_state
 from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.plan import ConformancePlan, known_failures_of, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, PendingRetest
@@ -44,30 +45,35 @@ from hypcheck.runs.schedule import RunState
 from hypcheck.runs.tally import Histogram, Tally, UnansweredCase, WorstCase
 
 PROGRESS_EVERY_S = 10.0
-"""Seconds between two lines of progress, at least: what a killed run may lose."""
+"""Seconds between two lines of progress, at least. A killed run may lose the work of this time."""
 
 PROGRESS_SHARE = 100
-"""Of the time of a run, what keeping its progress may take: one part of so many."""
+"""Writing progress may take one part in so many of the time of a run."""
 
 FREE_OPTIONS = ("workers", "cluster")
-"""Options that may differ: the result is the same with any."""
+"""Options that may differ, because the result does not depend on them."""
 
 LIBRARIES = ("numpy", "mpmath", "sympy")
-"""Those whose versions a result may depend on."""
+"""Libraries whose version a result may depend on."""
 
 Json = dict[str, Any]
 
 
-class ProgressWriter:
-    """Keeps in a record how far an implementation has been asked, whose `number` in the run that is."""
+def recorded_description(description: Description) -> DescriptionPart:
+    """An implementation's description as the record has it."""
+    return decoded(asdict(description), DescriptionPart)
 
-    def __init__(self, recorder: Recorder, number: int, declared: DescriptionPart, cases: int) -> None:
+
+class ProgressWriter:
+    """Writes the progress of one implementation, the run's `number`-th of so many `cases`, into the record."""
+
+    def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int) -> None:
         self._recorder = recorder
-        self._number, self._declared, self._cases = number, declared, cases
+        self._number, self._declared, self._cases = number, recorded_description(declared), cases
         self._due = time.monotonic() + PROGRESS_EVERY_S
 
     def offer(self, state: RunState) -> None:
-        """Keep the state if it is time to."""
+        """Write the state if enough time has passed since the last."""
         if time.monotonic() >= self._due:
             began = time.monotonic()
             self.keep(state)
@@ -75,7 +81,7 @@ class ProgressWriter:
             self._due = now + max(PROGRESS_EVERY_S, PROGRESS_SHARE * (now - began))
 
     def keep(self, state: RunState) -> None:
-        """Keep the state. Raises OSError where it cannot be written; the record is then as it was."""
+        """Write the state. Raises OSError if it cannot be written, and leaves the record as it was."""
         self._recorder.keep(
             ProgressLine(
                 number=self._number,
@@ -89,17 +95,17 @@ class ProgressWriter:
 
 @dataclass(frozen=True)
 class ResumedRun:
-    """What a record holds of a run: lines to begin with, and the state that the next implementation is in.
+    """The part of a run that its record holds: the lines to keep, and the state of the next implementation.
 
-    The lines are of implementations that were asked to their end, with the line of progress of the next one behind
-    them if there is one; otherwise the state is None, and it is asked from its beginning.
+    The lines are those of finished implementations, and the progress line of the next one if there is one. Without a
+    progress line the state is None, and that implementation is asked from its first case.
     """
 
     carried: tuple[RecordLine, ...] = ()
     state: RunState | None = None
 
     def done(self, cases: int) -> int:
-        """How many cases were asked, where each implementation is asked so many."""
+        """How many cases were asked, if there are so many for each implementation."""
         finished = [line for line in self.carried if isinstance(line, (ImplementationLine, NotStartedLine))]
         return len(finished) * cases + (self.state.total.cases if self.state else 0)
 
@@ -107,58 +113,60 @@ class ResumedRun:
 def require_same_run(
     record: Record, file: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str]
 ) -> None:
-    """Raise InputError, saying what differs, where the record in `file` is not one of a run of this kind.
+    """Raise InputError, naming the difference, if the record in `file` is not of a run with the same options and files.
 
-    `options` are those of the run now, and `files` the sha256 of those that its SPECs name.
+    `options` are the options of this run; `files` holds the sha256 of the files that its SPECs name.
     """
     before, now = record.header, header(options, datetime.now(timezone.utc), Provenance(files))
     if not {"specs", "max_abstained"} <= before.options.keys():
         command = "bench" if before.options.get("command") == "bench" else "verify without SPEC"
-        raise InputError(f"{file} cannot be resumed: it is the record of a run of `{command}`, which begins anew")
+        raise InputError(
+            f"{file} cannot be resumed: it is the record of a run of `{command}`, which always begins from its start"
+        )
     there, here = _compared(before), _compared(now)
     for what in {**there, **here}:
         _require_same(there.get(what), here.get(what), what, file)
-    spoken = [line.spec for line in finished_part(record)[0] if isinstance(line, (ImplementationLine, NotStartedLine))]
-    _require_same(spoken, list(plan.specs[: len(spoken)]), "those that were asked to their end", file)
+    ended = [line.spec for line in finished_part(record)[0] if isinstance(line, (ImplementationLine, NotStartedLine))]
+    _require_same(ended, list(plan.specs[: len(ended)]), "the list of finished implementations", file)
 
 
 def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
-    """What the run of the plan goes on with, whose implementations are asked so many cases each.
+    """From where the run of the plan continues; there are so many `cases` for each implementation.
 
-    Raises InputError where the implementation that was being asked says something else of itself, or the line of
-    progress cannot be read; StartError where it cannot be started.
+    Raises InputError if the implementation that was being asked has another description now, or the record contradicts
+    itself; StartError if the implementation does not start.
     """
     carried, begun = finished_part(record)
-    with _told_of(file):
+    with _contradictions_of(file):
         _require_carried(carried, plan)
     if begun is None:
         return ResumedRun(carried)
     if begun.number >= len(plan.specs):
-        raise InputError(f"{file} cannot be resumed: it goes on with an implementation behind the last one")
+        raise InputError(f"{file} cannot be resumed: its progress is of an implementation after the last one")
     _require_same(begun.program, code_fingerprint(), "the sha256 of hypcheck's own files", file)
     _require_same(begun.cases, cases, "the number of cases", file)
-    with plan.opening(begun.number).open() as implementation:
+    with plan.opener(begun.number).open() as implementation:
         before, now = as_json(begun.declared), as_json(recorded_description(implementation.declared))
         used = implementation.description
     for key in now:
         _require_same(before.get(key), now[key], f"the {key} that {plan.specs[begun.number]} declares", file)
-    with _told_of(file):
+    with _contradictions_of(file):
         state = restored_state(begun.state)
         require_state(state, steps_of(plan, used), plan, rules_of(plan, used, known_failures_of(plan)))
     return ResumedRun((*carried, begun), state)
 
 
 @contextmanager
-def _told_of(file: Path) -> Iterator[None]:
-    """Whatever contradicts itself in the record is an InputError that names its file."""
+def _contradictions_of(file: Path) -> Iterator[None]:
+    """Turns a ValueError about a contradiction in the record into an InputError that names the file."""
     try:
         yield
     except ValueError as error:
-        raise InputError(f"{file} cannot be resumed: what it says cannot be: {error}") from None
+        raise InputError(f"{file} cannot be resumed: it contradicts itself: {error}") from None
 
 
 def _require_carried(carried: Sequence[RecordLine], plan: ConformancePlan) -> None:
-    """Raise ValueError where lines about an implementation that was asked to its end cannot be true."""
+    """Raise ValueError if the lines about a finished implementation contradict each other or the plan."""
     about: list[RecordLine] = []
     for line in carried:
         about.append(line)
@@ -169,10 +177,10 @@ def _require_carried(carried: Sequence[RecordLine], plan: ConformancePlan) -> No
 
 
 def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine | None]:
-    """The lines of implementations that were asked to their end, and the progress of the next one if it is kept.
+    """The lines of finished implementations, and the last progress line of the next one, if there is one.
 
-    A record is written in order, so what stands before the last such implementation belongs to it and those before it.
-    Behind it may stand lines of one that was not asked to its end: all that counts of it is the progress.
+    A record is written in order, so all lines up to the end of the last finished implementation belong to finished
+    ones. Lines of an unfinished implementation may follow; of these only the progress counts.
     """
     ends = [
         place
@@ -184,16 +192,16 @@ def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine 
     return tuple(line for line in before if not isinstance(line, ProgressLine)), kept[-1] if kept else None
 
 
-def _compared(of: HeaderLine) -> Json:
-    """What must be the same in the headers of a run and of one that goes on with it, by its name in messages."""
-    options = {name: value for name, value in plain(of.options).items() if name not in FREE_OPTIONS}
+def _compared(header: HeaderLine) -> Json:
+    """The values of a header that a resumed run must share, by their names in messages."""
+    options = {name: value for name, value in plain(header.options).items() if name not in FREE_OPTIONS}
     return {
-        **{name: getattr(of, name) for name in ("schema", "hypcheck", "python")},
+        **{name: getattr(header, name) for name in ("schema", "hypcheck", "python")},
         **{name if name == "specs" else f"--{name.replace('_', '-')}": value for name, value in options.items()},
-        **{library: of.versions.get(library) for library in LIBRARIES},
-        "system": of.machine.system,
-        "architecture": of.machine.architecture,
-        **{f"the sha256 of {path}": digest for path, digest in (of.files or {}).items()},
+        **{library: header.versions.get(library) for library in LIBRARIES},
+        "system": header.machine.system,
+        "architecture": header.machine.architecture,
+        **{f"the sha256 of {path}": digest for path, digest in (header.files or {}).items()},
     }
 
 
@@ -203,7 +211,7 @@ def _require_same(before: object, now: object, what: str, file: Path) -> None:
 
 
 def _shown(value: object) -> str:
-    return "not there" if value is None else json.dumps(value, ensure_ascii=False)
+    return "missing" if value is None else json.dumps(value, ensure_ascii=False)
 
 
 def saved_state(state: RunState) -> SavedState:
@@ -214,9 +222,9 @@ def saved_state(state: RunState) -> SavedState:
 
 
 def restored_state(content: SavedState) -> RunState:
-    """The state that a line of progress has. Raises ValueError where open cases have more answers, or fewer.
+    """The state in a line of progress. Raises ValueError if pending cases have more answers than cases, or fewer.
 
-    Nothing is made larger than what was read; whether the numbers agree is for consistency.require_state to say.
+    Nothing is made larger than what was read. consistency.require_state checks whether the numbers agree.
     """
     return RunState(Allowance(**structs.asdict(content.left)), content.done, restored_result(content.total))
 
@@ -237,7 +245,7 @@ def saved_result(result: CasesResult) -> SavedResult:
 
 
 def restored_result(content: SavedResult) -> CasesResult:
-    """The result that a line of progress has. Raises as restored does."""
+    """The result in a line of progress. Raises as restored_state does."""
     return CasesResult(
         tallies={family: _restored_tally(tally) for family, tally in content.tallies.items()},
         open=tuple(map(_restored_open, content.open)),
@@ -249,13 +257,13 @@ def restored_result(content: SavedResult) -> CasesResult:
 
 
 def _restored_open(content: PendingCases) -> PendingRetest:
-    """Open cases; their indices are made only where there are as many answers."""
+    """Pending cases; their indices are made only if there are as many answers."""
     chunk = CaseChunk(*content.chunk)
     answers = np.frombuffer(bytes.fromhex(content.answers), dtype=np.int8)
     ends = [0, *chain.from_iterable(content.indices), len(chunk)]
     ascending = ends == sorted(ends) and all(first < last for first, last in content.indices)
     if not content.indices or not ascending or sum(last - first for first, last in content.indices) != len(answers):
-        raise ValueError(f"{len(answers)} answers of {chunk.family} are not to its open cases")
+        raise ValueError(f"{chunk.family} has {len(answers)} answers, which do not match its pending cases")
     return PendingRetest(chunk, np.concatenate([np.arange(*run) for run in content.indices]), answers)
 
 
@@ -296,6 +304,6 @@ def _restored_case(case: SavedAnswer | SavedFault) -> Json:
 
 
 def _runs(indices: NDArray[np.intp]) -> list[tuple[int, int]]:
-    """Ascending indices as stretches [first, last + 1)."""
+    """Ascending indices as ranges [first, last + 1)."""
     breaks = np.flatnonzero(np.diff(indices) != 1) + 1
     return [(int(part[0]), int(part[-1]) + 1) for part in np.split(indices, breaks)]

@@ -6,9 +6,10 @@ makes other rows, these are added too: nobody's copy of a case ever loses its me
 
 from __future__ import annotations
 
+import os
 import re
 import struct
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -187,3 +188,43 @@ def _require_no_faults(faults: list[LabelFault]) -> None:
             f"the label made for {worst.case} does not stand its check: {worst.sentence}; please report this, it is a "
             "fault of hypcheck"
         )
+
+
+def require_keepable(path: str) -> None:
+    """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
+    if Path(path).exists():
+        read_vectors(path)
+    folder = Path(path).resolve().parent
+    if not folder.is_dir():
+        raise InputError(f"cannot write {path}: there is no folder {folder}")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"cannot write {path}: permission denied")
+
+
+def keep_rows(path: str, rows: Sequence[Row], made_by: str) -> int:
+    """Add those rows to a vector file that it lacks, labelled and proved, and return their number.
+
+    A new file names `made_by` as the command that made it. Cases of an existing file stay as they are. Raises
+    InputError if the file is no vector file, or cannot be written.
+    """
+    before = read_vectors(path) if Path(path).exists() else VectorFile(_found_metadata(made_by), {}, ())
+    known = [(case.id, case.row) for case in before.cases]
+    added = labelled(extended(before.head.name, known, rows)[len(known) :])
+    with writing(path) as writer:
+        writer.write(vectors_text(assembled(before.head, (*before.cases, *added))).encode())
+    return len(added)
+
+
+def _found_metadata(made_by: str) -> Metadata:
+    return Metadata(
+        name="found",
+        version=1,
+        title="rows that an implementation answered wrongly",
+        source="own; the strata of hypcheck's vectors, and local search from there",
+        purpose="an implementation was wrong here; it should stay right once it is corrected",
+        game="as wrong as the game that uses the implementation",
+        drone="as wrong as the drone that uses the implementation",
+        regimes="those of the wrong answers",
+        extreme=False,
+        made_by=made_by,
+    )

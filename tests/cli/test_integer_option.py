@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from hypcheck.cli.main import main
 from hypcheck.cli.options import integer_of
 from hypcheck.runs.cases import family_chunks, searched_chunks
-from hypcheck.runs.plan import ConformancePlan, chosen_families, planned_size
+from hypcheck.runs.plan import ConformancePlan, planned_size
+from hypcheck.vectors.families import select
 
 
 @pytest.mark.parametrize(
@@ -66,7 +67,7 @@ def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys):
 @pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
 def test_the_size_of_a_run_is_that_of_its_chunks(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
-    some = [chunk for family in chosen_families(plan) for chunk in family_chunks(family, plan.seed, plan.count)]
+    some = [chunk for family in select(plan.families) for chunk in family_chunks(family, plan.seed, plan.count)]
     assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks())]))
 
 

@@ -1,4 +1,4 @@
-"""A cluster that is not there, is none, or is not like us here is told of in a sentence."""
+"""`--cluster` refuses addresses without a scheduler, and clusters that differ from this machine, in one sentence."""
 
 from __future__ import annotations
 
@@ -16,9 +16,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
-from hypcheck.runs import cluster as ways
-from hypcheck.runs.cluster import call_with_timeout, check_address, cluster_client
 from hypcheck.runs.fingerprint import code_fingerprint
+from hypcheck.runs.plan import check_cluster_address
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
 from tests.runs.cluster.clusters import Cluster
 from tests.runs.crashing import rules_of, steps_of
@@ -27,6 +26,8 @@ pytest.importorskip("distributed")
 
 from distributed.comm.core import CommClosedError
 
+from hypcheck.runs import cluster as connection
+from hypcheck.runs.cluster import call_with_timeout, cluster_client
 from hypcheck.runs.dask_executor import execution_on_cluster
 
 
@@ -41,7 +42,7 @@ def cluster(tmp_path_factory):
 
 @contextlib.contextmanager
 def server(says):
-    """The address of one who answers every connection with these bytes, and then is silent."""
+    """The address of a server that sends these bytes to each client and nothing else."""
     with socket.create_server(("127.0.0.1", 0)) as listening:
         held = []
 
@@ -59,8 +60,8 @@ def server(says):
 
 
 def refusal(address, monkeypatch):
-    """What is said of an address that must answer within a second."""
-    monkeypatch.setattr(ways, "CONNECT", 1)
+    """The error for an address that must answer within a second."""
+    monkeypatch.setattr(connection, "CONNECT", 1)
     with pytest.raises(InputError) as said, cluster_client(address):
         pass
     return str(said.value)
@@ -70,17 +71,17 @@ def refusal(address, monkeypatch):
     "address",
     ["nonsense", "host", "host:", "host:65536", "local:0", "local:x", "http://host:8786", "tcp://host/a:1", ""],
 )
-def test_what_is_no_address(address):
+def test_text_that_is_no_cluster_address_is_refused(address):
     with pytest.raises(InputError, match=r"it must be that of a dask\.distributed scheduler, such as"):
-        check_address(address)
+        check_cluster_address(address)
 
 
 @pytest.mark.parametrize("address", ["host:8786", "tcp://10.0.0.1:8786", "tls://[::1]:65535", "local:1", "local:9999"])
-def test_what_is_an_address(address):
-    check_address(address)
+def test_cluster_address_is_accepted(address):
+    check_cluster_address(address)
 
 
-def test_a_call_is_waited_for_no_longer_than_said():
+def test_call_with_timeout_returns_raises_or_times_out():
     assert call_with_timeout(9, lambda: 3) == 3
     with pytest.raises(ZeroDivisionError):
         call_with_timeout(9, lambda: 1 // 0)
@@ -88,7 +89,7 @@ def test_a_call_is_waited_for_no_longer_than_said():
         call_with_timeout(1, threading.Event().wait)
 
 
-def test_nobody_is_there(monkeypatch):
+def test_closed_port_is_refused_with_the_reason_of_the_system(monkeypatch):
     with socket.create_server(("127.0.0.1", 0)) as listening:
         port = listening.getsockname()[1]
     said = refusal(f"tcp://127.0.0.1:{port}", monkeypatch)
@@ -97,24 +98,28 @@ def test_nobody_is_there(monkeypatch):
 
 @pytest.mark.parametrize(
     ("says", "reason"),
-    [(b"", "nothing was said within 1 s"), (b"HTTP/1.1 400 Bad Request\r\n\r\n" * 9, "what is said there is not")],
+    [
+        (b"", "there was no answer within 1 s"),
+        (b"HTTP/1.1 400 Bad Request\r\n\r\n" * 9, "the answer is not one of dask"),
+    ],
 )
-def test_somebody_else_is_there(monkeypatch, says, reason):
+def test_server_that_is_not_dask_is_refused_with_a_reason(monkeypatch, says, reason):
     with server(says) as address:
         assert reason in refusal(address, monkeypatch)
 
 
-def test_certificates_are_missing(monkeypatch):
-    assert "certificates are told by dask's settings" in refusal("tls://127.0.0.1:9", monkeypatch)
+def test_refused_tls_address_names_the_settings_for_certificates(monkeypatch):
+    settings = "dask's settings distributed.comm.tls name the certificates"
+    assert settings in refusal("tls://127.0.0.1:9", monkeypatch)
 
 
-def test_a_worker_is_there(cluster, monkeypatch):
+def test_address_of_a_worker_is_refused(cluster, monkeypatch):
     with cluster_client(cluster.address) as client:
         (worker,) = client.scheduler_info()["workers"]
-    assert "a dask worker is there, and no scheduler; name its scheduler" in refusal(worker, monkeypatch)
+    assert "is the address of a dask worker; it must be that of its scheduler" in refusal(worker, monkeypatch)
 
 
-def test_a_worker_that_cannot_write(cluster):
+def test_worker_that_cannot_write_into_its_folder_ends_the_run_with_an_error(cluster):
     opening = ImplementationOpener("builtin:fast", Limits())
     with (
         cluster_client(cluster.address) as client,
@@ -126,8 +131,8 @@ def test_a_worker_that_cannot_write(cluster):
             list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
 
 
-def test_a_worker_that_says_nothing(tmp_path, monkeypatch):
-    """Its system goes on to say that it is there."""
+def test_cluster_with_a_stopped_worker_is_refused(tmp_path, monkeypatch):
+    """The worker does not answer, though its connection is open."""
     found = Cluster(tmp_path, {})
     try:
         found.start_workers(1)
@@ -139,7 +144,7 @@ def test_a_worker_that_says_nothing(tmp_path, monkeypatch):
         found.end()
 
 
-def test_a_scheduler_without_workers(tmp_path, monkeypatch):
+def test_scheduler_without_workers_is_refused(tmp_path, monkeypatch):
     empty = Cluster(tmp_path, {})
     try:
         assert "the scheduler has no workers; `dask worker tcp://" in refusal(empty.address, monkeypatch)
@@ -150,20 +155,23 @@ def test_a_scheduler_without_workers(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("package", "version", "said"), [("hypcheck", "0.0.1", "has hypcheck 0.0.1"), ("dask", None, "has no dask")]
 )
-def test_other_versions(cluster, package, version, said):
+def test_node_with_another_version_is_refused(cluster, package, version, said):
     with cluster_client(cluster.address) as client:
         found = client.get_versions(packages=["hypcheck"])
-    ways._require_versions(found, cluster.address)
-    for who in ("scheduler", "worker"):
+    connection._require_versions(found, cluster.address)
+    for node in ("scheduler", "worker"):
         other = copy.deepcopy(found)
-        machine = other[who] if who == "scheduler" else next(iter(other["workers"].values()))
+        machine = other[node] if node == "scheduler" else next(iter(other["workers"].values()))
         machine["packages"][package] = version
-        with pytest.raises(InputError, match=rf"{who} (tcp\S+ )?{said}, and here it is .*; both must be one"):
-            ways._require_versions(other, cluster.address)
+        with pytest.raises(
+            InputError, match=rf"{node} (tcp\S+ )?{said}, this machine has .*; both must have the same version"
+        ):
+            connection._require_versions(other, cluster.address)
 
 
-def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
+def test_cluster_without_dask_installed_is_refused_with_the_command_that_installs_it(monkeypatch, tmp_path, capsys):
     monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, "hypcheck.runs.cluster")
     words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
     assert main([*words, "--cluster", "local:2"]) == 2
     assert capsys.readouterr().err.splitlines()[-1] == (
@@ -173,10 +181,10 @@ def test_dask_is_not_installed(monkeypatch, tmp_path, capsys):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_worker_that_is_lost_before_it_tells_its_files_is_not_said_to_have_others():
-    """As dask tells of it; whoever comes in its place is looked at later."""
+def test_worker_that_is_lost_before_it_sends_its_fingerprint_is_not_refused():
+    """The worker that replaces it is checked later."""
     ours = code_fingerprint()
-    ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": CommClosedError("in rpc")}, "tcp://c:3")
+    connection._require_same_files({"tcp://a:1": ours, "tcp://b:2": CommClosedError("in rpc")}, "tcp://c:3")
     for there in ("another", ImportError("no module named hypcheck.runs.fingerprint")):
         with pytest.raises(InputError, match="worker tcp://b:2 has other files of hypcheck"):
-            ways._require_same_files({"tcp://a:1": ours, "tcp://b:2": there}, "tcp://c:3")
+            connection._require_same_files({"tcp://a:1": ours, "tcp://b:2": there}, "tcp://c:3")

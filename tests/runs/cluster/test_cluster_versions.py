@@ -26,12 +26,12 @@ from importlib import metadata
 ours = metadata.version
 metadata.version = lambda name: "2020.1.0" if name == "distributed" else ours(name)
 """
-OTHER_FILES = f"has other files of hypcheck {VERSION} than there are here; install the same there"
+OTHER_FILES = f"has other files of hypcheck {VERSION} than this machine; install the same files there"
 
 
 @pytest.fixture
 def cluster(tmp_path):
-    """A scheduler like us, and no workers yet."""
+    """A scheduler with the versions of this machine, without workers."""
     found = Cluster(tmp_path, {})
     yield found
     found.end()
@@ -54,32 +54,32 @@ def refusal(address):
     return str(said.value)
 
 
-def test_a_scheduler_of_another_dask(tmp_path, monkeypatch):
-    """It is not even tried with dask's own client, which may wait long for one of other versions, and print errors."""
-    monkeypatch.setattr("distributed.Client", None)
+def test_scheduler_with_another_version_of_dask_is_refused_before_a_client_is_made(tmp_path, monkeypatch):
+    """dask's own client may wait long for a scheduler of another version, and print errors."""
+    monkeypatch.setattr("hypcheck.runs.cluster.Client", None)
     (tmp_path / "sitecustomize.py").write_text(OTHER_DASK)
     other = Cluster(tmp_path, {"PYTHONPATH": str(tmp_path)})
     try:
         said = refusal(other.address)
     finally:
         other.end()
-    assert "the scheduler has distributed 2020.1.0, and here it is " in said
+    assert "the scheduler has distributed 2020.1.0, this machine has " in said
 
 
-def test_a_worker_of_another_dask(cluster, tmp_path):
+def test_worker_with_another_version_of_dask_is_refused(cluster, tmp_path):
     (tmp_path / "sitecustomize.py").write_text(OTHER_DASK)
     cluster.start_workers(1, {"PYTHONPATH": str(tmp_path)})
     said = refusal(cluster.address)
     assert "worker tcp://127.0.0.1:" in said
-    assert " has distributed 2020.1.0, and here it is " in said
+    assert " has distributed 2020.1.0, this machine has " in said
 
 
-def test_a_worker_with_other_files_of_the_same_version(cluster, another):
+def test_worker_with_other_files_of_the_same_version_is_refused(cluster, another):
     cluster.start_workers(1, home=another)
     assert refusal(cluster.address).endswith(OTHER_FILES)
 
 
-def test_a_worker_with_other_files_that_comes_in_the_middle(cluster, another):
+def test_worker_with_other_files_that_joins_during_the_run_ends_it_with_an_error(cluster, another):
     opening = ImplementationOpener("builtin:fast", Limits())
     cluster.start_workers(1)
     with (

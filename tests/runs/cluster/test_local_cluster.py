@@ -23,8 +23,7 @@ pytest.importorskip("distributed")
 from distributed.core import rpc
 from distributed.security import Security
 
-from hypcheck.runs import local_cluster
-from hypcheck.runs.cluster import cluster_client
+from hypcheck.runs.cluster import SCRATCH, _scratch_folder, cluster_client
 
 pytestmark = needs_proc
 
@@ -141,12 +140,12 @@ def test_scratch_folder_of_a_killed_local_cluster_is_removed_when_the_next_one_s
     other = tmp_path / "other"
     other.mkdir()
     (other / "file").write_text("")
-    link = tmp_path / f"{local_cluster.SCRATCH}link"
+    link = tmp_path / f"{SCRATCH}link"
     link.symlink_to(other)
-    with local_cluster._scratch_folder() as running:
+    with _scratch_folder() as running:
         assert not left.exists()
         assert running.stat().st_mode & 0o077 == 0
-        with local_cluster._scratch_folder():
+        with _scratch_folder():
             assert running.exists()
     assert sorted(tmp_path.iterdir()) == [link, file, other]
     assert (other / "file").exists()

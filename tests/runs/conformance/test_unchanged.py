@@ -64,7 +64,7 @@ def gated(site, folder, attack, *options):
 def test_an_implementation_that_writes_over_the_judge_fails_and_the_file_is_named(installed, tmp_path, options):
     site = tmp_path / "site"
     shutil.copytree(installed, site)
-    verdict, lines = (site / "hypcheck" / part for part in ("report/verdict.py", "runs/conformance_lines.py"))
+    verdict, lines = (site / "hypcheck" / part for part in ("report/verdict.py", "runs/consistency.py"))
     attack = f"[Path(each).write_text('raise SystemExit(0)') for each in ({str(verdict)!r}, {str(lines)!r})]"
     said = gated(site, tmp_path / "run", attack, *options)
     if "ended with 70" in said and options:  # the second worker was begun behind the attack

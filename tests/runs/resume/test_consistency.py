@@ -17,7 +17,7 @@ from hypcheck.record.progress import SavedState
 from hypcheck.record.reader import FILE
 from hypcheck.runs import cases as chunks
 from hypcheck.runs import schedule
-from hypcheck.runs.conformance_lines import MissingCasesError, require_all_tallied, require_lines, require_state
+from hypcheck.runs.consistency import MissingCasesError, require_all_tallied, require_lines, require_state
 from hypcheck.runs.executors import execution_here
 from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.plan import ConformancePlan, planned_cases, rules_of, steps_of
@@ -43,8 +43,8 @@ def plan_of(spec, **options):
 
 
 def every_state(plan):
-    """Each state of a run of a plan, with what consistency is asked with."""
-    with plan.opening(0).open() as it:
+    """Each state of a run of a plan, with the description and the rules that it was judged by."""
+    with plan.opener(0).open() as it:
         rules = rules_of(plan, it.description, KNOWN)
         with execution_here(it, rules) as performing:
             for _, state in perform_steps(steps_of(plan, it.description), performing, RunState(it.allowance)):
@@ -52,7 +52,7 @@ def every_state(plan):
 
 
 def check(plan, used, rules, content):
-    """Raise what is raised where a run goes on from a state that was read back."""
+    """Raise what a resumed run raises about a state that was read back."""
     require_state(restored_state(decoded(content, SavedState)), steps_of(plan, used), plan, rules)
 
 
@@ -68,7 +68,7 @@ def check(plan, used, rules, content):
     ],
     ids=lambda plan: plan.specs[0].rpartition(":")[2],
 )
-def test_every_state_of_a_run_can_be_true(plan):
+def test_every_state_of_a_run_is_consistent(plan):
     kinds = set()
     for used, rules, state in every_state(plan):
         check(plan, used, rules, as_json(saved_state(state)))
@@ -78,7 +78,7 @@ def test_every_state_of_a_run_can_be_true(plan):
 
 
 def leaves(content, *way):
-    """The way to every whole number of a mapping."""
+    """The path to every integer of a mapping."""
     parts = content.items() if isinstance(content, dict) else enumerate(content) if isinstance(content, list) else ()
     for name, part in parts:
         yield from leaves(part, *way, name)
@@ -87,14 +87,14 @@ def leaves(content, *way):
 
 
 def _kind(way):
-    """What a number is: in a tally its field, and whether it says where a case lies."""
+    """The kind of a number: in a tally its field, and whether it is the place of a case."""
     if way[1] != "tallies":
         return way[:2]
     return way[3], "places" if way[3] != "octaves" and way[-1] in (0, 1) else ""
 
 
-def test_a_state_in_which_one_number_was_edited_is_refused():
-    """But for those that fit any other: what it may still cost, how many were asked again, and where cases lie."""
+def test_state_with_one_edited_number_is_refused():
+    """Except numbers that no other contradicts: restarts left, faults left, retested cases, and places of cases."""
     plan = plan_of("python:tests.runs.faulty:dies_on_the_axis", precision="float32")
     *_, (used, rules, _), (_, _, state) = list(every_state(plan))[:6]
     content = as_json(saved_state(state))
@@ -120,16 +120,16 @@ def test_a_state_in_which_one_number_was_edited_is_refused():
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (lambda state: state.update(done=10**9), "axis has 0 cases tallied, of "),
+        (lambda state: state.update(done=10**9), "0 cases of axis are tallied, but it has "),
         (lambda state: state.update(done=-5), "Expected `int` >= 0"),
-        (lambda state: state["total"]["open"][0].update(indices=[[0, 10**11]]), "are not to its open cases"),
-        (lambda state: state["total"].update(tallies={}, open=[]), "has 0 cases tallied, of "),
-        (lambda state: state["total"]["tallies"]["ring"]["counts"].update(right=10**12), "ring has "),
+        (lambda state: state["total"]["open"][0].update(indices=[[0, 10**11]]), "which do not match its pending cases"),
+        (lambda state: state["total"].update(tallies={}, open=[]), "0 cases of ring are tallied, but it has "),
+        (lambda state: state["total"]["tallies"]["ring"]["counts"].update(right=10**12), " cases of ring are tallied"),
         (lambda state: state["left"].update(restarts="many"), "Expected `int`, got `str`"),
         (lambda state: state["total"]["tallies"]["ring"].update(worst=[]), "contradict each other"),
     ],
 )
-def test_an_edited_line_of_progress_is_refused_in_a_sentence(edit, said):
+def test_edited_progress_line_is_refused_with_the_reason(edit, said):
     plan = plan_of("builtin:table-2-float32")
     *_, (used, rules, state) = list(every_state(plan))[:7]
     content = as_json(saved_state(state))
@@ -138,7 +138,7 @@ def test_an_edited_line_of_progress_is_refused_in_a_sentence(edit, said):
         check(plan, used, rules, content)
 
 
-def test_a_finished_run_without_all_its_cases_is_no_pass():
+def test_finished_run_without_all_its_cases_ends_with_70():
     cases = planned_cases(plan_of("builtin:fast"))
     whole = {family: Tally(number, {"right": number}) for family, number in cases.items()}
     require_all_tallied(whole, cases)
@@ -149,7 +149,7 @@ def test_a_finished_run_without_all_its_cases_is_no_pass():
 
 
 @pytest.mark.usefixtures("text_reports")
-def test_edited_lines_of_a_finished_implementation_are_not_gone_on_with(tmp_path, capsys):
+def test_run_with_edited_lines_of_a_finished_implementation_is_not_resumed(tmp_path, capsys):
     specs = ["builtin:table-2-float32", "builtin:fast"]
     words = ["verify", *specs, "--families", "ring", "--count", "30", "--out", str(tmp_path)]
     assert main(words) == 1
@@ -162,7 +162,7 @@ def test_edited_lines_of_a_finished_implementation_are_not_gone_on_with(tmp_path
     before = (tmp_path / FILE).read_bytes()
     capsys.readouterr()
     assert main([*words, "--resume", str(tmp_path)]) == 2
-    assert "ring fails for [], and its counts say ['wrong']" in capsys.readouterr().err
+    assert "ring fails for [], but by its counts for ['wrong']" in capsys.readouterr().err
     assert Path(tmp_path / FILE).read_bytes() == before
     for field, number in (("asked", 3), ("counts", {"right": group.asked}), ("mistakes", {})):
         with pytest.raises(ValueError, match="ring"):

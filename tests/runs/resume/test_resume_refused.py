@@ -97,11 +97,11 @@ def test_standard_input(tmp_path, capsys):
 def test_the_record_of_a_run_of_another_kind(tmp_path, capsys):
     (tmp_path / "ours.jsonl").write_text(text_and_record()[0], encoding="utf-8")
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "ours.jsonl"))
-    assert "it is the record of a run of `verify without SPEC`, which begins anew" in said
+    assert "it is the record of a run of `verify without SPEC`, which always begins from its start" in said
     header = {**as_json(read(tmp_path / "ours.jsonl").header), "options": {"command": "bench"}}
     (tmp_path / "bench.jsonl").write_bytes(resealed([header]))
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "bench.jsonl"))
-    assert "it is the record of a run of `bench`, which begins anew" in said
+    assert "it is the record of a run of `bench`, which always begins from its start" in said
 
 
 def test_an_implementation_that_was_changed_after_it_had_been_asked(tmp_path, capsys):

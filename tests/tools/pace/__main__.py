@@ -19,7 +19,7 @@ from hypcheck.cli.options import IntegerOption
 from hypcheck.errors import RunOutcome
 from hypcheck.record import Recorder
 from hypcheck.runs.conformance import run_conformance
-from hypcheck.runs.plan import ConformancePlan, planned_size
+from hypcheck.runs.plan import ConformancePlan
 from hypcheck.runs.retest import PARTS
 
 FAMILY = "tower-body"
@@ -105,7 +105,7 @@ def _timed(spec: str, count: int, workers: int | None) -> Pace:
     run_conformance(
         plan, Recorder(io.StringIO(), {}), RunOutcome(), lambda rows: marks.append((time.perf_counter(), rows))
     )
-    asking = plan.processes(planned_size(plan)) or 1
+    asking = plan.pool_workers or 1
     first = 1 if asking == 1 else 2 * asking
     behind = sum(rows for _, rows in marks[first + 1 :])
     last = -2 if sum(1 for _, rows in marks if not rows) <= PARTS else -1

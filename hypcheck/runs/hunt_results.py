@@ -1,4 +1,4 @@
-"""The results of a hunt and of a minimisation, as text at a terminal."""
+"""The results of a hunt and of a minimisation as text at a terminal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hypcheck.tables.numbers import hex_of
 
 
 def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
-    """The report of a hunt, the worst first, at most `most` kinds of wrong answers in full."""
+    """The report of a hunt: at most `most` kinds of wrong answers in full, the worst first."""
     found = run.findings.worst_first()
     beyond = sum(cluster.beyond for cluster in found)
     tolerated = sum(cluster.tolerated for cluster in run.findings.clusters.values())
@@ -38,15 +38,14 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
         yield ""
         more = counted(len(found) - most, "more kind")
         yield f"and {more}, the worst of them {_u(found[most].worst)}; --show shows more"
-    yield from _faults(run)
+    yield from _unanswered(run)
 
 
 def minimised_lines(run: Minimised) -> Iterator[str]:
     """The report of a minimisation."""
-    given = run.first.case.row
     steps = len(run.steps) - 1
     yield f"{_name(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
-    yield _titled("given", f"{decimals(given)}, {_u(run.first)}")
+    yield _titled("given", f"{decimals(run.first.case.row)}, {_u(run.first)}")
     yield _titled("where", run.last.place.words)
     yield from _finding(run.last, run.target)
 
@@ -61,7 +60,7 @@ def _cluster(number: int, cluster: FindingCluster, target: HuntTarget) -> Iterat
     yield from _finding(worst, target)
     tolerated = f", and {cluster.tolerated:,} within tolerance" if cluster.tolerated else ""
     times = "once" if cluster.beyond == 1 else f"{cluster.beyond:,} times"
-    yield _titled("met", f"{times}{tolerated}; the worst from {worst.source}")
+    yield _titled("found", f"{times}{tolerated}; the worst from {worst.source}")
     yield _titled("simplify", _command(target, "minimise", target.spec, decimals(worst.case.row)))
 
 
@@ -74,7 +73,7 @@ def _finding(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 
 
-def _faults(run: Hunt) -> Iterator[str]:
+def _unanswered(run: Hunt) -> Iterator[str]:
     for status, fault in run.faults.items():
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
@@ -83,7 +82,7 @@ def _faults(run: Hunt) -> Iterator[str]:
 
 
 def _command(target: HuntTarget, *words: str) -> str:
-    """A command about the target, with the options that it was opened with."""
+    """A command about the target, with the options with which it was opened."""
     given = [
         part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
     ]
@@ -102,8 +101,8 @@ def _u(finding: HuntFinding) -> str:
 
 
 def _name(target: HuntTarget) -> str:
-    said = target.implementation.description
-    return f"{said.name} ({target.criterion.question}, {target.criterion.precision})"
+    name = target.implementation.description.name
+    return f"{name} ({target.criterion.question}, {target.criterion.precision})"
 
 
 def _titled(title: str, line: str) -> str:

@@ -1,0 +1,262 @@
+"""Consistency of a resumed run: the numbers of its record against each other, and against what was planned.
+
+The checksums of a record do not protect it from a person who edits it. Therefore nothing that is read back is trusted:
+each number is bounded before it is used, sums must agree, and every case that was planned must be tallied.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from hypcheck.errors import Exit, HypcheckError
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.description import allowed
+from hypcheck.implementations.implementation import FAULTS
+from hypcheck.implementations.session import HANGS, Outcome
+from hypcheck.record import RecordLine
+from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.runs import judge
+from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
+from hypcheck.runs.judge import UNANSWERED, Mistake, Status
+from hypcheck.runs.plan import ConformancePlan, planned_cases
+from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
+from hypcheck.runs.schedule import RunState, Step
+from hypcheck.runs.tally import FAULTS_KEPT, WORST_KEPT, Tally, WorstCase
+from hypcheck.truth import float_filter
+from hypcheck.vectors import families, frozen
+
+_OFF = (Status.WRONG, Status.TOLERATED, Status.EXCUSED)
+_ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
+_UNANSWERED = frozenset(status.value for status in UNANSWERED)
+
+
+class MissingCasesError(HypcheckError):
+    """A run whose tallies do not hold the cases that were planned, so that it proves nothing."""
+
+    exit_code = Exit.INTERNAL
+
+
+def require_all_tallied(tallies: Mapping[str, Tally], cases: Mapping[str, int]) -> None:
+    """Raise MissingCasesError if the tallies of a finished run do not hold just these cases."""
+    trouble = _difference({family: sum(tally.counts.values()) for family, tally in tallies.items()}, cases)
+    if trouble:
+        raise MissingCasesError(f"{trouble}; this run proves nothing")
+
+
+def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: ConformancePlan) -> None:
+    """Raise ValueError if the lines about a finished implementation contradict each other or the plan.
+
+    `whole` is the line about the implementation as a whole.
+    """
+    groups = [line for line in lines if isinstance(line, GroupLine)]
+    tallied = {line.family: sum(line.counts.values()) for line in groups}
+    if len(tallied) < len(groups):
+        raise ValueError("a family has two lines")
+    fixed_sizes = {family: plan.count for family in tallied if families.MARK in family and not plan.filtered}
+    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied)
+    trouble = _difference(tallied, planned | fixed_sizes)
+    for line in groups:
+        trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)
+    if trouble or _lacks_trouble(whole, groups, plan):
+        raise ValueError(
+            trouble or "it abstained from more cases or changed more answers than allowed, and no line says that"
+        )
+
+
+def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan: ConformancePlan) -> bool:
+    """Whether the line lacks a reason why the implementation fails as a whole."""
+    abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
+    changed = plan.deterministic and whole.again.within > 0
+    return bool(abstained or changed) and not whole.troubles
+
+
+def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
+    """The statuses for which a group fails the run must be those of its counts, as far as these decide it."""
+    must = {name for name in _UNANSWERED if line.counts.get(name)}
+    may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
+    if plan.fail_on == "wrong" or line.family == frozen.INVALID_NAME:
+        must = may
+    failing = line.failing or []
+    if not must <= set(failing) <= may:
+        return f"{line.family} fails for {sorted(failing)}, but by its counts for {sorted(must)}"
+    return ""
+
+
+def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan, rules: JudgingRules) -> None:
+    """Raise ValueError if no run with these steps can be in this state."""
+    total = state.total
+    waiting = _require_steps(state, steps)
+    for trouble in (
+        _of_allowance(state, plan),
+        *(_of_open(each, waiting, rules) for each in total.open),
+        *(_of_tally(family, each, rules) for family, each in total.tallies.items()),
+        _of_result(total, rules),
+    ):
+        if trouble:
+            raise ValueError(trouble)
+    places = [(each.chunk.family, each.chunk.seed, each.chunk.start) for each in total.open]
+    if len(set(places)) < len(places):
+        raise ValueError("cases of one chunk are pending twice")
+
+
+def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
+    """The chunks whose cases may be pending after the steps that are done; all other cases must be tallied."""
+    counted = Counter({family: sum(tally.counts.values()) for family, tally in state.total.tallies.items()})
+    for each in state.total.open:
+        counted[each.chunk.family] += len(each.indices)
+    done: Counter[str] = Counter()
+    waiting: list[CaseChunk] = []
+    number = 0
+    for step in islice(steps, state.done):
+        number += 1
+        if isinstance(step, CaseChunk):
+            done[step.family] += len(step)
+            waiting.append(step)
+            if done[step.family] > counted[step.family]:  # not one step more than was done is made
+                break
+        elif isinstance(step, InvalidRows):
+            done[frozen.INVALID_NAME] += len(frozen.load_invalid_rows().rows)
+        else:
+            waiting = [chunk for chunk in waiting if chunk.part != step.part]
+    trouble = _difference(counted, done)
+    if trouble or number < state.done:
+        raise ValueError(trouble or f"{state.done} steps are done, but there are only {number}")
+    return waiting
+
+
+def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
+    for family in sorted({*tallied, *planned}):
+        found, expected = tallied.get(family, 0), planned.get(family, 0)
+        if found != expected:
+            return f"{found} cases of {family} are tallied, but it has {expected}"
+    return ""
+
+
+def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
+    left = state.left
+    hangs = left.hangs is None or 0 <= left.hangs <= HANGS
+    if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= FAULTS and hangs):
+        return f"{left.restarts} restarts, {left.faults} faults and {left.hangs} hangs are left, which is impossible"
+    stopped = any(tally.counts.get(Status.NOT_RUN.value) for tally in state.total.tallies.values())
+    return "cases were not asked, though the implementation was not given up" if stopped and not left.over else ""
+
+
+def _of_open(each: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
+    """Pending cases must be part of a planned chunk, and each must have an answer that the question allows."""
+    chunk, indices = each.chunk, each.indices
+    known = (*allowed(rules.criterion.question), CANNOT_SAY)
+    whole = [
+        part.between(chunk.start - part.start, chunk.stop - part.start)
+        for part in waiting
+        if (part.family, part.seed) == (chunk.family, chunk.seed)
+        and part.start <= chunk.start < chunk.stop <= part.stop
+    ]
+    if chunk not in whole or int(indices[0]) != 0 or int(indices[-1]) != len(chunk) - 1:
+        return f"{chunk.family} has pending cases from {chunk.start} to {chunk.stop} that no step leaves pending"
+    if not np.isin(each.answers, known).all():
+        return f"{chunk.family} has pending cases with answers that do not exist"
+    return ""
+
+
+@dataclass(frozen=True)
+class _Sums:
+    """The numbers that a tally and a line about a family share; `worst` are the statuses of the worst cases."""
+
+    asked: int
+    counts: Mapping[str, int]
+    mistakes: Mapping[str, int]
+    octaves: Mapping[str, Mapping[str, int]]
+    bins: tuple[Sequence[Sequence[int]], ...]
+    worst: tuple[str, ...]
+
+    @classmethod
+    def of_line(cls, line: GroupLine) -> _Sums:
+        statuses = tuple(case.status for case in line.worst)
+        bins = (line.size_bins, line.place_bins)
+        return cls(line.asked, line.counts, line.mistakes, line.octaves, bins, statuses)
+
+    @classmethod
+    def of_tally(cls, tally: Tally) -> _Sums:
+        statuses = tuple(case.status for case in tally.worst)
+        bins = (tally.size_bins.as_lists(), tally.place_bins.as_lists())
+        return cls(tally.asked, tally.counts, tally.mistakes, tally.octaves, bins, statuses)
+
+
+def _of_sums(family: str, sums: _Sums) -> str:
+    """The numbers about one family must agree with each other."""
+    counts = Counter(sums.counts)
+    if not {*counts} <= {each.value for each in Status} or not {*sums.mistakes} <= {each.value for each in Mistake}:
+        return f"{family} has a status or a mistake that does not exist"
+    off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
+    asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
+    if family == frozen.INVALID_NAME:
+        agree = not (sums.mistakes or sums.octaves or any(sums.bins) or sums.worst)
+    else:
+        measured: Counter[str] = Counter()
+        for octave in sums.octaves.values():
+            measured.update(octave)
+        binned = {(sum(row[2] for row in rows), sum(row[3] for row in rows)) for rows in sums.bins}
+        agree = (
+            sum(sums.mistakes.values()) == off
+            and binned == {(sums.asked, sums.asked - counts[Status.RIGHT.value])}
+            and all(0 <= row[3] <= row[2] for rows in sums.bins for row in rows)
+            and measured <= counts
+            and measured.total() <= EXPONENTS_OF
+            and len(sums.worst) == min(WORST_KEPT, off)
+            and sums.worst.count(Status.WRONG.value) == min(WORST_KEPT, wrong)
+        )
+    return "" if asked and agree else f"{family} has counts, mistakes, bins and worst cases that contradict each other"
+
+
+def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
+    counts = Counter(tally.counts)
+    trouble = _of_sums(family, _Sums.of_tally(tally))
+    if trouble:
+        return trouble
+    if tally.dangerous > min(counts[Status.WRONG.value], tally.mistakes.get(Mistake.FALSE_CLEAR.value, 0)):
+        return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
+    faults = _UNANSWERED | ({Status.WRONG.value} if family == frozen.INVALID_NAME else set())
+    kept = Counter(fault.status for fault in tally.faults)
+    if kept != Counter({name: min(FAULTS_KEPT, counts[name]) for name in faults if counts[name]}):
+        return f"{family} lists cases without an answer that its counts do not have"
+    for case in tally.worst:
+        if not _is_judged_so(case, rules):
+            return f"{family} has a wrong answer to {case.case} that is judged otherwise now"
+    return ""
+
+
+def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
+    """Whether a worst case is judged now as the record has it."""
+    rows, answers = np.array([case.row]), np.array([case.answer], dtype=np.int8)
+    truth = float_filter.positions(rows)
+    for judged in judge.wrong_cases(rows, truth, answers, rules.criterion):
+        status = Status.WRONG if case.status == Status.EXCUSED else Status(case.status)
+        error = judge.measured(judged, rules.criterion.question)
+        recorded = (case.truth, case.mistake, status, case.error)
+        return recorded == (int(judged.truth), judged.mistake.value, judged.status, error)
+    return False
+
+
+def _of_result(total: CasesResult, rules: JudgingRules) -> str:
+    """The numbers about all families together must agree."""
+    counts: Counter[str] = sum((Counter(tally.counts) for tally in total.tallies.values()), Counter())
+    again, known = total.again, rules.known
+    answered = total.open or any(counts[each.value] for each in (Status.RIGHT, *_OFF, Status.ABSTAINED))
+    outcomes = {outcome for outcome in _ENDED_AS if counts[outcome.label]} | ({Outcome.ANSWERED} if answered else set())
+    if not outcomes <= total.outcomes:
+        return "cases have a status with which no question ended"
+    if again.within + again.beyond > again.asked or again.asked > counts.total():
+        return f"{again.asked} cases were asked again, but there are only {counts.total()}"
+    if again.beyond != counts[Status.NONDETERMINISTIC.value]:
+        return f"{again.beyond} answers changed, but {counts[Status.NONDETERMINISTIC.value]} are counted"
+    excused = counts[Status.EXCUSED.value] > 0
+    if excused != bool(total.excusing) or not total.excusing <= {*range(len(known))}:
+        return "known failures excused cases that they do not cover"
+    if not total.named <= {entry.case for entry in known}:
+        return "it lists cases of known failures that no known failure names"
+    return ""
