@@ -16,10 +16,12 @@ from hypcheck.derivation.program import Operations
 from hypcheck.paper.derive.latex import formula
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
+from hypcheck.paper.ledger.leaning import LeaningWitness
 from hypcheck.paper.ledger.points import PointWitness
+from hypcheck.tables.numbers import exact_text
 from hypcheck.version import VERSION
 
-SCHEMA = "1.2.0"
+SCHEMA = "1.3.0"
 
 
 def lines(chosen: Selection) -> Iterator[str]:
@@ -103,6 +105,7 @@ def _evidence(evidence: Evidence) -> dict[str, Any]:
         "holds": evidence.holds,
         "chain": evidence.chain or None,
         "witnesses": [_witness(witness) for witness in evidence.witnesses],
+        "leaning": [_leaning(witness) for witness in evidence.leaning],
     }
 
 
@@ -118,6 +121,20 @@ def _witness(witness: PointWitness) -> dict[str, Any]:
         "position": int(facts.position),
         "certified": witness.holds,
         "proof": proof_as_json(pair, witness.certificate),
+    }
+
+
+def _leaning(witness: LeaningWitness) -> dict[str, Any]:
+    certificate = witness.certificate
+    return {
+        "shows": witness.shows,
+        "row": list(witness.pair.row),
+        "position": int(certificate.position),
+        "upright_position": int(witness.vertical.position),
+        "certified": witness.holds,
+        "lambda": None if certificate.multiplier is None else exact_text(certificate.multiplier),
+        "points": [list(map(exact_text, point)) for point in certificate.points],
+        "upright_proof": proof_as_json(witness.upright, witness.vertical),
     }
 
 

@@ -16,6 +16,7 @@ from hypcheck.derivation.decisions import decisions
 from hypcheck.derivation.formulas import Formula
 from hypcheck.derivation.proofs import proofs_of
 from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger.leaning import LeaningWitness
 from hypcheck.paper.ledger.points import (
     Condition,
     PointFacts,
@@ -54,6 +55,7 @@ class Evidence:
     holds: bool
     witnesses: tuple[PointWitness, ...] = ()
     chain: str = ""
+    leaning: tuple[LeaningWitness, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -93,7 +95,7 @@ class LedgerEntry:
         if self.verdict == DEFINITION:
             return ()
         found = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
-        if any(evidence.witnesses for evidence in self.evidence):
+        if any(evidence.witnesses or evidence.leaning for evidence in self.evidence):
             found.add("witness")
         return tuple(word for word in ("Coq", "sympy", "exhaustive", "witness") if word in found)
 

@@ -7,6 +7,7 @@ import sympy
 from hypcheck.derivation import pencil
 from hypcheck.derivation.links import known, printed
 from hypcheck.derivation.pencil import symbol
+from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import entry
 from hypcheck.paper.ledger.entry import (
     FALSE,
@@ -18,6 +19,7 @@ from hypcheck.paper.ledger.entry import (
     by_chain,
     without_counterexample,
 )
+from hypcheck.paper.ledger.leaning import first_change
 
 
 def prose() -> tuple[LedgerEntry, ...]:
@@ -198,11 +200,14 @@ def _movements() -> tuple[LedgerEntry, ...]:
             "3.2",
             "pitch, the UAV's tilt forward and backward, is one of the movements of the modelled UAV",
             FALSE,
-            "a tilted spheroid has a term x·z, with the factor sin(2g)·(1/d² − 1/b²), which no equation (4) has",
-            "read “pitch” as the movement ahead; for a tilted body ask the certificates for any axis (docs/proofs.md)",
+            "pitch is not modelled: a tilted spheroid has a term x·z, with the factor sin(2g)·(1/d² − 1/b²), which no "
+            "equation (4) has, and the answer may be another",
+            "read “pitch” as the movement ahead; `hypcheck simulate tower --pitch DEGREES` counts the answers that the "
+            "upright body gets wrong",
             lambda: (
                 _same("the coefficient of x·z", mixed, sympy.sin(2 * angle) * (1 / d**2 - 1 / b**2)),
                 Evidence("identity", "it is not 0", sympy.simplify(mixed) != 0),
+                _changed_by_leaning(),
             ),
             "the movements are ahead or back, yaw, and throttle, with the spheroid upright",
             harmless=(
@@ -211,6 +216,23 @@ def _movements() -> tuple[LedgerEntry, ...]:
             ),
         ),
     )
+
+
+def _changed_by_leaning() -> Evidence:
+    """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they lean."""
+    searches = (
+        first_change(
+            Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the one that leans is not"
+        ),
+        first_change(
+            Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the one that leans is clear"
+        ),
+    )
+    found = tuple(search.found for search in searches if search.found is not None)
+    text = (
+        "; ".join(each.text for each in found) or f"nothing found among {sum(each.tried for each in searches):,} pairs"
+    )
+    return Evidence("search", text, len(found) == len(searches) and all(each.holds for each in found), leaning=found)
 
 
 def _left_open() -> tuple[LedgerEntry, ...]:

@@ -1,0 +1,52 @@
+"""The ledger's witnesses that lean: simplest pairs, certified, whose answer the upright spheroid gets wrong."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger import entries, leaning
+from hypcheck.paper.ledger.leaning import first_change
+from hypcheck.truth.tilted.pair import TiltedPair
+from tests.tilted_fractions import exact_position
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    (row,) = (entry for entry in entries() if entry.number == "Section 3.2, pitch")
+    (found,) = (each for each in row.evidence if each.leaning)
+    return found
+
+
+def test_pitch_row_has_a_dangerous_and_a_needless_witness(evidence):
+    assert evidence.holds
+    dangerous, needless = evidence.leaning
+    assert (dangerous.vertical.position, dangerous.certificate.position) == (Position.INTERIOR, Position.CONTACT)
+    assert (needless.vertical.position, needless.certificate.position) == (Position.CONTACT, Position.INTERIOR)
+    for witness in evidence.leaning:
+        alpha, _, b, d = witness.pair.row[:4]
+        assert alpha >= b > d
+        assert abs(witness.pair.axis_x) <= witness.pair.axis_z
+
+
+def test_both_positions_are_those_of_independent_arithmetic(evidence):
+    for witness in evidence.leaning:
+        upright = TiltedPair(*witness.pair.row[:7], 0.0, 0.0, 1.0)
+        assert exact_position(witness.pair.row) == witness.certificate.position
+        assert exact_position(upright.row) == witness.vertical.position
+
+
+def test_witness_with_a_proof_of_another_position_does_not_hold(evidence):
+    dangerous, needless = evidence.leaning
+    assert not replace(dangerous, certificate=needless.certificate).holds
+    assert not replace(dangerous, vertical=needless.vertical).holds
+    assert not replace(dangerous, pair=needless.pair).holds
+
+
+def test_search_that_finds_nothing_says_how_many_it_tried(monkeypatch):
+    monkeypatch.setattr(leaning, "LARGEST", 2)
+    search = first_change(Position.CONTACT, Position.EXTERIOR, "never")
+    assert search.found is None
+    assert search.tried > 0
