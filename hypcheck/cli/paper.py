@@ -140,6 +140,12 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
 )
 @click.option("--time", type=NumberOption(1e-6, 1e6), default=0.2, show_default=True, help="Their response time, s.")
 @click.option(
+    "--pitch",
+    type=NumberOption(0, 90),
+    metavar="DEGREES",
+    help="Fly the table with a quadcopter that leans so far into its movement, and count the wrong answers.",
+)
+@click.option(
     "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]"
 )
 @common
@@ -149,6 +155,7 @@ def tower(
     runs: int | None,
     speed: float,
     time: float,
+    pitch: float | None,
     workers: int | None,
     seed: int,
     out: Path | None,
@@ -158,8 +165,9 @@ def tower(
     """A quadcopter in a cooling tower (sections 3.2 and 4), by Procedures 2.a and 2.b.
 
     Three flights of 25 positions, as in the paper's Figure 4. With --table 5 also the executions with Δ ≤ 0 for each
-    speed and response time, with standard errors, beside the printed figures. The same seed gives the same result,
-    whatever the number of workers.
+    speed and response time, with standard errors, beside the printed figures. With --pitch the same flights are asked
+    about a quadcopter that leans: how often the upright model's answer is wrong, and how often that is dangerous. The
+    same seed gives the same result, whatever the number of workers.
     """
     if flags["show_scene"]:
         _show(name)
@@ -167,10 +175,11 @@ def tower(
     from hypcheck.paper.tower import TowerPlan, simulate_tower, tower_lines
     from hypcheck.processes import processes, usable_processors
 
-    if runs is not None and table is None:
-        raise InputError("--runs is of the table; it needs --table 5")
-    each = (1000 if runs is None else runs) if table is not None else 0
-    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"])
+    flown = table is not None or pitch is not None
+    if runs is not None and not flown:
+        raise InputError("--runs is of the table; it needs --table 5 or --pitch")
+    each = (1000 if runs is None else runs) if flown else 0
+    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch)
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     _make_ready("tower", out)
     count = min(workers or usable_processors(), len(moves))

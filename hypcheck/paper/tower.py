@@ -16,20 +16,22 @@ from typing import Any
 from hypcheck.errors import InputError
 from hypcheck.messages import counted
 from hypcheck.paper import tower_flights
+from hypcheck.paper.pitch import near_wall, pitch_lines
 from hypcheck.paper.quadcopter import Craft, craft_of, require_valid_start
 from hypcheck.paper.tower_flights import FlightBlock, paths
 from hypcheck.processes import Advance
 from hypcheck.scene.model import Flight, SceneModel
 from hypcheck.version import VERSION
 
-SCHEMA = "1.1.0"
+SCHEMA = "1.2.0"
 
 
 @dataclass(frozen=True, slots=True)
 class TowerPlan:
     """What is to be simulated: the flights of the figure with steps of `speed`·`time`, and Table 5 where `runs` > 0.
 
-    `continuous`: the ways between positions are decided as well, in the table too.
+    `continuous`: the ways between positions are decided as well, in the table too. `pitch`: by how many degrees the
+    quadcopter leans into its horizontal movements in the table's flights, or None where that is not asked.
     """
 
     scene: SceneModel
@@ -38,6 +40,7 @@ class TowerPlan:
     time: float
     runs: int
     continuous: bool
+    pitch: float | None = None
 
     @property
     def craft(self) -> Craft:
@@ -57,7 +60,9 @@ class TowerPlan:
         """The work of Table 5, by cell; none where it is not asked for. Raises InputError."""
         if not self.runs:
             return {}
-        return tower_flights.blocks(self.craft, self.flight, self.seed, self.runs, watched=self.continuous)
+        return tower_flights.blocks(
+            self.craft, self.flight, self.seed, self.runs, watched=self.continuous, pitch=self.pitch
+        )
 
 
 def _require_room(scene: SceneModel, flight: Flight) -> None:
@@ -81,7 +86,7 @@ def _require_room(scene: SceneModel, flight: Flight) -> None:
 
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
-    """The result, as schemas/simulate-tower-1.1.0.json has it. Raises InputError."""
+    """The result, as schemas/simulate-tower-1.2.0.json has it. Raises InputError."""
     craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
     tracks, ways = paths(craft, flight, step, plan.seed)
     blocks = plan.blocks()
@@ -101,6 +106,13 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
             "ways": asdict(ways) if plan.continuous else None,
         },
         "table_5": tower_flights.as_json(cells, plan.runs, tower_flights.statement(craft)) if cells else None,
+        "pitch": None
+        if plan.pitch is None
+        else {
+            "degrees": plan.pitch,
+            **tower_flights.pitch_as_json(cells),
+            "near_wall": near_wall(craft, plan.pitch, plan.seed),
+        },
     }
 
 
@@ -160,6 +172,9 @@ def tower_lines(result: dict[str, Any]) -> Iterator[str]:
             yield ""
             yield "On the ways between the positions of these runs:"
             yield from _ways(table["ways"])
+    if result["pitch"] is not None:
+        yield ""
+        yield from pitch_lines(result["pitch"])
     yield ""
     yield from textwrap.wrap(result["statement"], WIDTH)
 

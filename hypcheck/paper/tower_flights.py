@@ -21,6 +21,7 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
 from hypcheck.paper.motion import MoveVerdicts
+from hypcheck.paper.pitch import PitchVerdicts
 from hypcheck.paper.quadcopter import Craft, Point, Procedures
 from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight
@@ -116,6 +117,7 @@ class FlightBlock:
     number: int
     lanes: int
     watched: bool
+    pitch: float | None = None
 
     @property
     def moves(self) -> int:
@@ -136,6 +138,7 @@ class FlightShare:
     refused: float
     outside_height: float
     ways: MoveVerdicts | None
+    pitch: PitchVerdicts
 
 
 def moves_of(flight: Flight, step: float) -> int:
@@ -152,22 +155,38 @@ def moves_of(flight: Flight, step: float) -> int:
     return math.ceil(moves)
 
 
-def fly_block(block: FlightBlock) -> tuple[Tallies, MoveVerdicts | None]:
-    """The runs of a block, with exact verdicts on their ways where it is `watched`."""
-    ways = MoveVerdicts() if block.watched else None
+@dataclass(frozen=True, slots=True)
+class FlownBlock:
+    """What came of a block's runs: `ways` where it was watched, `pitch` with counts where its craft leans."""
+
+    tallies: Tallies
+    ways: MoveVerdicts | None
+    pitch: PitchVerdicts
+
+
+def fly_block(block: FlightBlock) -> FlownBlock:
+    """The runs of a block, with exact verdicts on their ways where it is `watched`, and on leaning where it has one."""
+    ways, leaning, degrees = MoveVerdicts() if block.watched else None, PitchVerdicts(), block.pitch
+
+    def observe(moves: Moves) -> None:
+        if ways is not None:
+            ways.watch(block.craft, moves)
+        if degrees is not None:
+            leaning.watch(block.craft, degrees, moves)
+
     draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
-    observe = None if ways is None else lambda moves: ways.watch(block.craft, moves)
     step = block.speed * block.time
-    return fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe), ways
+    tallies = fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe)
+    return FlownBlock(tallies, ways, leaning)
 
 
 def blocks(
-    craft: Craft, flight: Flight, seed: int, runs: int, *, watched: bool
+    craft: Craft, flight: Flight, seed: int, runs: int, *, watched: bool, pitch: float | None = None
 ) -> dict[tuple[float, float], list[FlightBlock]]:
     """The blocks of each cell (t, v): those of the table, and of its second row read as 0.25."""
     return {
         (time, speed): [
-            FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched)
+            FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched, pitch)
             for number in range(math.ceil(runs / LANES))
         ]
         for time in (*TIMES, SECOND_READING)
@@ -190,9 +209,9 @@ def table_5(
     }
 
 
-def _cell(results: Sequence[tuple[Tallies, MoveVerdicts | None]]) -> FlightShare:
+def _cell(results: Sequence[FlownBlock]) -> FlightShare:
     executions, touching, refused, redrawn = (
-        np.concatenate([getattr(tallies, name) for tallies, _ in results])
+        np.concatenate([getattr(block.tallies, name) for block in results])
         for name in ("executions", "touching", "refused", "redrawn")
     )
     percents = (100.0 * touching / executions).tolist()
@@ -205,7 +224,8 @@ def _cell(results: Sequence[tuple[Tallies, MoveVerdicts | None]]) -> FlightShare
         executions=float(np.mean(executions)),
         refused=float(np.mean(refused)),
         outside_height=float(np.mean(redrawn)),
-        ways=sum_of_verdicts(ways for _, ways in results),
+        ways=sum_of_verdicts(block.ways for block in results),
+        pitch=sum_of_pitch(block.pitch for block in results),
     )
 
 
@@ -216,6 +236,22 @@ def sum_of_verdicts(several: Iterable[MoveVerdicts | None]) -> MoveVerdicts | No
     for ways in seen:
         total.add(ways)
     return total if seen else None
+
+
+def sum_of_pitch(several: Iterable[PitchVerdicts]) -> PitchVerdicts:
+    """All counts in one."""
+    total = PitchVerdicts()
+    for each in several:
+        total.add(each)
+    return total
+
+
+def pitch_as_json(cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
+    """The counts of each cell (t, v), and all together."""
+    return {
+        "total": asdict(sum_of_pitch(cell.pitch for cell in cells.values())),
+        "cells": [{"t": time, "v": speed, **asdict(cell.pitch)} for (time, speed), cell in cells.items()],
+    }
 
 
 def as_json(cells: Mapping[tuple[float, float], FlightShare], runs: int, said: str) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from hypcheck.tables.streams import writing
 
 PICTURES: dict[str, tuple[Callable[[dict[str, Any]], Iterator[Plot]], tuple[str, ...]]] = {
     "forest": (forest_walk.plots, ("forest-walk", "forest-space")),
-    "tower": (tower.plots, ("tower-flights", "tower-table-5")),
+    "tower": (tower.plots, ("tower-flights", "tower-table-5", "tower-pitch")),
 }
 """By the simulation's name what draws it, and the names of all pictures that it may draw."""
 

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.paper import pitch
 from hypcheck.scene.reading import shipped_text
 from tests.support.records import violations
 
@@ -19,8 +20,11 @@ SHORT = shipped_text("tower").replace("distance = 500.0", "distance = 3.0")
 FOREST = ("simulate", "forest", "--seed", "3")
 
 
+VERSIONS = {"forest": "1.1.0", "tower": "1.2.0"}
+
+
 def schema(name):
-    file = resources.files("hypcheck.paper").joinpath("schemas", f"simulate-{name}-1.1.0.json")
+    file = resources.files("hypcheck.paper").joinpath("schemas", f"simulate-{name}-{VERSIONS[name]}.json")
     return json.loads(file.read_text(encoding="utf-8"))
 
 
@@ -31,20 +35,29 @@ def run(capsys, *arguments):
 
 
 @pytest.fixture
-def tower(tmp_path):
+def tower(tmp_path, monkeypatch):
+    monkeypatch.setattr(pitch, "CENTRES", 50)
     path = tmp_path / "short.toml"
     path.write_text(SHORT)
     return ("simulate", "tower", "--scene", str(path), "--workers", "1")
 
 
 @pytest.mark.parametrize(
-    "more", [(), ("--continuous",), ("--table", "5", "--runs", "3"), ("--table", "5", "--runs", "1", "--continuous")]
+    "more",
+    [
+        (),
+        ("--continuous",),
+        ("--table", "5", "--runs", "3"),
+        ("--table", "5", "--runs", "1", "--continuous"),
+        ("--pitch", "20", "--runs", "1"),
+    ],
 )
 def test_the_towers_json_is_what_its_schema_says(capsys, tower, more):
     code, out, err = run(capsys, *tower, "--format", "json", *more)
     assert (code, err) == (0, "")
     assert violations(json.loads(out), schema("tower"), closed=True) == []
-    assert (json.loads(out)["table_5"] is None) == ("--table" not in more)
+    assert (json.loads(out)["table_5"] is None) == ("--runs" not in more)
+    assert (json.loads(out)["pitch"] is None) == ("--pitch" not in more)
 
 
 @pytest.mark.parametrize("more", [("--steps", 40), ("--continuous",), ("--steps", 0)])
@@ -105,9 +118,9 @@ def test_trees_outside_the_regime_and_heights_are_told(capsys, tmp_path):
 
 def test_files_are_written_and_told_on_standard_error(capsys, tower, tmp_path):
     out = tmp_path / "new" / "folder"
-    code, said, told = run(capsys, *tower, "--table", "5", "--runs", "2", "--out", out, "--format", "json")
+    code, said, told = run(capsys, *tower, "--pitch", "20", "--runs", "2", "--out", out, "--format", "json")
     assert code == 0
-    names = ["simulate-tower.json", "tower-flights.svg", "tower-table-5.svg"]
+    names = ["simulate-tower.json", "tower-flights.svg", "tower-table-5.svg", "tower-pitch.svg"]
     assert told.splitlines() == [f"wrote {out / name}" for name in names]
     assert json.loads((out / names[0]).read_text()) == json.loads(said)
     for name in names[1:]:
@@ -115,6 +128,7 @@ def test_files_are_written_and_told_on_standard_error(capsys, tower, tmp_path):
         assert root.tag.endswith("svg")
     run(capsys, *tower, "--out", out)
     assert not (out / "tower-table-5.svg").exists()  # it would show another run
+    assert not (out / "tower-pitch.svg").exists()
 
 
 def test_without_matplotlib_all_but_the_pictures_is_written(capsys, tmp_path, monkeypatch):
@@ -139,8 +153,9 @@ def test_without_matplotlib_all_but_the_pictures_is_written(capsys, tmp_path, mo
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("tower", "--runs", 5), "--runs is of the table; it needs --table 5"),
+        (("tower", "--runs", 5), "--runs is of the table; it needs --table 5 or --pitch"),
         (("tower", "--table", "4"), "'4'"),
+        (("tower", "--pitch", "91"), "'--pitch': '91' must be a number, at least 0 and at most 90"),
         (("tower", "--table", "5", "--runs", 0), "'0' must be a whole number, at least 1"),
         (("tower", "--speed", "nan"), "'--speed': 'nan' must be a number, at least 1e-06 and at most 1e+06"),
         (("tower", "--time", "-1"), "'--time': '-1' must be a number, at least 1e-06"),

@@ -22,8 +22,8 @@ SHORT = replace(TOWER, flight=replace(TOWER.flight, distance=3.0))
 
 
 @cache
-def flown(scene=SHORT, runs=2):
-    return simulate_tower(TowerPlan(scene, 1, 5.0, 0.2, runs, continuous=False), None, lambda _: None)
+def flown(scene=SHORT, runs=2, pitch=None):
+    return simulate_tower(TowerPlan(scene, 1, 5.0, 0.2, runs, continuous=False, pitch=pitch), None, lambda _: None)
 
 
 @cache
@@ -33,6 +33,7 @@ def walked(steps, seed=3):
 
 RESULTS = {
     "tower": lambda: (tower, flown()),
+    "tower leaning": lambda: (tower, flown(pitch=35.0)),
     "tower without a table": lambda: (tower, flown(runs=0)),
     "simplest": lambda: (tower, flown(read_scene("tower-simplest"), runs=0)),
     "forest": lambda: (forest_walk, walked(1500)),
@@ -100,6 +101,27 @@ def test_the_table_is_drawn_over_the_step():
     assert np.allclose(other.get_xdata(), [1.25, 1.5, 1.75, 2.0, 2.25, 2.5])
     assert other.get_markerfacecolor() == "none"
     assert "not identified by the table" in plot.description
+
+
+def test_shares_of_wrong_answers_are_drawn_over_the_step():
+    result = flown(pitch=35.0)
+    with styled():
+        *_, plot = tower.plots(result)
+    assert plot.name == "tower-pitch"
+    section, shares = plot.figure.axes
+    needless, dangerous = shares.lines
+    for line, wanted in (
+        (needless, lambda cell: cell["wrong"] - cell["dangerous"]),
+        (dangerous, lambda cell: cell["dangerous"]),
+    ):
+        expected = sorted(
+            (cell["t"] * cell["v"], 100 * wanted(cell) / cell["moves"]) for cell in result["pitch"]["cells"]
+        )
+        assert np.allclose(sorted(line.get_xydata().tolist()), expected)
+    upright, leaning, wall = section.lines
+    assert max(upright.get_xdata()) == pytest.approx(2.0)
+    assert max(leaning.get_xdata()) < 2.0
+    assert min(wall.get_xdata()) == 2.0
 
 
 def test_every_stop_and_the_rings_of_guilty_trees_are_drawn():

@@ -72,12 +72,12 @@ def first_change(before: Position, after: Position, shows: str) -> LeaningSearch
     """The simplest pair that is `before` upright and `after` as it leans, both proved."""
     tried = 0
     for numbers in _pairs():
-        vertical = Pair(*numbers)
+        vertical = Pair.from_row(numbers)
         if upright_exact.position(vertical.lengths) is not before:
             continue
         for axis in AXES:
             tried += 1
-            pair = TiltedPair(*numbers, *axis)
+            pair = TiltedPair.from_row((*numbers, *axis))
             if exact.position(pair.lengths) is after:
                 return LeaningSearch(
                     tried, LeaningWitness(pair, prove.prove(pair), upright_prove.prove(vertical), shows)

@@ -157,6 +157,8 @@ def plots(result: dict[str, Any]) -> Iterator[Plot]:
     yield flights(result)
     if result["table_5"] is not None:
         yield _table(result["table_5"])
+    if result["pitch"] is not None:
+        yield _pitch(result["assumptions"], result["pitch"])
 
 
 def _table(table: dict[str, Any]) -> Plot:
@@ -206,3 +208,49 @@ def _printed(
 ) -> None:
     steps = [time * speed for speed in speeds]
     axes.plot(steps, figures, linestyle="none", marker=style.marker, color=style.colour, label=told, **paint)  # type: ignore[arg-type]
+
+
+def _pitch(told: dict[str, Any], pitch: dict[str, Any]) -> Plot:
+    """The body upright and leaning beside the wall, and how often that changes the answer, over the step."""
+    figure = new_figure(760, 380)
+    section, shares = figure.subplots(1, 2, width_ratios=[1, 1.5])
+    _section(section, told, pitch["degrees"])
+    cells = sorted(pitch["cells"], key=lambda cell: float(cell["t"] * cell["v"]))
+    steps = [cell["t"] * cell["v"] for cell in cells]
+    dangerous = [cell["dangerous"] for cell in cells]
+    needless = [cell["wrong"] - cell["dangerous"] for cell in cells]
+    kinds = ((needless, "needless: refused, though clear"), (dangerous, "dangerous: accepted, though not clear"))
+    for place, (counts, label) in enumerate(kinds):
+        style = curve_style(place)
+        percents = [100 * count / max(1, cell["moves"]) for count, cell in zip(counts, cells, strict=True)]
+        shares.plot(steps, percents, color=style.colour, marker=style.marker, linestyle=style.dashes, label=label)
+    shares.set_ylim(bottom=-0.02 * max(1e-9, shares.get_ylim()[1]))
+    shares.set(xlabel="step v·t (m)", ylabel="wrong answers about horizontal moves (%)")
+    shares.legend(frameon=True, facecolor=colour("surface"), edgecolor="none", framealpha=1)
+    total = pitch["total"]
+    said = (
+        f"Left: the body in a section through the tower's axis, upright and leaning outwards by {pitch['degrees']:g} "
+        f"degrees, where the upright one just touches the wall. Right: of {total['moves']:,} horizontal moves the "
+        f"upright model's answer is wrong about {total['wrong']:,}, dangerous for {total['dangerous']:,}."
+    )
+    return Plot("tower-pitch", "A quadcopter that leans into its movement, and the upright model", said, figure)
+
+
+def _section(axes: Axes, told: dict[str, Any], degrees: float) -> None:
+    """The body where its upright ellipse touches the wall at the waist, from the side."""
+    alpha, gamma, b, d = (told[name] for name in ("alpha", "gamma", "b", "d"))
+    centre, tilt = alpha - b, math.radians(degrees)
+    for style, angle, label in (
+        (curve_style(0), 0.0, "upright"),
+        (curve_style(1), tilt, f"leaning by {degrees:g}°"),
+    ):
+        ring = [(b * math.cos(each), d * math.sin(each)) for each in _ROUND]
+        x = [centre + across * math.cos(angle) + up * math.sin(angle) for across, up in ring]
+        z = [up * math.cos(angle) - across * math.sin(angle) for across, up in ring]
+        axes.plot(x, z, color=style.colour, linestyle=style.dashes, label=label)
+    heights = [1.6 * b * step / 20 for step in range(-20, 21)]
+    wall = [alpha * math.hypot(1, z / gamma) for z in heights]
+    axes.plot(wall, heights, color=colour("ink"), linewidth=1.6, label="wall")
+    axes.set_aspect("equal")
+    axes.set(xlabel="distance from the axis (m)", ylabel="z (m)")
+    axes.legend(loc="upper left", frameon=True, facecolor=colour("surface"), edgecolor="none", framealpha=1)

@@ -1,0 +1,140 @@
+"""What the upright model gets wrong about a quadcopter that leans, against arithmetic in fractions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.paper import pitch
+from hypcheck.paper.flights import Moves
+from hypcheck.paper.pitch import Lean, PitchVerdicts, leaning_interior, near_wall, valid_leaning
+from hypcheck.paper.quadcopter import any_angle, craft_of
+from hypcheck.paper.tower import TowerPlan, simulate_tower
+from hypcheck.scene.reading import read_scene
+from tests.tilted_fractions import exact_position
+
+TOWER = read_scene("tower")
+CRAFT = craft_of(TOWER)
+SHORT = replace(TOWER, flight=replace(TOWER.flight, distance=3.0))
+
+
+def near_the_wall(count, seed=5):
+    random = np.random.default_rng(seed)
+    z = random.uniform(-17.8, 17.8, count)
+    angle = random.uniform(-180, 180, count)
+    radius = 2 * np.sqrt(1 + (z / 17.8) ** 2) + random.uniform(-0.3, 0.0, count)
+    cosine, sine = any_angle(angle)
+    return (radius * cosine, radius * sine, z), any_angle(random.uniform(-180, 180, count))
+
+
+@pytest.mark.parametrize("degrees", [0.0, 20.0, 45.0, 90.0])
+def test_interior_answers_are_those_of_fractions(degrees):
+    at, toward = near_the_wall(16)
+    axis = Lean.by(degrees, toward).axis
+    found = leaning_interior(CRAFT.sizes, at, axis)
+    expected = [exact_position((*CRAFT.sizes, *row)) == -1 for row in zip(*at, *axis, strict=True)]
+    assert found.tolist() == expected
+    assert 0 < sum(expected) < 16
+
+
+def test_axis_makes_the_angle_with_the_vertical_and_points_ahead():
+    toward = any_angle(np.array([0.0, 30.0, 200.0]))
+    x, y, z = Lean.by(35.0, toward).axis
+    assert np.allclose(x**2 + y**2 + z**2, 1)
+    assert np.allclose(z, np.cos(np.radians(35)))
+    assert np.allclose((x * toward[0] + y * toward[1]), np.sin(np.radians(35)))
+
+
+def test_leaning_vectors_keep_their_length_and_stay_across_the_axis():
+    toward = any_angle(np.linspace(-170, 170, 9))
+    lean = Lean.by(25.0, toward)
+    along, aside = any_angle(np.linspace(-100, 260, 9))
+    way = lean.tilted(along, aside)
+    assert np.allclose(sum(each**2 for each in way), 1)
+    assert np.allclose(sum(a * b for a, b in zip(way, lean.axis, strict=True)), 0)
+    ahead = lean.tilted(*toward)
+    assert np.allclose(ahead[2], -np.sin(np.radians(25)))  # who leans ahead lowers its front
+    beside = lean.tilted(-toward[1], toward[0])
+    assert np.allclose(beside, (-toward[1], toward[0], np.zeros(9)))
+
+
+def test_craft_that_leans_is_valid_where_its_body_or_all_its_rotors_are():
+    at, heading = near_the_wall(12)
+    lean = Lean.by(30.0, heading)
+    valid, body = valid_leaning(CRAFT, at, heading, lean)
+    arms = CRAFT.arms(heading)
+    four = Lean.by(30.0, tuple(np.tile(each, 4) for each in heading))
+    ways = np.stack(four.tilted(CRAFT.arm * arms[0], CRAFT.arm * arms[1]))
+    for place, centre in enumerate(zip(*at, strict=True)):
+        axis = [float(each[place]) for each in lean.axis]
+        inside = exact_position((*CRAFT.sizes, *centre, *axis)) == -1
+        places = [np.array(centre) + ways[:, place + 12 * rotor] for rotor in range(4)]
+        rotors = [exact_position((*CRAFT.rotor, *map(float, each), *axis)) == -1 for each in places]
+        assert body[place] == inside
+        assert valid[place] == (inside or all(rotors))
+    assert 0 < body.sum() <= valid.sum() < 12
+
+
+def moves_at(at, heading, *, back, accepted):
+    count = len(at[0])
+    none = np.zeros(count, dtype=np.bool_)
+    sign = np.where(back, -1.0, 1.0)
+    start = at[0] - sign * heading[0], at[1] - sign * heading[1], at[2]
+    return Moves(np.arange(count), start, at, heading, np.zeros(count), accepted, ~accepted, none, none, ~none, none)
+
+
+def test_counts_are_those_of_single_decisions():
+    at, heading = near_the_wall(30)
+    random = np.random.default_rng(1)
+    back, accepted = random.random(30) < 0.5, random.random(30) < 0.5
+    counts = PitchVerdicts()
+    counts.watch(CRAFT, 40.0, moves_at(at, heading, back=back, accepted=accepted))
+    toward = tuple(np.where(back, -each, each) for each in heading)
+    valid, _ = valid_leaning(CRAFT, at, heading, Lean.by(40.0, toward))
+    assert counts.moves == 30
+    assert counts.wrong == (valid != accepted).sum()
+    assert counts.dangerous == (accepted & ~valid).sum()
+    axis = Lean.by(40.0, toward).axis
+    rows = list(zip(*at, *axis, strict=True))
+    leaning = np.array([exact_position((*CRAFT.sizes, *row)) == -1 for row in rows])
+    upright = np.array([exact_position((*CRAFT.sizes, *row[:3], 0, 0, 1)) == -1 for row in rows])
+    assert counts.body_wrong == (leaning != upright).sum() > 0
+    assert counts.body_dangerous == (upright & ~leaning).sum()
+
+
+def test_moves_up_or_down_and_turns_are_not_counted():
+    at, heading = near_the_wall(10)
+    moves = moves_at(at, heading, back=np.zeros(10, np.bool_), accepted=np.ones(10, np.bool_))
+    counts = PitchVerdicts()
+    counts.watch(CRAFT, 40.0, replace(moves, vertical=np.ones(10, np.bool_)))
+    counts.watch(CRAFT, 40.0, replace(moves, turning=np.ones(10, np.bool_)))
+    assert counts == PitchVerdicts()
+
+
+def test_a_body_that_does_not_lean_is_judged_as_the_upright_one():
+    at, heading = near_the_wall(100)
+    moves = moves_at(at, heading, back=np.zeros(100, np.bool_), accepted=np.ones(100, np.bool_))
+    counts = PitchVerdicts()
+    counts.watch(CRAFT, 0.0, moves)
+    assert counts.body_wrong == 0
+
+
+def test_near_the_wall_shares_grow_along_the_radius(monkeypatch):
+    monkeypatch.setattr(pitch, "CENTRES", 150)
+    found = near_wall(CRAFT, 45.0, 3)
+    assert found["centres"] == 150
+    assert found["outward"]["changed"] > found["anywhere"]["changed"] > 0
+    assert found["outward"]["dangerous"] == found["anywhere"]["dangerous"] == 0
+
+
+def test_all_cells_add_up_to_the_total(monkeypatch):
+    monkeypatch.setattr(pitch, "CENTRES", 50)
+    plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, continuous=False, pitch=35.0)
+    told = simulate_tower(plan, None, lambda _: None)["pitch"]
+    assert len(told["cells"]) == 24
+    for name, total in told["total"].items():
+        assert total == sum(cell[name] for cell in told["cells"])
+    assert told["total"]["moves"] > 0
+    assert simulate_tower(replace(plan, pitch=None), None, lambda _: None)["pitch"] is None
