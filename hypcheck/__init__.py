@@ -1,8 +1,8 @@
 """Where a spheroid stands to a circular hyperboloid of one sheet: exactly, and with a proof.
 
     hypcheck.classify(rows) -> int8 (n,)
-    hypcheck.classify_scene((alpha, gamma, b, d), x, y, z) -> int8 (n,)
-    hypcheck.position(alpha, gamma, b, d, x, y, z) -> int
+    hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
+    hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
     hypcheck.InputError: what they raise, with a sentence, about rows, scenes and files that cannot be
 

@@ -1,7 +1,8 @@
 """One query: a circular hyperboloid of one sheet, a spheroid, and the three positions they can have.
 
 The hyperboloid is x²/α² + y²/α² − z²/γ² = 1 (equation (1) of the paper), centred at the origin; the spheroid has
-semi-axes b, b, d and centre (x, y, z) (equation (4)). All seven numbers are float64 and are taken as exact values.
+semi-axes b, b, d and centre (x, y, z) (equation (4)). Its axis of revolution is vertical, or is given by three
+numbers more. All numbers are float64 and are taken as exact values.
 """
 
 from __future__ import annotations
@@ -18,16 +19,20 @@ SIZES = ("alpha", "gamma", "b", "d")
 CENTER = ("x", "y", "z")
 COLUMNS = SIZES + CENTER
 AXIS = ("axis_x", "axis_y", "axis_z")
+"""Any finite vector ≠ 0 along the spheroid's axis of revolution; its length and its sign mean nothing."""
+
 TILTED_COLUMNS = COLUMNS + AXIS
 """The names of the ten numbers of a tilted spheroid beside a hyperboloid."""
 
 NO_DIRECTION = "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
-
 RADIAL = ("alpha", "b", "x", "y")
 AXIAL = ("gamma", "d", "z")
 
 Sizes = tuple[float, float, float, float]
 """α, γ, b, d of one pair."""
+
+Axis = tuple[float, float, float]
+"""axis_x, axis_y, axis_z of one spheroid."""
 
 
 class Position(IntEnum):
@@ -117,6 +122,21 @@ def trouble_with(name: str, value: object) -> str | None:
     if name in SIZES and number <= 0:
         return f"{name} is {number!r}; a semi-axis must be greater than 0"
     return None
+
+
+def trouble_with_axis(axis: Sequence[object]) -> str | None:
+    """Why three values are no axis, as the end of a sentence, or None when they are one."""
+    troubles = (trouble_with(*each) for each in zip(AXIS, axis, strict=True))
+    return next((each for each in troubles if each), None if any(axis) else NO_DIRECTION)
+
+
+def trouble_with_row(row: Sequence[object]) -> str | None:
+    """Why seven or ten values are no valid row: the first trouble, as the end of a sentence, or None."""
+    for name, value in zip(COLUMNS, row, strict=False):
+        trouble = trouble_with(name, value)
+        if trouble is not None:
+            return trouble
+    return trouble_with_axis(row[len(COLUMNS) :]) if len(row) > len(COLUMNS) else None
 
 
 def to_integers(values: Sequence[float | Fraction]) -> tuple[int, ...]:

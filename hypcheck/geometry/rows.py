@@ -1,9 +1,8 @@
 """Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
 Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS, or (n, 10) of tilted spheroids,
-in the order of pair.TILTED_COLUMNS. First the types and the functions
-that make rows from what a caller passes, then the check of their values, then the ranges of ratios and of lengths on
-which an implementation is judged.
+in the order of pair.TILTED_COLUMNS. First the types and the functions that make rows from what a caller passes, then
+the check of their values, then the ranges of ratios and of lengths on which an implementation is judged.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, Sizes, trouble_with
+from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, Sizes, trouble_with_row
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -34,7 +33,7 @@ Positions = NDArray[np.int8]
 Columns = tuple[Floats, Floats, Floats]
 """x, y, z of shape (n,), with any strides."""
 
-_ROWS_WANTED = f"an array (n, 7) of numbers: {', '.join(COLUMNS)}"
+_NAMES = {len(names): ", ".join(names) for names in (COLUMNS, TILTED_COLUMNS)}
 
 CANNOT_SAY = 2
 """The answer code of a row that a method cannot decide."""
@@ -45,11 +44,12 @@ def as_rows(values: ArrayLike, *, tilted: bool = False) -> Rows:
 
     Raises InputError if the shape or the type is another, or if values are masked. It does not check the values.
     """
-    rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be {_ROWS_WANTED}"))
-    columns = TILTED_COLUMNS if tilted else COLUMNS
-    if rows.ndim != 2 or rows.shape[1] not in (len(COLUMNS), len(columns)):
-        shapes = "(n, 7) or (n, 10)" if tilted else "(n, 7)"
-        raise InputError(f"the rows have shape {rows.shape}; it must be {shapes}: {', '.join(columns)}")
+    widths = tuple(_NAMES) if tilted else (len(COLUMNS),)
+    wanted = ", or ".join(f"(n, {width}) of numbers: {_NAMES[width]}" for width in widths)
+    rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be an array {wanted}"))
+    if rows.ndim != 2 or rows.shape[1] not in widths:
+        shapes = ", or ".join(f"(n, {width}): {_NAMES[width]}" for width in widths)
+        raise InputError(f"the rows have shape {rows.shape}; it must be {shapes}")
     return rows
 
 
@@ -68,6 +68,14 @@ def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats
         shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
         raise InputError(f"{shapes} have shapes that do not fit together; each must be (n,) or a number")
     return tuple(np.broadcast_to(each, shape) for each in columns)
+
+
+def tilted_rows(sizes: Sizes, center: Columns, axis: Sequence[float | Floats]) -> Rows:
+    """One spheroid at many centres as rows (n, 10); x, y, z are (n,) each, an axis' numbers (n,) or one for all."""
+    rows = np.empty((len(center[0]), len(TILTED_COLUMNS)))
+    for column, value in enumerate((*sizes, *center, *axis)):
+        rows[:, column] = value
+    return rows
 
 
 def as_numbers(subject: str, values: object, wanted: str) -> Floats:
@@ -122,11 +130,7 @@ def first_trouble(rows: Rows, first_number: int = 0) -> str | None:
     if not len(bad):
         return None
     index = int(bad[0])
-    for name, value in zip(COLUMNS, rows[index].tolist(), strict=True):
-        trouble = trouble_with(name, value)
-        if trouble is not None:
-            return f"row {first_number + index}: {trouble}"
-    raise AssertionError("a row was found invalid, but none of its values is")
+    return f"row {first_number + index}: {trouble_with_row(rows[index].tolist())}"
 
 
 def require_valid(rows: Rows, first_number: int = 0) -> None:

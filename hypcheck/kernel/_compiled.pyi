@@ -1,6 +1,6 @@
 """The compiled kernel (core/binding.c). Absent where it could not be compiled at install."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,22 @@ def ask_scene(
     y: NDArray[np.generic],
     z: NDArray[np.generic],
     answers: NDArray[np.generic],
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
     /,
 ) -> int: ...
-def position(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float, /) -> int: ...
+def position(
+    alpha: float,
+    gamma: float,
+    b: float,
+    d: float,
+    x: float,
+    y: float,
+    z: float,
+    /,
+    *,
+    axis: Sequence[float] | None = None,
+) -> int: ...
+def call_each(address: int, rows: NDArray[np.generic], answers: NDArray[np.generic], repeat: int, /) -> None: ...
 def set_slow_position(function: Callable[..., int], /) -> None: ...
 def level() -> str: ...
 def use_level(name: str, /) -> bool: ...

@@ -7,6 +7,7 @@ The public functions: validated input, exact positions, and nothing written anyw
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from operator import index
 from typing import Literal, Protocol
 
@@ -14,21 +15,47 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import CENTER, SIZES, Sizes, trouble_with
-from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, as_columns, as_numbers, as_rows, require_valid
+from hypcheck.geometry.pair import (
+    AXIS,
+    CENTER,
+    SIZES,
+    Axis,
+    Sizes,
+    trouble_with,
+    trouble_with_axis,
+)
+from hypcheck.geometry.rows import (
+    Columns,
+    Floats,
+    Positions,
+    Rows,
+    as_columns,
+    as_numbers,
+    as_rows,
+    require_valid,
+    tilted_rows,
+)
 from hypcheck.kernel.choice import Question, choice, require_known
+
+ROWS_AT_A_TIME = 1 << 22
+"""Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
 
 
 class Kernel(Protocol):
     """What a module that answers has. Both return the answers, 127 for invalid rows, and how many those are."""
 
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-        """Answers for C-contiguous rows (n, 7); `threads` None is as many as are worth it."""
+        """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
 
     def answer_scene(
-        self, sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
+        self,
+        sizes: Sizes,
+        columns: Columns,
+        question: Question,
+        threads: int | None = None,
+        axis: Axis | None = None,
     ) -> tuple[Positions, int]:
-        """Answers for valid sizes and the centres of three columns."""
+        """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
 
 
 def kernel() -> Kernel:
@@ -53,15 +80,18 @@ def classify(
     """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
 
     `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
-    converts to it. `out`, int8 (n,), is filled and returned in place of a new array; it may overlap `rows`.
-    `question` "exterior", "interior" or "contact" asks for 1 (yes) or 0 (no) instead. `threads` is how many threads
-    share the work; by default one, and more for millions of rows (HYPCHECK_THREADS limits them).
+    converts to it. Rows (n, 10) have axis_x, axis_y, axis_z besides, any finite vector ≠ 0 along the spheroid's axis of
+    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. `out`, int8 (n,), is
+    filled and returned in place of a new array; it may overlap `rows`. `question` "exterior", "interior" or "contact"
+    asks for 1 (yes) or 0 (no) instead. `threads` is how many threads share the work; by default one, and more for
+    millions of rows (HYPCHECK_THREADS limits them).
 
-    A row is valid when its sizes are finite and > 0 and its centre finite. The first that is not raises InputError
-    (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are marked 127.
+    A row is valid when its sizes are finite and > 0, its centre finite, and its axis finite and not 0. The first that
+    is not raises InputError (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are
+    marked 127.
     """
     number = _required(question, threads, on_invalid)
-    queries = as_rows(rows)
+    queries = as_rows(rows, tilted=True)
     _require_fitting(out, len(queries))
     result, refused = kernel().answer_rows(queries, question, number)
     if refused and on_invalid == "raise":
@@ -76,6 +106,7 @@ def classify_scene(
     z: ArrayLike,
     out: Positions | None = None,
     *,
+    axis: ArrayLike | None = None,
     on_invalid: Literal["raise", "flag"] = "raise",
     question: Question = "position",
     threads: int | None = None,
@@ -83,17 +114,56 @@ def classify_scene(
     """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
 
     `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre.
-    The first centre that is not finite raises InputError (its index counted from 0) and `out` is left alone; with
-    on_invalid="flag" such centres are marked 127. Sizes that are not valid are always refused.
+    `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without it the spheroid is upright.
+    The first centre or axis that is not valid raises InputError (its index counted from 0) and `out` is left alone;
+    with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
+    valid are always refused.
     """
     number = _required(question, threads, on_invalid)
     four = _sizes(sizes)
+    axes = None if axis is None else _axes(axis)
+    if axes is not None and axes.ndim == 2:
+        columns = as_columns((*CENTER, *AXIS), (x, y, z, *axes.T))
+        _require_fitting(out, len(columns[0]))
+        return _into(out, _with_axes(four, columns, question, number, on_invalid))
     u, v, w = as_columns(CENTER, (x, y, z))
     _require_fitting(out, len(u))
-    result, refused = kernel().answer_scene(four, (u, v, w), question, number)
+    one = None if axes is None else _one_axis(axes, on_invalid)
+    result, refused = kernel().answer_scene(four, (u, v, w), question, number, one)
     if refused and on_invalid == "raise":
         _require_finite(u, v, w)
     return _into(out, result)
+
+
+def _with_axes(
+    sizes: Sizes, columns: Sequence[Floats], question: Question, threads: int | None, on_invalid: str
+) -> Positions:
+    """The answers for centres with an axis each: x, y, z, axis_x, axis_y, axis_z, made into rows some at a time."""
+    result = np.empty(len(columns[0]), dtype=np.int8)
+    for start in range(0, len(result), ROWS_AT_A_TIME):
+        x, y, z, *axis = (column[start : start + ROWS_AT_A_TIME] for column in columns)
+        rows = tilted_rows(sizes, (x, y, z), axis)
+        result[start : start + len(rows)], refused = kernel().answer_rows(rows, question, threads)
+        if refused and on_invalid == "raise":
+            require_valid(rows, start)
+    return result
+
+
+def _axes(axis: ArrayLike) -> Floats:
+    """The axis or axes, (3,) or (n, 3); a single row is one axis."""
+    wanted = f"it must be three numbers, {', '.join(AXIS)}, or an array (n, 3) of them"
+    numbers = as_numbers("axis is", axis, wanted)
+    if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(AXIS):
+        raise InputError(f"axis is of shape {numbers.shape}; {wanted}")
+    return numbers[0] if len(numbers) == 1 and numbers.ndim == 2 else numbers
+
+
+def _one_axis(numbers: Floats, on_invalid: str) -> Axis:
+    vx, vy, vz = numbers.tolist()
+    trouble = trouble_with_axis((vx, vy, vz))
+    if trouble is not None and on_invalid == "raise":
+        raise InputError(trouble)
+    return vx, vy, vz
 
 
 def _required(question: str, threads: int | None, on_invalid: str) -> int | None:

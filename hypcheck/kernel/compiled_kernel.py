@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.pair import Axis, Sizes
 from hypcheck.geometry.rows import Columns, Positions, Rows
 from hypcheck.kernel.choice import NUMBER_OF, Question, compiled, most_threads
 
@@ -34,28 +34,34 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
 
 
 def answer_scene(
-    sizes: Sizes, columns: Columns, question: Question, threads: int | None = None
+    sizes: Sizes, columns: Columns, question: Question, threads: int | None = None, axis: Axis | None = None
 ) -> tuple[Positions, int]:
     """As classify.Kernel has it."""
     answers = np.empty(len(columns[0]), dtype=np.int8)
-    return answers, fill_scene(sizes, columns, answers, question, threads)
+    return answers, fill_scene(sizes, columns, answers, question, threads, axis)
 
 
 def fill_scene(
-    sizes: Sizes, columns: Columns, answers: Positions, question: Question, threads: int | None = None
+    sizes: Sizes,
+    columns: Columns,
+    answers: Positions,
+    question: Question,
+    threads: int | None = None,
+    axis: Axis | None = None,
 ) -> int:
     """The same into a contiguous array that is there already; returns how many rows are invalid."""
     ask, number = compiled().ask_scene, NUMBER_OF[question]
+    leaning = () if axis is None else (axis,)
     as_they_are = all(column.flags.c_contiguous and column.flags.aligned for column in columns)
 
     def part(start: int, stop: int) -> int:
         if as_they_are:
-            return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop]))
+            return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop], *leaning))
         refused = 0
         for low in range(start, stop, CHUNK):
             high = min(low + CHUNK, stop)
             copies = (column[low:high].copy() for column in columns)
-            refused += int(ask(number, sizes, *copies, answers[low:high]))
+            refused += int(ask(number, sizes, *copies, answers[low:high], *leaning))
         return refused
 
     return in_parts(part, len(answers), threads)

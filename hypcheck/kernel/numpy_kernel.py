@@ -4,6 +4,7 @@ half planes of the scene     printed/chunks.py plane and parallel_lines, in sing
                              many rows, two_lines; scene_lines.py makes their constants
 discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
+rows whose axis leans        numpy_tilted.py
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import REFUSED, Pair, Sizes
-from hypcheck.geometry.rows import Columns, Floats, Indices, Mask, Positions, Rows, invalid
-from hypcheck.kernel import integers, scene_lines
+from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair, Sizes
+from hypcheck.geometry.rows import Columns, Floats, Indices, Mask, Positions, Rows, invalid, tilted_rows
+from hypcheck.kernel import integers, numpy_tilted, scene_lines
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.printed import chunks
 from hypcheck.kernel.programs.certified import CONSTANTS
@@ -40,7 +41,9 @@ Number = TypeVar("Number", np.float32, np.float64)
 
 
 def positions(rows: Rows) -> Positions:
-    """The exact position of every row, int8 (n,), 127 for invalid ones; rows float64 (n, 7) as in rows.py."""
+    """The exact position of every row, int8 (n,), 127 for invalid ones; float64 (n, 7) or (n, 10) as in rows.py."""
+    if rows.shape[1] == len(TILTED_COLUMNS):
+        return _positions_of_ten(rows)
     result = np.empty(len(rows), dtype=np.int8)
     buffers = Buffers(chunks.CERTIFIED_BUFFERS, min(CHUNK, len(rows)), np.float64)
     for start in range(0, len(rows), CHUNK):
@@ -49,9 +52,30 @@ def positions(rows: Rows) -> Positions:
     return result
 
 
-def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Positions:
-    """The exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d; int8 (n,)."""
+def _positions_of_ten(rows: Rows) -> Positions:
+    result = np.empty(len(rows), dtype=np.int8)
+    leaning = numpy_tilted.leaning(rows)
+    if leaning.any():
+        result[leaning] = numpy_tilted.positions(rows[leaning])
+    if not leaning.all():
+        upright = rows[~leaning]
+        found = positions(upright[:, : len(COLUMNS)])
+        found[invalid(upright)] = REFUSED
+        result[~leaning] = found
+    return result
+
+
+def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None = None) -> Positions:
+    """The exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d and axis; int8 (n,).
+
+    All are 127 where the axis has no direction.
+    """
     result = np.empty(len(x), dtype=np.int8)
+    if axis is not None and not (axis[:2] == (0, 0) and 0 < abs(axis[2]) < np.inf):
+        for start in range(0, len(x), CHUNK):
+            part = slice(start, start + CHUNK)
+            result[part] = positions(tilted_rows(sizes, (x[part], y[part], z[part]), axis))
+        return result
     lines = scene_lines.lines_of(sizes, z) if len(x) >= LINES_FROM else None
     with np.errstate(all="ignore"):
         left = np.arange(len(x)) if lines is None else _by_lines(lines, (x, y, z), result)
@@ -73,9 +97,10 @@ def answer_scene(
     columns: Columns,
     question: Question,
     threads: int | None = None,  # noqa: ARG001 - numpy holds the interpreter too often for threads to pay
+    axis: Axis | None = None,
 ) -> tuple[Positions, int]:
     """As classify.Kernel has it; always one thread."""
-    return _answers(positions_of_scene(sizes, *columns), question)
+    return _answers(positions_of_scene(sizes, *columns, axis), question)
 
 
 def _answers(found: Positions, question: Question) -> tuple[Positions, int]:

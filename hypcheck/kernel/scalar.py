@@ -2,20 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import reprlib
+from collections.abc import Sequence
+from typing import Protocol
 
-from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import integers
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import AXIS, COLUMNS, Pair, trouble_with_row
+from hypcheck.kernel import integers, tilted_integers
 from hypcheck.kernel.choice import choice, compiled
 from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
+from hypcheck.messages import escaped
 
 
-def exact_position(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float, /) -> int:
+class PositionFunction(Protocol):
+    """What hypcheck.position is: exact_position, or the compiled function that answers the same."""
+
+    def __call__(
+        self,
+        alpha: float,
+        gamma: float,
+        b: float,
+        d: float,
+        x: float,
+        y: float,
+        z: float,
+        /,
+        *,
+        axis: Sequence[float] | None = None,
+    ) -> int:
+        """As exact_position."""
+
+
+def exact_position(
+    alpha: float,
+    gamma: float,
+    b: float,
+    d: float,
+    x: float,
+    y: float,
+    z: float,
+    /,
+    *,
+    axis: Sequence[float] | None = None,
+) -> int:
     """The exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
 
-    alpha, gamma, b, d are the semi-axes and x, y, z the centre, in one unit, by position. Raises InputError naming a
-    number that is no float64 or not finite, or a semi-axis that is not greater than 0.
+    alpha, gamma, b, d are the semi-axes and x, y, z the centre, in one unit, by position. `axis` is any finite vector
+    ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is upright. Raises InputError
+    naming a number that is no float64 or not finite, a semi-axis that is not greater than 0, or what is no axis.
     """
+    if axis is not None:
+        return int(tilted_integers.position(_valid_row((alpha, gamma, b, d, x, y, z), axis)))
     if (
         type(alpha) is type(gamma) is type(b) is type(d) is type(x) is type(y) is type(z) is float
         and (LEAST < b < GREATEST and LEAST < d < GREATEST)
@@ -39,17 +76,32 @@ def position_by_integers(*numbers: float) -> int:
     return int(integers.position(Pair.from_row(numbers).lengths))
 
 
-def _looked_at(*numbers: float) -> int:
+def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
+    """The row of ten. Raises InputError where it is none."""
+    values = axis.tolist() if hasattr(axis, "tolist") else axis
+    if not isinstance(values, (list, tuple)) or len(values) != len(AXIS):
+        raise InputError(f"axis is {escaped(reprlib.repr(axis), 60)}; it must be three numbers: {', '.join(AXIS)}")
+    row = [*numbers, *values]
+    trouble = trouble_with_row(row)
+    if trouble is not None:
+        raise InputError(trouble)
+    return [float(each) for each in row]
+
+
+def _looked_at(*numbers: float, axis: Sequence[float] | None = None) -> int:
     """What the compiled function asks where its arguments are no floats, or no valid pair."""
-    return int(compiled().position(*Pair.from_row(numbers).row))
+    if axis is None:
+        return int(compiled().position(*Pair.from_row(numbers).row))
+    row = _valid_row(numbers, axis)
+    return int(compiled().position(*row[: len(COLUMNS)], axis=row[len(COLUMNS) :]))
 
 
-def _position() -> Callable[[float, float, float, float, float, float, float], int]:
+def _position() -> PositionFunction:
     if choice().kernel == "numpy":
         return exact_position
     module = compiled()
     module.set_slow_position(_looked_at)
-    function: Callable[[float, float, float, float, float, float, float], int] = module.position
+    function: PositionFunction = module.position
     return function
 
 

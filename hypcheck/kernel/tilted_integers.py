@@ -24,7 +24,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from hypcheck.geometry.pair import Position, to_integers
+from hypcheck.geometry.pair import COLUMNS, Pair, Position, to_integers
+from hypcheck.kernel import integers
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +40,7 @@ class Quartic:
 
 
 def quartic(row: Sequence[float]) -> Quartic:
-    """The quartic of alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, in units that make all of them whole."""
+    """The quartic of a row of ten, in units that make all of its numbers whole; the axis leans, and it is no sphere."""
     alpha, gamma, b, d, x, y, z = to_integers(row[:7])
     vx, vy, vz = to_integers(row[7:])
     p, q, s, t = alpha * alpha, b * b, gamma * gamma, d * d
@@ -63,7 +64,9 @@ def quartic(row: Sequence[float]) -> Quartic:
 
 
 def position(row: Sequence[float]) -> Position:
-    """The exact position of a valid row of ten; the axis must lean and the spheroid be no sphere."""
+    """The exact position of a valid row of ten."""
+    if row[7] == row[8] == 0 or row[2] == row[3]:
+        return integers.position(Pair.from_row(row[: len(COLUMNS)]).lengths)
     pair = quartic(row)
     delta = discriminant(pair.f)
     if delta < 0:

@@ -174,14 +174,14 @@ def test_the_extension_looks_at_its_buffers():
     out, rows = np.zeros(2, np.int8), np.ones((2, 7))
     for sentence, *arguments in (
         ("a question is a number from 0 to 3", 4, rows, out),
-        ("seven numbers for each answer", 0, rows, np.zeros(3, np.int8)),
+        ("seven or ten numbers for each answer", 0, rows, np.zeros(3, np.int8)),
         ("a buffer of format d is needed, not f", 0, rows.astype(np.float32), out),
         ("a buffer of format b is needed, not B", 0, rows, np.zeros(2, np.uint8)),
         ("not C-contiguous", 0, rows.T, out),
     ):
         with pytest.raises(ValueError, match=sentence):
             compiled.ask(*arguments)
-    with pytest.raises(ValueError, match="seven numbers for each answer"):
+    with pytest.raises(ValueError, match="seven or ten numbers for each answer"):
         compiled.call_each(0, rows, np.zeros(3, np.int8), 1)
     with pytest.raises(ValueError, match="as many x, y and z"):
         compiled.ask_scene(0, SIZES, np.ones(2), np.ones(2), np.ones(3), out)

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
-from hypcheck.geometry.pair import COLUMNS, Pair
+from hypcheck.geometry.pair import TILTED_COLUMNS, Pair
 from hypcheck.kernel import integers, tilted_integers
 from hypcheck.kernel.core import tilted
-from hypcheck.kernel.programs.tilted_integers import AXIS, COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
+from hypcheck.kernel.programs.tilted_integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
 from tests.tilted_fractions import exact_position, interpolated, matrices
 
@@ -51,7 +51,7 @@ def wide_rows(seed, count):
 @pytest.mark.parametrize("row", small_rows(1, 5))
 def test_quartic_is_the_determinant_of_the_pencil_times_a_positive_number(row):
     names = (*COEFFICIENTS, "p", "q", "s", "t", "w")
-    found = evaluate(QUARTIC, EXACT, dict(zip((*COLUMNS, *AXIS), map(Fraction, row), strict=True)))
+    found = evaluate(QUARTIC, EXACT, dict(zip(TILTED_COLUMNS, map(Fraction, row), strict=True)))
     minus_f0, *others, p, q, s, t, w = (found[name] for name in names)
     factor = p * p * q * q * s * t * w
     assert [-minus_f0, *others] == [factor * each for each in interpolated(*matrices(row))]
@@ -124,6 +124,6 @@ def _without_floats():
 def test_memory_of_the_integers_suffices_for_the_longest_numbers():
     """What is counted is what numbers of 2,098 bits take; the sanitizers watch that nothing is written beyond it."""
     bits, numbers = tilted.pool_bits()
-    counted = evaluate(QUARTIC, EXACT, dict.fromkeys((*COLUMNS, *AXIS), Fraction(2**2098 - 1)))
+    counted = evaluate(QUARTIC, EXACT, dict.fromkeys(TILTED_COLUMNS, Fraction(2**2098 - 1)))
     assert bits > sum(int(value).bit_length() for value in counted.values())
     assert numbers > len(counted) - 1

@@ -17,6 +17,15 @@ static int filled(PyObject *object, Py_buffer *buffer, const char *format, int f
     return 0;
 }
 
+/* 7 or 10, the numbers in a row; 0, with an error set, for any other. */
+static int width_of(const Py_buffer *rows, const Py_buffer *answers) {
+    const Py_ssize_t column = (Py_ssize_t)sizeof(double) * answers->len;
+    if (rows->len == 7 * column) return 7;
+    if (rows->len == 10 * column) return 10;
+    PyErr_SetString(PyExc_ValueError, "seven or ten numbers for each answer");
+    return 0;
+}
+
 static int known_question(int question) {
     if (question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT) return 1;
     PyErr_SetString(PyExc_ValueError, "a question is a number from 0 to 3");
@@ -31,14 +40,14 @@ static PyObject *py_ask(PyObject *self, PyObject *arguments) {
     if (!PyArg_ParseTuple(arguments, "iOO", &question, &rows_object, &answers_object)) return NULL;
     if (!known_question(question) || !filled(rows_object, &rows, "d", 0)) return NULL;
     if (filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
-        if (rows.len == 7 * (Py_ssize_t)sizeof(double) * answers.len) {
+        const int width = width_of(&rows, &answers);
+        if (width) {
+            size_t (*const ask)(int, size_t, const double *, int8_t *) = width == 7 ? hypcheck_ask : hypcheck_ask_tilted;
             size_t refused;
             Py_BEGIN_ALLOW_THREADS
-            refused = hypcheck_ask(question, (size_t)answers.len, (const double *)rows.buf, (int8_t *)answers.buf);
+            refused = ask(question, (size_t)answers.len, (const double *)rows.buf, (int8_t *)answers.buf);
             Py_END_ALLOW_THREADS
             result = PyLong_FromSize_t(refused);
-        } else {
-            PyErr_SetString(PyExc_ValueError, "seven numbers for each answer");
         }
         PyBuffer_Release(&answers);
     }
@@ -49,11 +58,11 @@ static PyObject *py_ask(PyObject *self, PyObject *arguments) {
 static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
     PyObject *columns[3], *answers_object, *result = NULL;
     Py_buffer buffers[3], answers;
-    double sizes[4];
+    double sizes[4], axis[3] = {0, 0, 1};
     int question, held = 0, fits = 1, k;
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO", &question, sizes, sizes + 1, sizes + 2, sizes + 3, columns, columns + 1,
-                          columns + 2, &answers_object))
+    if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO|(ddd)", &question, sizes, sizes + 1, sizes + 2, sizes + 3, columns,
+                          columns + 1, columns + 2, &answers_object, axis, axis + 1, axis + 2))
         return NULL;
     if (!known_question(question)) return NULL;
     while (held < 3 && filled(columns[held], buffers + held, "d", 0)) held++;
@@ -62,9 +71,9 @@ static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
         if (fits) {
             size_t refused;
             Py_BEGIN_ALLOW_THREADS
-            refused = hypcheck_ask_scene(question, sizes, (size_t)answers.len, (const double *)buffers[0].buf,
-                                         (const double *)buffers[1].buf, (const double *)buffers[2].buf,
-                                         (int8_t *)answers.buf);
+            refused = hypcheck_ask_tilted_scene(question, sizes, axis, (size_t)answers.len, (const double *)buffers[0].buf,
+                                                (const double *)buffers[1].buf, (const double *)buffers[2].buf,
+                                                (int8_t *)answers.buf);
             Py_END_ALLOW_THREADS
             result = PyLong_FromSize_t(refused);
         } else {
@@ -80,20 +89,43 @@ static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
    with a sentence that names the number. */
 static PyObject *slow_position = NULL;
 
-static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
-    double row[7];
+/* The three floats of a tuple, a list or None, which is upright. Returns 0 for anything else. */
+static int axis_of(PyObject *object, double axis[3]) {
     Py_ssize_t k;
-    int answer = 127;
+    axis[0] = axis[1] = 0, axis[2] = 1;
+    if (object == Py_None) return 1;
+    if (!PyTuple_CheckExact(object) && !PyList_CheckExact(object)) return 0;
+    if (PySequence_Fast_GET_SIZE(object) != 3) return 0;
+    for (k = 0; k < 3; k++) {
+        PyObject *const number = PySequence_Fast_GET_ITEM(object, k);
+        if (!PyFloat_Check(number)) return 0;
+        axis[k] = PyFloat_AS_DOUBLE(number);
+    }
+    return 1;
+}
+
+static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
+    double row[10];
+    Py_ssize_t k;
+    int8_t answer = 127;
     (void)self;
     if (count != 7) {
         PyErr_Format(PyExc_TypeError, "position() takes 7 numbers: alpha, gamma, b, d, x, y, z (%zd given)", count);
         return NULL;
     }
+    if (keywords != NULL && (PyTuple_GET_SIZE(keywords) != 1 ||
+                             PyUnicode_CompareWithASCIIString(PyTuple_GET_ITEM(keywords, 0), "axis") != 0)) {
+        PyErr_SetString(PyExc_TypeError, "position() takes one keyword: axis");
+        return NULL;
+    }
     for (k = 0; k < 7 && PyFloat_Check(arguments[k]); k++) row[k] = PyFloat_AS_DOUBLE(arguments[k]);
-    if (k == 7) answer = hypcheck_position(row[0], row[1], row[2], row[3], row[4], row[5], row[6]);
+    if (k == 7 && keywords == NULL)
+        answer = (int8_t)hypcheck_position(row[0], row[1], row[2], row[3], row[4], row[5], row[6]);
+    else if (k == 7 && axis_of(arguments[7], row + 7))
+        hypcheck_classify_tilted(1, row, &answer);
     if (answer != 127) return PyLong_FromLong(answer);
     if (slow_position == NULL) return PyLong_FromLong(127);
-    return PyObject_Vectorcall(slow_position, arguments, (size_t)count, NULL);
+    return PyObject_Vectorcall(slow_position, arguments, (size_t)count, keywords);
 }
 
 static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
@@ -120,7 +152,7 @@ typedef void (*classifier)(size_t, const double *, int8_t *);
 
 static void nothing(size_t n, const double *rows, int8_t *answers) { (void)n, (void)rows, (void)answers; }
 
-/* Calls the function at an address, hypcheck_classify of a library under test, about one row at a time. Through ctypes a
+/* Calls the function at an address, hypcheck_classify or hypcheck_classify_tilted of a library under test, about one row at a time. Through ctypes a
    call takes ten times as long as the work of many a library, and wanders by more than that; here it takes a nanosecond. */
 static PyObject *py_call_each(PyObject *self, PyObject *arguments) {
     PyObject *rows_object, *answers_object, *result = NULL;
@@ -131,16 +163,15 @@ static PyObject *py_call_each(PyObject *self, PyObject *arguments) {
     if (!PyArg_ParseTuple(arguments, "KOOn", &address, &rows_object, &answers_object, &repeat)) return NULL;
     if (!filled(rows_object, &rows, "d", 0)) return NULL;
     if (filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
-        if (rows.len == 7 * (Py_ssize_t)sizeof(double) * answers.len) {
+        const int width = width_of(&rows, &answers);
+        if (width) {
             classifier volatile function = address == 0 ? nothing : (classifier)(uintptr_t)address;
             Py_BEGIN_ALLOW_THREADS
             for (Py_ssize_t turn = 0; turn < repeat; turn++)
                 for (Py_ssize_t k = 0; k < answers.len; k++)
-                    function(1, (const double *)rows.buf + 7 * k, (int8_t *)answers.buf + k);
+                    function(1, (const double *)rows.buf + width * k, (int8_t *)answers.buf + k);
             Py_END_ALLOW_THREADS
             result = Py_NewRef(Py_None);
-        } else {
-            PyErr_SetString(PyExc_ValueError, "seven numbers for each answer");
         }
         PyBuffer_Release(&answers);
     }
@@ -150,10 +181,11 @@ static PyObject *py_call_each(PyObject *self, PyObject *arguments) {
 
 static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
-    {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers) -> as ask"},
+    {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
     {"call_each", py_call_each, METH_VARARGS, "call_each(address, rows, answers, repeat): a call a row; address 0 does nothing"},
-    {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL, "position(alpha, gamma, b, d, x, y, z) -> int"},
-    {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): whom position asks when in doubt"},
+    {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
+     "position(alpha, gamma, b, d, x, y, z, *, axis=None) -> int"},
+    {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): what position calls where it has no answer"},
     {"level", py_level, METH_NOARGS, "level() -> the name of the instruction set in use"},
     {"use_level", py_use_level, METH_O, "use_level(name) -> whether this machine and build have it"},
     {NULL, NULL, 0, NULL},

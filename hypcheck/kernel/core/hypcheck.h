@@ -19,11 +19,13 @@
        HYPCHECK_PLAIN            to leave the instruction sets of x86-64 out
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
-   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z.
+   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
+               that may lean: axis_x, axis_y, axis_z besides.
    Alignment   that of double. Nothing has to be padded.
    Aliasing    inputs may overlap each other. The output must not overlap an input.
    NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
-               A scene with invalid sizes answers 127 everywhere. -0.0 is 0 as a coordinate.
+               So does an axis that is 0, 0, 0 or not finite. A scene with invalid sizes, or such an axis, answers 127
+               everywhere. -0.0 is 0 as a coordinate and in an axis.
    Memory      nothing is allocated. The stack holds up to 114 kilobytes, 156 for axes that lean.
    Threads     every function may be called from any number of threads at once. There is one global variable, the
                instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
@@ -64,6 +66,9 @@ size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const d
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions);
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers);
+size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
+                                 const double *y, const double *z, int8_t *answers);
 
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
@@ -602,14 +607,10 @@ static int hc_is_upright(const double row[10]) {
     return ((hc_word(row[7]) | hc_word(row[8])) << 1 == 0) || hc_word(row[2]) == hc_word(row[3]);
 }
 
-static int hc_tilted_valid(const double row[10]) {
-    const uint64_t infinite = (uint64_t)0x7ff << 52;
-    int i, is_axis = 0;
-    for (i = 7; i < 10; i++) {
-        if ((hc_word(row[i]) & infinite) == infinite) return 0;
-        is_axis |= hc_word(row[i]) << 1 != 0;
-    }
-    return is_axis && hc_valid(row);
+static int hc_has_direction(const double axis[3]) {
+    const uint64_t x = hc_word(axis[0]) << 1, y = hc_word(axis[1]) << 1, z = hc_word(axis[2]) << 1;
+    const uint64_t infinite = (uint64_t)0x7ff << 53;
+    return (x | y | z) != 0 && x < infinite && y < infinite && z < infinite;
 }
 
 /* The quartic F = f4 λ⁴ + f3 λ³ + f2 λ² + f1 λ - minus_f0 of a pair, its poles -p/q and the roots -A2 < 0 < B of
@@ -903,7 +904,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_26deab650ccfd1b2
+#ifndef HC_EDITION_05d06f9c919d312e
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1649,79 +1650,79 @@ static void hc_scale_axis(double axis[3]) {
     }
 }
 
-/* The floats, and the integers for what they leave. */
-static void hc_tilted_settle(const hc_level_functions *level, hc_tilted_waiting *waiting, int8_t *positions) {
+/* The floats, and the integers for what they leave. Returns the number of invalid rows. */
+static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc_tilted_waiting *waiting, int8_t *answers) {
     const hc_bits found = level->tilted(waiting->columns, HC_BLOCK, waiting->count);
-    int8_t answers[HC_BLOCK];
+    int8_t positions[HC_BLOCK];
+    size_t refused = 0;
     int i, k;
-    level->spread(answers, found.plus, found.minus);
+    level->spread(positions, found.plus, found.minus);
     for (i = 0; i < waiting->count; i++) {
-        int8_t answer = answers[i];
+        int8_t answer = hc_answer(question, positions[i]);
         if (!(HC_FLOATS_DECIDE && found.decided >> i & 1)) {
             double row[10];
             for (k = 0; k < 10; k++) row[k] = waiting->columns[k * HC_BLOCK + i];
-            answer = (int8_t)(hc_tilted_valid(row) ? hc_exact_tilted_position(row) : 127);
+            if (hc_valid(row) && hc_has_direction(row + 7)) answer = hc_answer(question, hc_exact_tilted_position(row));
+            else answer = 127, refused++;
         }
-        positions[waiting->places[i]] = answer;
+        answers[waiting->places[i]] = answer;
     }
     waiting->count = 0;
+    return refused;
 }
 
-void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
     const hc_level_functions *level = hc_level();
     hc_tilted_waiting leaning;
     hc_waiting upright;
-    size_t i;
+    size_t refused = 0, i;
     int k;
     memset(&leaning, 0, sizeof leaning);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
         const double *const row = rows10 + 10 * i;
-        if (hc_is_upright(row) && hc_tilted_valid(row)) {
+        if (hc_is_upright(row) && hc_has_direction(row + 7)) {
             for (k = 0; k < 7; k++) upright.columns[k * HC_BLOCK + upright.count] = row[k];
             upright.places[upright.count++] = i;
-            if (upright.count == HC_BLOCK) hc_settle(level, HYPCHECK_POSITION, &upright, positions);
+            if (upright.count == HC_BLOCK) refused += hc_settle(level, question, &upright, answers);
         } else {
             double axis[3] = {row[7], row[8], row[9]};
             hc_scale_axis(axis);
             for (k = 0; k < 7; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
             for (k = 7; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = axis[k - 7];
             leaning.places[leaning.count++] = i;
-            if (leaning.count == HC_BLOCK) hc_tilted_settle(level, &leaning, positions);
+            if (leaning.count == HC_BLOCK) refused += hc_tilted_settle(level, question, &leaning, answers);
         }
     }
-    hc_settle(level, HYPCHECK_POSITION, &upright, positions);
-    hc_tilted_settle(level, &leaning, positions);
+    refused += hc_settle(level, question, &upright, answers);
+    return refused + hc_tilted_settle(level, question, &leaning, answers);
 }
 
-static void hc_tilted_wait(const hc_level_functions *level, hc_tilted_waiting *waiting, size_t place, double x, double y,
-                           double z, int8_t *positions) {
+static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_tilted_waiting *waiting, size_t place,
+                             double x, double y, double z, int8_t *answers) {
     const int at = waiting->count++;
     waiting->columns[4 * HC_BLOCK + at] = x;
     waiting->columns[5 * HC_BLOCK + at] = y;
     waiting->columns[6 * HC_BLOCK + at] = z;
     waiting->places[at] = place;
-    if (waiting->count == HC_BLOCK) hc_tilted_settle(level, waiting, positions);
+    return waiting->count == HC_BLOCK ? hc_tilted_settle(level, question, waiting, answers) : 0;
 }
 
-void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
-                                    const double *y, const double *z, int8_t *positions) {
+size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
+                                 const double *y, const double *z, int8_t *answers) {
     double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
     const hc_level_functions *level = hc_level();
     hc_planes_function planes = level->one_plane;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
     uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t start, i;
+    size_t refused = 0, start, i;
     int has_planes, block, k;
-    if (!hc_tilted_valid(probe)) {
-        memset(positions, 127, n);
-        return;
+    if (!(hc_valid(probe) && hc_has_direction(axis))) {
+        memset(answers, 127, n);
+        return n;
     }
-    if (hc_is_upright(probe)) {
-        hypcheck_classify_scene(sizes, n, x, y, z, positions);
-        return;
-    }
+    if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
     hc_scale_axis(probe + 7);
     memset(&waiting, 0, sizeof waiting);
     for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
@@ -1729,21 +1730,32 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
     for (start = 0; start < n; start += HC_STRIP) {
         const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
         const int blocks = has_planes ? (int)((end - start) / HC_BLOCK) : 0;
+        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
         int lefts = 0;
-        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, positions + start, left);
+        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
+        if (question != HYPCHECK_POSITION)
+            for (i = start; i < beyond; i++) answers[i] = hc_answer(question, answers[i]);
         for (block = 0; block < blocks; block++)
             for (; left[block]; left[block] &= left[block] - 1, lefts++) {
                 i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
+                refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
         if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
             hc_make_planes(&scene, 1, 2);
             planes = level->two_planes;
         }
-        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
-            hc_tilted_wait(level, &waiting, i, x[i], y[i], z[i], positions);
+        for (i = beyond; i < end; i++) refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }
-    hc_tilted_settle(level, &waiting, positions);
+    return refused + hc_tilted_settle(level, question, &waiting, answers);
+}
+
+void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
+    hypcheck_ask_tilted(HYPCHECK_POSITION, n, rows10, positions);
+}
+
+void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
+                                    const double *y, const double *z, int8_t *positions) {
+    hypcheck_ask_tilted_scene(HYPCHECK_POSITION, sizes, axis, n, x, y, z, positions);
 }
 
 #if HC_PRECISE
@@ -1751,7 +1763,7 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_26deab650ccfd1b2
+#define HC_EDITION_05d06f9c919d312e
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

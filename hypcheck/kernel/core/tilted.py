@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from hypcheck.derivation.program import Program, Step, needed
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.kernel.programs.integers import bits_counted
-from hypcheck.kernel.programs.tilted_integers import AXIS, COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
+from hypcheck.kernel.programs.tilted_integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
 
 KEPT = ("p", "q", "s", "t", "k0", "k1", "k2", *COEFFICIENTS)
 """What hc_quartic_of keeps, in the order of the program."""
@@ -27,7 +27,7 @@ def pool_bits() -> tuple[int, int]:
         kept + 5 * (CUT_BITS + 64) + sum(discriminant.values()),
         kept + max(_bits_about_a_pole(quartic)),
     )
-    return max(phases), len(QUARTIC.steps) + len(COLUMNS) + len(AXIS)
+    return max(phases), len(QUARTIC.steps) + len(TILTED_COLUMNS)
 
 
 def kilobytes() -> int:

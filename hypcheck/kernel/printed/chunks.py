@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
+Singles = NDArray[np.float32]
 
 
 PLANE_BUFFERS = (2, 0)
@@ -27,7 +27,7 @@ def plane(
     z: Floats,
     numbers: Sequence[Singles],
 ) -> tuple[Singles, Singles]:
-    """R, T of the program "plane"; they lie in the buffers."""
+    """R, T of "plane"; they lie in the buffers."""
     n0, n1 = numbers
     np.copyto(n0, x, casting="same_kind")
     np.multiply(n0, n0, n0)  # xx = x * x
@@ -50,7 +50,7 @@ def parallel_lines(
     numbers: Sequence[Singles],
     truths: Sequence[Mask],
 ) -> tuple[Mask, Mask, Mask]:
-    """exterior, interior, decided of the program "parallel-lines"; they lie in the buffers."""
+    """exterior, interior, decided of "parallel-lines"; they lie in the buffers."""
     M_outer = constants["M_outer"]
     K_beyond = constants["K_beyond"]
     K_under = constants["K_under"]
@@ -85,7 +85,7 @@ def two_lines(
     numbers: Sequence[Floats],
     truths: Sequence[Mask],
 ) -> tuple[Floats, Mask, Mask, Mask]:
-    """R_plus_T, exterior, interior, decided of the program "two-lines"; they lie in the buffers."""
+    """R_plus_T, exterior, interior, decided of "two-lines"; they lie in the buffers."""
     reach = constants["reach"]
     K_beyond_1 = constants["K_beyond_1"]
     M_beyond_1 = constants["M_beyond_1"]
@@ -162,7 +162,7 @@ def certified(
     numbers: Sequence[Floats],
     truths: Sequence[Mask],
 ) -> tuple[Mask, Mask, Mask]:
-    """exterior, interior, decided of the program "certified"; they lie in the buffers."""
+    """exterior, interior, decided of "certified"; they lie in the buffers."""
     u_4 = constants["u_4"]
     u_8 = constants["u_8"]
     u_12 = constants["u_12"]

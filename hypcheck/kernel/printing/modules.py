@@ -12,14 +12,14 @@ python -m hypcheck.kernel.printing.modules
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from hypcheck.derivation.program import NUMBER, Program, Step, kind_of, line_of, needed
-from hypcheck.geometry.pair import CENTER, COLUMNS
+from hypcheck.geometry.pair import CENTER, COLUMNS, TILTED_COLUMNS
 from hypcheck.kernel.printing.languages import python_statements
-from hypcheck.kernel.programs import certified, lines
+from hypcheck.kernel.programs import certified, lines, tilted
 
 _UFUNCS = {
     "add": "np.add",
@@ -106,23 +106,25 @@ INDENT = "    "
 
 def modules() -> dict[str, str]:
     """The text of each module by its file name."""
-    return {"chunks.py": _chunks(), "scalars.py": _scalars()}
+    return {"chunks.py": _chunks(), "scalars.py": _scalars(), "tilted.py": _tilted()}
+
+
+_ARRAYS = (
+    "from collections.abc import Mapping, Sequence",
+    "",
+    "import numpy as np",
+    "from numpy.typing import NDArray",
+    "",
+    "Floats = NDArray[np.float64]",
+    "Mask = NDArray[np.bool_]",
+)
 
 
 def _chunks() -> str:
     wanted = ("R_plus_T", "exterior", "interior", "decided")
     return _module(
         "The line stage and the certified stage over chunks of rows, in buffers that the caller keeps.",
-        [
-            "from collections.abc import Mapping, Sequence",
-            "",
-            "import numpy as np",
-            "from numpy.typing import NDArray",
-            "",
-            "Floats = NDArray[np.float64]",
-            "Singles = NDArray[np.float32]",
-            "Mask = NDArray[np.bool_]",
-        ],
+        [*_ARRAYS, "Singles = NDArray[np.float32]"],
         [
             _in_place("plane", lines.PLANE, ("R", "T"), dict.fromkeys(CENTER, "Floats"), single=True),
             _in_place(
@@ -135,6 +137,20 @@ def _chunks() -> str:
             _in_place("two_lines", lines.TWO_LINES, wanted, dict.fromkeys(CENTER, "Floats")),
             _in_place("certified", certified.CERTIFIED, wanted[1:], dict.fromkeys(COLUMNS, "Floats")),
         ],
+    )
+
+
+def _tilted() -> str:
+    form = ("p", "s", "t", "k0", "k1", "m", "radius", "height", "cross_squared", "level")
+    row = dict.fromkeys(TILTED_COLUMNS, "Floats")
+    return _module(
+        "The stage of rows whose axis leans over chunks, in buffers that the caller keeps.",
+        _ARRAYS,
+        [
+            _in_place("tilted_form", tilted.VALUES, form, row),
+            _in_place("tilted", tilted.TILTED, ("exterior", "interior", "decided"), {**row, "l": "Floats"}),
+        ],
+        ignored="E741, PLR0915",
     )
 
 
@@ -152,9 +168,6 @@ def _in_place(
     results = [printed.place[each] for each in wanted]
     kinds = [numbers if place.startswith("n") else "Mask" for place in results]
     upper = name.upper()
-    unpacked = {
-        letter: ", ".join(each) if len(each) > 1 else f"({each[0]},)" for letter, each in buffers.items() if each
-    }
     return [
         f"{upper}_BUFFERS = ({printed.numbers}, {printed.truths})",
         f'"""How many buffers of numbers and of truth values {name} needs."""',
@@ -166,13 +179,28 @@ def _in_place(
         f"{INDENT}numbers: Sequence[{numbers}],",
         *([f"{INDENT}truths: Sequence[Mask],"] if buffers["t"] else []),
         f") -> tuple[{', '.join(kinds)}]:",
-        f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"; they lie in the buffers."""',
+        f'{INDENT}"""{", ".join(wanted)} of "{program.name}"; they lie in the buffers."""',
         *(f'{INDENT}{each} = constants["{each}"]' for each in constants),
-        f"{INDENT}{unpacked['n']} = numbers",
-        *([f"{INDENT}{unpacked['t']} = truths"] if buffers["t"] else []),
+        *_unpacked(buffers["n"], "numbers"),
+        *_unpacked(buffers["t"], "truths"),
         *(f"{INDENT}{line}" for line in printed.statements),
         f"{INDENT}return {', '.join(results)}",
     ]
+
+
+ON_A_LINE = 20
+"""Buffers unpacked at a time."""
+
+
+def _unpacked(names: Sequence[str], source: str) -> Iterator[str]:
+    if 1 < len(names) <= ON_A_LINE:
+        yield f"{INDENT}{', '.join(names)} = {source}"
+    elif len(names) == 1:
+        yield f"{INDENT}({names[0]},) = {source}"
+    else:
+        for start in range(0, len(names), ON_A_LINE):
+            some = names[start : start + ON_A_LINE]
+            yield f"{INDENT}{', '.join(some)} = {source}[{start}:{start + len(some)}]"
 
 
 def _scalars() -> str:
@@ -211,10 +239,10 @@ def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]
     ]
 
 
-def _module(summary: str, imports: Iterable[str], functions: Iterable[list[str]]) -> str:
+def _module(summary: str, imports: Iterable[str], functions: Iterable[list[str]], ignored: str = "PLR0915") -> str:
     head = [f'"""{summary}', "", f"Printed by `{COMMAND}`. Change the programs, not this.", '"""', ""]
     head += [
-        "# ruff: noqa: PLR0915",
+        f"# ruff: noqa: {ignored}",
         "",
         "from __future__ import annotations",
         "",

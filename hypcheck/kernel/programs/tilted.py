@@ -28,11 +28,10 @@ from __future__ import annotations
 
 from hypcheck.derivation.program import Program, Step, needed, program_of, steps_of
 from hypcheck.derivation.rounding import ErrorCounts, relative_error_counts
-from hypcheck.geometry.pair import COLUMNS, SIZES
+from hypcheck.geometry.pair import SIZES, TILTED_COLUMNS
 from hypcheck.kernel.programs.certified import SLACK, U
-from hypcheck.kernel.programs.tilted_integers import AXIS
 
-ROW = (*COLUMNS, *AXIS)
+ROW = TILTED_COLUMNS
 
 FORM = """
     r = 1 / b

@@ -11,13 +11,11 @@ is p² q² s t w det(S + λH), as tests/kernel/test_tilted_integers.py checks. L
 from __future__ import annotations
 
 from hypcheck.derivation.program import program_of
-from hypcheck.geometry.pair import COLUMNS
-
-AXIS = ("axis_x", "axis_y", "axis_z")
+from hypcheck.geometry.pair import TILTED_COLUMNS
 
 QUARTIC = program_of(
     "tilted-quartic",
-    (*COLUMNS, *AXIS),
+    TILTED_COLUMNS,
     """
     p = alpha * alpha
     q = b * b

@@ -1,4 +1,4 @@
-"""Exact positions of many rows of ten numbers, (n, 10), columns as in pair.TILTED_COLUMNS."""
+"""Exact positions of many rows of ten numbers, (n, 10), columns as in geometry.pair.TILTED_COLUMNS."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import NO_DIRECTION, REFUSED, TILTED_COLUMNS, trouble_with
-from hypcheck.geometry.rows import Positions, Rows, as_numbers, invalid
+from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS
+from hypcheck.geometry.rows import Positions, Rows, as_numbers, invalid, require_valid
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths
 
@@ -42,13 +42,3 @@ def as_tilted_rows(values: ArrayLike) -> Rows:
     if rows.ndim != 2 or rows.shape[1] != len(TILTED_COLUMNS):
         raise InputError(f"the rows have shape {rows.shape}; it must be (n, 10): {_NAMES}")
     return rows
-
-
-def require_valid(rows: Rows, first_number: int = 0) -> None:
-    """Raise InputError about the first invalid row, counted from `first_number`, if there is one."""
-    bad = np.flatnonzero(invalid(rows))
-    if not len(bad):
-        return
-    index = int(bad[0])
-    troubles = (trouble_with(*each) for each in zip(TILTED_COLUMNS, rows[index].tolist(), strict=True))
-    raise InputError(f"row {first_number + index}: {next((each for each in troubles if each), NO_DIRECTION)}")

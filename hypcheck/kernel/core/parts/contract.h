@@ -19,11 +19,13 @@
        HYPCHECK_PLAIN            to leave the instruction sets of x86-64 out
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
-   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z.
+   Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
+               that may lean: axis_x, axis_y, axis_z besides.
    Alignment   that of double. Nothing has to be padded.
    Aliasing    inputs may overlap each other. The output must not overlap an input.
    NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
-               A scene with invalid sizes answers 127 everywhere. -0.0 is 0 as a coordinate.
+               So does an axis that is 0, 0, 0 or not finite. A scene with invalid sizes, or such an axis, answers 127
+               everywhere. -0.0 is 0 as a coordinate and in an axis.
    Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes, @TILTED_KILOBYTES@ for axes that lean.
    Threads     every function may be called from any number of threads at once. There is one global variable, the
                instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
@@ -64,6 +66,9 @@ size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const d
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions);
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers);
+size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
+                                 const double *y, const double *z, int8_t *answers);
 
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);

@@ -82,14 +82,10 @@ static int hc_is_upright(const double row[10]) {
     return ((hc_word(row[7]) | hc_word(row[8])) << 1 == 0) || hc_word(row[2]) == hc_word(row[3]);
 }
 
-static int hc_tilted_valid(const double row[10]) {
-    const uint64_t infinite = (uint64_t)0x7ff << 52;
-    int i, is_axis = 0;
-    for (i = 7; i < 10; i++) {
-        if ((hc_word(row[i]) & infinite) == infinite) return 0;
-        is_axis |= hc_word(row[i]) << 1 != 0;
-    }
-    return is_axis && hc_valid(row);
+static int hc_has_direction(const double axis[3]) {
+    const uint64_t x = hc_word(axis[0]) << 1, y = hc_word(axis[1]) << 1, z = hc_word(axis[2]) << 1;
+    const uint64_t infinite = (uint64_t)0x7ff << 53;
+    return (x | y | z) != 0 && x < infinite && y < infinite && z < infinite;
 }
 
 /* The quartic F = f4 λ⁴ + f3 λ³ + f2 λ² + f1 λ - minus_f0 of a pair, its poles -p/q and the roots -A2 < 0 < B of
