@@ -18,7 +18,7 @@ from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, Nu
 from hypcheck.cli.progress import watched
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import printable
-from hypcheck.paper.derive.formats import FORMATS, PARTS
+from hypcheck.paper.derive import FORMATS, PARTS
 
 if TYPE_CHECKING:
     from hypcheck.scene.model import SceneModel
@@ -52,15 +52,14 @@ def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: s
         raise InputError("--claim shows one claim and --only parts of all; use one of them")
     if form == "erratum" and (claim is not None or only):
         raise InputError("--format erratum writes one whole note; it takes neither --claim nor --only")
-    from hypcheck.paper.derive.formats import writer
+    from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
     from hypcheck.paper.derive.selection import Selection
 
+    writers = (text.lines, latex.lines, as_json.lines, markdown.lines, erratum.lines)
     chosen = Selection(() if claim is not None else only or tuple(PARTS), claim)
-    _write(writer(form)(chosen), output)
+    _write(dict(zip(FORMATS, writers, strict=True))[form](chosen), output)
     if form == "erratum" and output != "-":
-        from hypcheck.paper.derive.erratum import compile_note
-
-        click.echo(compile_note(Path(output)), err=True)
+        click.echo(erratum.compile_note(Path(output)), err=True)
     failing = chosen.failing
     if failing:
         click.echo(f"hypcheck: our derivation disagrees with what it is said to show: {', '.join(failing)}", err=True)

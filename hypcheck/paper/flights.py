@@ -4,7 +4,7 @@ A flight is a sequence of draws. A draw leads to a movement that the procedure i
 position it leads to; each question is an *execution* of the procedure. The rules, and what the paper leaves open of
 them, are a scene's `Flight`. A vertical draw to beyond the tower's height is drawn again without an execution.
 
-Every draw of a flight takes two words of its block's stream, whatever comes of it, and a block has LANES flights,
+Every draw of a flight takes two words of its block's stream, whatever it leads to, and a block has LANES flights,
 whether they are asked for or not: so a flight depends on nothing but the name of its block and its place in it.
 """
 
@@ -17,12 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.paper.quadcopter import (
     EIGHTH,
     Craft,
     Direction,
-    Point,
     Procedures,
     any_angle,
     quarter_turns,
@@ -31,13 +30,13 @@ from hypcheck.paper.quadcopter import (
     turned,
 )
 from hypcheck.scene.model import Flight, Start
-from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.draw import Draw, unit_of
 
 LANES = 1000
-"""Flights of a block: enough that numpy works and does not wait."""
+"""Flights of a block: enough to keep numpy's loops long."""
 
 VERSION = 1
-"""Of the flights: raised whenever other words, or the same in another order, come to be drawn."""
+"""Version of the flights, raised whenever they draw other words, or the same words in another order."""
 
 PATIENCE = 2000
 """Draws without an accepted move after which a flight is stuck. One with a hundredth of its draws accepted, fewer than
@@ -48,7 +47,7 @@ Counts = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True)
 class Moves:
-    """What one draw came to, for the flights still under way; arrays (n,) throughout.
+    """The results of one draw, for the flights still under way; arrays (n,) throughout.
 
     `lane` says which flights; they went, or would have gone, from `start` to `end`. `accepted` and `refused` are
     movements the procedure was asked about; `vertical` ones go up or down. A turn in place (`turning`) was asked about
@@ -57,8 +56,8 @@ class Moves:
     """
 
     lane: NDArray[np.int64]
-    start: Point
-    end: Point
+    start: Columns
+    end: Columns
     before: Direction
     turn: Floats
     accepted: Mask
@@ -71,7 +70,7 @@ class Moves:
 
 @dataclass(slots=True)
 class Tallies:
-    """How often what happened to each flight of a block; int64 (lanes,) each."""
+    """Events of each flight of a block, counted; int64 (lanes,) each."""
 
     executions: Counts
     touching: Counts
@@ -86,7 +85,7 @@ class Tallies:
         return cls(*(np.zeros(lanes, dtype=np.int64) for _ in fields(cls)))
 
     def add(self, moves: Moves) -> None:
-        """Count what a draw came to."""
+        """Count the results of a draw."""
         drawn = moves.lane
         self.executions[drawn] += moves.executed
         self.touching[drawn] += moves.executed & moves.touching
@@ -104,7 +103,7 @@ class _State:
     """
 
     lane: NDArray[np.int64]
-    at: Point
+    at: Columns
     heading: Direction
     due: Mask
     left: Counts
@@ -183,17 +182,12 @@ def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _S
 def _anywhere(draw: Draw) -> Direction:
     """Directions uniform over the circle."""
     words = draw.words(LANES)
-    return quarter_turns(*small_angle((2 * _unit(words) - 1) * EIGHTH), (words & np.uint64(3)).astype(np.int64))
-
-
-def _unit(words: NDArray[np.uint64]) -> Floats:
-    """Multiples of 2⁻⁵³ in [0, 1), of the high bits."""
-    return (words >> np.uint64(11)).astype(np.float64) * 2.0**-53
+    return quarter_turns(*small_angle((2 * unit_of(words) - 1) * EIGHTH), (words & np.uint64(3)).astype(np.int64))
 
 
 def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
     """What the two words of each flight say. A step that is due goes before what they say."""
-    chance, sense = _unit(words[0]), np.where(words[0] & np.uint64(1) == 0, 1.0, -1.0)
+    chance, sense = unit_of(words[0]), np.where(words[0] & np.uint64(1) == 0, 1.0, -1.0)
     straight = ~due & (chance < flight.straight)
     vertical = ~due & ~straight & (chance < flight.straight + flight.vertical)
     turning = ~(due | straight | vertical)
@@ -202,7 +196,7 @@ def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
         ahead=np.where(due, 1.0, np.where(straight, sense if flight.backward else 1.0, 0.0)),
         up=np.where(vertical, sense, 0.0),
         turning=turning,
-        turn=np.where(turning, (2 * _unit(words[1]) - 1) * flight.largest_turn, 0.0),
+        turn=np.where(turning, (2 * unit_of(words[1]) - 1) * flight.largest_turn, 0.0),
         refused_turn=left * flight.refused_turn,
     )
 
@@ -231,12 +225,12 @@ def _advance(
     return Moves(state.lane, start, end, before, turn, accepted, refused, vertical, chosen.turning, executed, touching)
 
 
-def _moved(start: Point, heading: Direction, chosen: _Chosen, step: float) -> Point:
+def _moved(start: Columns, heading: Direction, chosen: _Chosen, step: float) -> Columns:
     (x, y, z), along = start, chosen.ahead * step
     return x + along * heading[0], y + along * heading[1], z + chosen.up * step
 
 
-def _beyond(craft: Craft, at: Point) -> Mask:
+def _beyond(craft: Craft, at: Columns) -> Mask:
     """Which positions are outside the modelled height."""
     z = at[2]
     if craft.height is None:
@@ -252,6 +246,6 @@ def _turned(heading: Direction, degrees: Floats) -> Direction:
     return cosine, sine
 
 
-def _where(those: Mask, one: Point, other: Point) -> Point:
+def _where(those: Mask, one: Columns, other: Columns) -> Columns:
     x, y, z = (np.where(those, a, b) for a, b in zip(one, other, strict=True))
     return x, y, z

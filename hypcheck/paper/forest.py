@@ -1,9 +1,4 @@
-"""`simulate forest`: the walker of the paper's section 3.1 among trees of both types, as one JSON object and in words.
-
-`simulate forest`: the walker of the paper's section 3.1 among trees of both types, as one JSON object.
-
-The result of `simulate forest` in words.
-"""
+"""`simulate forest`: the walker of the paper's section 3.1 among trees of both types, as JSON and as text."""
 
 from __future__ import annotations
 
@@ -181,7 +176,7 @@ def _count(those: Mask) -> int:
 
 WIDTH = 100
 SHOWN = 8
-"""Phantoms that are told one by one."""
+"""Phantoms that are listed one by one."""
 
 
 def forest_lines(result: dict[str, Any]) -> Iterator[str]:

@@ -1,21 +1,13 @@
-"""Trees and a walker that obeys Procedure 1 in float32; its steps, an invisible wall, contacts between steps.
-
-Many trunks and one walker: Procedure 1 by Table 2, lines that make it needless, and the exact positions.
+"""A walk among trees that obeys Procedure 1 in float32, as a game would, and the exact verdict on each of its steps.
 
 Table 2 takes out of its loop what the sizes alone decide; here that is done once for each tree. It is asked about the
 walker's centre as seen from the tree's: centres are anywhere, and the difference is rounded to float64, like any other
 position that a game hands over. The exact positions are those of the exact differences.
 
-A walk among trees that obeys Procedure 1 in float32, as a game would, and the exact verdict on each of its steps.
-
 Every step is asked about before it is made, at the position it leads to, of all trees that stand at that height. Steps
-beyond the scene's region are refused without asking.
-
-An invisible wall seen closely: where Procedure 1 in float32 reports contact about a place where a phantom stood.
-
-The ways between a walker's positions: which steps touch a tree before their end, and when first.
-
-A step is made or refused for the place it leads to. From one free place to another it may still brush a trunk.
+beyond the scene's region are refused without asking. A step is made or refused for the place it leads to: from one free
+place to another it may still brush a trunk, which `steps_in_contact` finds. `phantom_wall` shows an invisible wall
+closely: where Procedure 1 in float32 reports contact about a place where a phantom stood.
 """
 
 from __future__ import annotations
@@ -33,13 +25,13 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
-from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.kernel import scene as offsets
-from hypcheck.paper.motion import first_contact, stays_on_side
-from hypcheck.paper.quadcopter import Point, any_angle, turned
+from hypcheck.paper.motion import TOLD, first_contact, stays_on_side
+from hypcheck.paper.quadcopter import any_angle, turned
 from hypcheck.scene.model import Region, SceneModel, Walk
 from hypcheck.truth.float_filter import lines_for_sizes
-from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.draw import Draw, unit_of
 
 Places = Floats
 """Positions of the walker's centre in the scene, (n, 3)."""
@@ -71,7 +63,7 @@ class Trees:
 
     @cached_property
     def _lines(self) -> Floats:
-        """K and M of x² + y² > K + M z², which proves exterior (truth/lines.py); inf where λ = α/b is no proof."""
+        """K and M of x² + y² > K + M z², a proof of exterior (truth/float_filter.py); inf where λ = α/b proves none."""
         found = [lines_for_sizes(*map(float, sizes), 0).exterior[:1] for sizes in self.sizes]
         return np.array([each[0] if each else (np.inf, 0.0) for each in found])
 
@@ -147,7 +139,7 @@ class Procedure1:
 
 
 VERSION = 1
-"""Of the walk: raised whenever other words come to be drawn."""
+"""Version of the walk, raised whenever it draws other words."""
 
 CHUNK = 256
 """Steps judged at a time."""
@@ -196,7 +188,7 @@ def walk(
     if not bool(_inside(region, np.array([rules.start]))[0]):
         raise InputError(f"the walk starts at {list(rules.start)}, outside the scene's region")
     words = Draw("forest-walk", VERSION, seed).words(2 * steps).reshape(steps, 2)
-    shares = (words[:, 0] >> np.uint64(11)).astype(np.float64) * 2.0**-53
+    shares = unit_of(words[:, 0])
     wander, recover = (2 * shares - 1) * rules.largest_turn, np.where(words[:, 1] & np.uint64(1) == 0, 1.0, -1.0)
     turns = any_angle(wander), any_angle(wander + recover * rules.refused_turn)
     procedure, heading = Procedure1(trees, "float32"), any_angle(np.array(rules.heading))
@@ -269,10 +261,6 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
     }
 
 
-TOLD = 12
-"""First contacts that are told one by one."""
-
-
 def steps_in_contact(trees: Trees, steps: Steps) -> dict[str, Any]:
     """How many of the made steps touch a tree that stands there, decided exactly, and first contacts of some."""
     start, end = steps.start[steps.made], steps.end[steps.made]
@@ -289,7 +277,7 @@ def steps_in_contact(trees: Trees, steps: Steps) -> dict[str, Any]:
     }
 
 
-def _contact(trees: Trees, start: Point, end: Point, step: int, touched: Mask) -> dict[str, Any]:
+def _contact(trees: Trees, start: Columns, end: Columns, step: int, touched: Mask) -> dict[str, Any]:
     """The first contact on a step that touches these trees."""
     bodies = [(place, trees.scene.hyperboloids[place]) for place in np.flatnonzero(touched).tolist()]
     (lower, upper), name = min(
@@ -304,7 +292,7 @@ def _contact(trees: Trees, start: Point, end: Point, step: int, touched: Mask) -
     }
 
 
-def _columns(places: Places) -> Point:
+def _columns(places: Places) -> Columns:
     x, y, z = places.T
     return x, y, z
 

@@ -1,22 +1,19 @@
 """Moves and turns decided exactly from beginning to end, and what a test at the end of each move misses.
 
-Many ways at once: which straight ways and which turns in place are clear from beginning to end, exactly.
-
-Both answers come from one observation (docs/mathematics.md, "Monotone in every input"): an interior spheroid stays so
-where its centre comes nearer to the axis and farther from the waist's plane, an exterior one where it does the
-opposite. So one exact decision at the worst corner of a way, its largest distance from the axis with its least height,
-or the other way round, proves the whole way clear. What is not proved so, nor disproved by an end of the way, is
-decided by truth.motion or truth.turning.
+Which straight ways and which turns in place are clear from beginning to end follows from one observation
+(docs/mathematics.md, "Monotone in every input"): an interior spheroid stays so where its centre comes nearer to the
+axis and farther from the waist's plane, an exterior one where it does the opposite. So one exact decision at the worst
+corner of a way, its largest distance from the axis with its least height, or the other way round, proves the whole way
+clear. A way that is neither proved clear so, nor disproved by one of its ends, is decided by truth/swept.py or
+truth/turning.py.
 
 Bounds, u = 2⁻⁵³. Along a segment the distance from the axis is convex: the largest is at an end, and √(x²+y²) computed
 is within 3u of it. The least is not below the least of n·C at the ends for any horizontal direction n of length 1; n·C
 is computed to within 3u (|x|+|y|), and the n used is at most 1 + 4u long. Coordinates that are differences are within u
 of themselves. MARGIN covers all of these several times.
 
-What a test at the end of each movement does not see: contact on the way, and turns that nobody answers for.
-
 A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a way is
-valid from beginning to end exactly where no rotor meets contact on it: they are asked only where the body is not clear.
+valid from beginning to end exactly where no rotor meets contact on it. They are asked only where the body is not clear.
 """
 
 from __future__ import annotations
@@ -28,10 +25,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position, Sizes
-from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.kernel.classify import classify_scene
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Point, Procedures, any_angle, turned
+from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Procedures, any_angle, turned
 from hypcheck.truth.swept import passage
 from hypcheck.truth.turning import turning
 
@@ -39,7 +36,7 @@ MARGIN = 64 * 2.0**-53
 
 
 def stays_on_side(
-    side: Position, sizes: Sizes, start: Point, end: Point, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    side: Position, sizes: Sizes, start: Columns, end: Columns, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Mask:
     """Which spheroids keep to `side`, INTERIOR or EXTERIOR, on the whole segment from start to end; (n,).
 
@@ -56,26 +53,26 @@ def stays_on_side(
 
 
 def first_contact(
-    sizes: Sizes, start: Point, end: Point, lane: int, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    sizes: Sizes, start: Columns, end: Columns, lane: int, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> tuple[float, float]:
     """Bounds of the time of first contact on one of these ways, 0 ≤ time ≤ 1; inf twice where there is none."""
     way = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
     return way.first_lower, way.first_upper
 
 
-def _favoured(side: Position, at: Point) -> Point:
+def _favoured(side: Position, at: Columns) -> Columns:
     """A position that is not on that side only where the exact one is not either: a hair nearer to it."""
     more, less = (1 - MARGIN, 1 + MARGIN) if side is Position.INTERIOR else (1 + MARGIN, 1 - MARGIN)
     return at[0] * more, at[1] * more, at[2] * less
 
 
-def _inner_corner(start: Point, end: Point) -> Point:
+def _inner_corner(start: Columns, end: Columns) -> Columns:
     """A position that is interior only where the whole way is: as far out and as low as the way gets."""
     radius = np.maximum(np.hypot(start[0], start[1]), np.hypot(end[0], end[1])) * (1 + MARGIN)
     return radius, np.zeros_like(radius), _least_height(start[2], end[2]) * (1 - MARGIN)
 
 
-def _outer_corner(start: Point, end: Point) -> Point:
+def _outer_corner(start: Columns, end: Columns) -> Columns:
     """A position that is exterior only where the whole way is: as near to the axis and as high as the way gets."""
     x, y = start[0] + end[0], start[1] + end[1]
     length = np.hypot(x, y)
@@ -85,17 +82,17 @@ def _outer_corner(start: Point, end: Point) -> Point:
     return np.maximum(reach, 0.0), np.zeros_like(reach), height
 
 
-def _along(ahead: Floats, aside: Floats, at: Point) -> Floats:
+def _along(ahead: Floats, aside: Floats, at: Columns) -> Floats:
     """A lower bound of the way along a horizontal direction of length 1, to within rounding."""
     return np.asarray(ahead * at[0] + aside * at[1] - MARGIN * (np.abs(at[0]) + np.abs(at[1])))
 
 
-def _from(center: tuple[float, float, float], at: Point) -> Point:
+def _from(center: tuple[float, float, float], at: Columns) -> Columns:
     x, y, z = (column - origin for column, origin in zip(at, center, strict=True))
     return x, y, z
 
 
-def _exactly(center: tuple[float, float, float], at: Point, lane: int) -> tuple[Fraction, Fraction, Fraction]:
+def _exactly(center: tuple[float, float, float], at: Columns, lane: int) -> tuple[Fraction, Fraction, Fraction]:
     x, y, z = (Fraction(value) - Fraction(origin) for value, origin in zip(_at(at, lane), center, strict=True))
     return x, y, z
 
@@ -105,7 +102,7 @@ def _least_height(first: Floats, second: Floats) -> Floats:
     return np.where(crossing, 0.0, np.minimum(np.abs(first), np.abs(second)))
 
 
-def stays_on_side_turning(sizes: Sizes, arm: float, at: Point, direction: Direction, degrees: Floats) -> Mask:
+def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Direction, degrees: Floats) -> Mask:
     """Which parts stay interior while an arm that points into `direction` turns by so many degrees (−180 … 180); (n,).
 
     The largest distance from the axis is ρ + l where the arm points outward on the way, else it is reached at an end.
@@ -136,13 +133,13 @@ def _comes_by(x: Floats, y: Floats, direction: Direction, degrees: Floats) -> Ma
     )
 
 
-def _at(point: Point, lane: int) -> tuple[float, float, float]:
+def _at(point: Columns, lane: int) -> tuple[float, float, float]:
     x, y, z = (float(column[lane]) for column in point)
     return x, y, z
 
 
 TOLD = 12
-"""First contacts that are told one by one."""
+"""First contacts that are listed one by one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +191,7 @@ class MoveVerdicts:
         self.contacts = self.contacts[:TOLD]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
-        """Count what a draw of many flights came to."""
+        """Count the results of a draw of many flights."""
         accepted = np.flatnonzero(moves.accepted)
         start, end, heading = _of(moves.start, accepted), _of(moves.end, accepted), _headed(moves.before, accepted)
         vertical = moves.vertical[accepted]
@@ -237,7 +234,7 @@ class MoveVerdicts:
         setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
 
 
-def valid(craft: Craft, at: Point, heading: Direction) -> Mask:
+def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
     """Which positions are exactly valid: the body interior, or every rotor, centred where (15) says in floats."""
     result = np.asarray(classify_scene(craft.sizes, *at) == Position.INTERIOR)
     near = np.flatnonzero(~result)
@@ -250,7 +247,7 @@ def _all_four(rotors: Mask) -> Mask:
     return np.asarray(rotors.reshape(ROTORS, -1).all(axis=0))
 
 
-def _judged(craft: Craft, start: Point, end: Point, heading: Direction) -> tuple[Mask, Mask, Mask]:
+def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Mask, Mask, Mask]:
     """Which ways are valid throughout, which at their beginning, which at their end."""
     clear = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
     begun, ended = clear.copy(), clear.copy()
@@ -262,7 +259,7 @@ def _judged(craft: Craft, start: Point, end: Point, heading: Direction) -> tuple
     return clear, begun, ended
 
 
-def _contacts(craft: Craft, start: Point, end: Point, heading: Direction) -> tuple[Contact, ...]:
+def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Contact, ...]:
     """The first contact of each of these moves; the rotor that has it first."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
     found = []
@@ -281,7 +278,7 @@ def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _of(point: Point, those: NDArray[np.int64]) -> Point:
+def _of(point: Columns, those: NDArray[np.int64]) -> Columns:
     x, y, z = point
     return x[those], y[those], z[those]
 

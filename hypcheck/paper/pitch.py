@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position, Sizes
-from hypcheck.geometry.rows import Floats, Mask, Positions
+from hypcheck.geometry.rows import Columns, Floats, Mask, Positions
 from hypcheck.kernel.classify import classify_scene
 from hypcheck.messages import counted
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Point, any_angle
+from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, any_angle
 from hypcheck.truth.tilted import batch
 from hypcheck.vectors.draw import Draw
 
@@ -36,7 +36,7 @@ VERSION = 1
 Indices = NDArray[np.int64]
 
 
-def leaning_interior(sizes: Sizes, at: Point, axis: Point) -> Mask:
+def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
     """Which spheroids are interior, exactly, each at a centre and along an axis; (n,)."""
     alpha, gamma, b, d = sizes
     longest = max(b, d)
@@ -46,11 +46,11 @@ def leaning_interior(sizes: Sizes, at: Point, axis: Point) -> Mask:
     return inside
 
 
-def _positions(sizes: Sizes, at: Point, axis: Point) -> Positions:
+def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
     return batch.positions(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
 
 
-def _of(point: Point, those: Indices) -> Point:
+def _of(point: Columns, those: Indices) -> Columns:
     x, y, z = point
     return x[those], y[those], z[those]
 
@@ -70,11 +70,11 @@ class Lean:
         return cls(toward, float(cosine), float(sine))
 
     @property
-    def axis(self) -> Point:
+    def axis(self) -> Columns:
         """The axes of revolution."""
         return self.sine * self.toward[0], self.sine * self.toward[1], np.full_like(self.toward[0], self.cosine)
 
-    def tilted(self, along: Floats, aside: Floats) -> Point:
+    def tilted(self, along: Floats, aside: Floats) -> Columns:
         """Horizontal vectors (along, aside) of the upright craft, as they are once it leans: a rotation about its side.
 
         The part towards the lean, (along, aside)·toward, is shortened by the cosine and goes down by the sine.
@@ -89,7 +89,7 @@ class Lean:
         return Lean((self.toward[0][those], self.toward[1][those]), self.cosine, self.sine)
 
 
-def valid_leaning(craft: Craft, at: Point, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
+def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
     """Which positions are valid, the body interior or every rotor, and where the body alone is interior."""
     body = leaning_interior(craft.sizes, at, lean.axis)
     valid = body.copy()

@@ -1,16 +1,12 @@
-"""The quadcopter of a scene: body, rotors, points of the unit circle without trigonometry, valid starts.
-
-Points of the unit circle by + − × ÷ √ alone, so that a flight is the same to the byte on every machine.
-
-The polynomials are those of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems, 1993), good to less than an ulp
-for angles up to π/4.
-
-The quadcopter of a scene as Procedures 2.a and 2.b have it: a body, four equal rotors, one sine and cosine for all.
+"""The quadcopter of a scene: a body and four equal rotors, Procedures 2.a and 2.b, and where its flights may start.
 
 The paper's section 3.2 puts rotor i at the angle g_i = g1 + (i − 1) π/2 and, by equation (15), an eighth of a turn on.
-So a part's `angle` is g_i − heading + 45°, and with (T1, T2) of g1 the four rotors need no more (rotor_listings.py).
+So a part's `angle` is g_i − heading + 45°, and with (T1, T2) of g1 the four rotors need no more
+(derivation/paper_listings.py).
 
-Where flights start, and whether each of these places is one where the quadcopter may be.
+Points of the unit circle are computed by + − × ÷ √ alone, so that a flight is the same to the byte on every machine.
+The polynomials are those of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems, 1993), good to less than an ulp
+for angles up to π/4.
 """
 
 from __future__ import annotations
@@ -26,7 +22,7 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
-from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.kernel.classify import classify
 from hypcheck.scene.model import Hyperboloid, MoverPart, SceneModel, Span, Start
 
@@ -91,8 +87,6 @@ def _polynomial(coefficients: tuple[float, ...], at: Floats) -> Floats:
     return result
 
 
-Point = tuple[Floats, Floats, Floats]
-
 SHORTEST, LONGEST = 1e-6, 1e6
 """Lengths of bodies: Δ, of degree 12 in their ratios, is far from overflow then."""
 
@@ -117,7 +111,7 @@ class Craft:
     ahead: float
     height: Span | None
 
-    def rotors(self, at: Point, heading: Direction) -> Point:
+    def rotors(self, at: Columns, heading: Direction) -> Columns:
         """The centres of all first rotors, then of all second ones, and so on, by equation (15); (4 n,) each."""
         x, y, z = (np.tile(column, ROTORS) for column in at)
         cosine, sine = self.arms(heading)
@@ -151,11 +145,11 @@ class Procedures:
         self._body = loop_body(hull, arithmetic, body, ("delta", "unclear" if repaired else "touching", "inside"))
         self._rotors = loop_body(small, arithmetic, rotor, ("valid",))
 
-    def discriminant(self, at: Point) -> Floats:
+    def discriminant(self, at: Columns) -> Floats:
         """Δ of the body's cubic, equation (13)."""
         return np.asarray(self._body(dict(zip("xyz", at, strict=True)))[0])
 
-    def ask(self, at: Point, heading: Direction) -> tuple[Mask, Mask]:
+    def ask(self, at: Columns, heading: Direction) -> tuple[Mask, Mask]:
         """Procedure 2.b: whether a position is a valid one, and whether the rotors were asked, as printed for Δ ≤ 0."""
         _, asked, valid = self._body(dict(zip("xyz", at, strict=True)))
         if asked.any():
@@ -164,7 +158,7 @@ class Procedures:
             valid[some] = self.ask_rotors((x, y, z), (heading[0][some], heading[1][some]))
         return valid, asked
 
-    def ask_rotors(self, at: Point, heading: Direction) -> Mask:
+    def ask_rotors(self, at: Columns, heading: Direction) -> Mask:
         """Procedure 2.a: whether all four rotors are found to be interior."""
         cosine, sine = turned(heading, self._offset)
         (valid,) = self._rotors({**dict(zip("xyz", at, strict=True)), "cosine": cosine, "sine": sine})

@@ -1,9 +1,4 @@
-"""`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, as one JSON object and in words.
-
-`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, its flights and Table 5, as one JSON object.
-
-The result of `simulate tower` in words and columns.
-"""
+"""`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, its flights and Table 5, as JSON and as text."""
 
 from __future__ import annotations
 
@@ -149,7 +144,7 @@ def _assumptions(scene: SceneModel, craft: Craft, flight: Flight) -> dict[str, A
 
 WIDTH = 100
 SHOWN = 6
-"""First contacts that are told one by one; the JSON has more."""
+"""First contacts that are listed one by one; the JSON has more."""
 
 
 _TURNS = {

@@ -1,11 +1,8 @@
 """The paper's Figure 4 and Table 5: flights inside the tower, and how many executions of Procedure 2.b meet Δ ≤ 0.
 
-The paper's Figure 4: flights of 25 positions inside the tower, and Δ along them.
-
-The paper's Table 5: how many executions of Procedure 2.b meet Δ ≤ 0, beside the printed figures.
-
-A cell is v·t: what the quadcopter covers at speed v in its response time t is the step it moves and looks ahead by.
-Each of its runs is a flight over the scene's distance; its figure is the mean of the runs' percentages.
+The figure has flights of 25 positions and Δ along them; the table stands beside the printed figures. A cell of the
+table is v·t: the way that the quadcopter covers at speed v in its response time t is the step that it moves and looks
+ahead by. Each run of a cell is a flight over the scene's distance; its figure is the mean of the runs' percentages.
 """
 
 from __future__ import annotations
@@ -19,10 +16,11 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Columns
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
 from hypcheck.paper.motion import MoveVerdicts
 from hypcheck.paper.pitch import PitchVerdicts
-from hypcheck.paper.quadcopter import Craft, Point, Procedures
+from hypcheck.paper.quadcopter import Craft, Procedures
 from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight
 from hypcheck.vectors.draw import Draw
@@ -64,7 +62,7 @@ def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[di
     ], ways
 
 
-def _columns(track: list[tuple[float, ...]]) -> Point:
+def _columns(track: list[tuple[float, ...]]) -> Columns:
     x, y, z = np.array(track).T
     return x, y, z
 

@@ -77,7 +77,7 @@ class Draw:
 
     def unit(self, n: int) -> Floats:
         """Multiples of 2⁻⁵³ in [0, 1)."""
-        return (self.words(n) >> np.uint64(11)).astype(np.float64) * 2.0**-53
+        return unit_of(self.words(n))
 
     def between(self, n: int, low: ArrayLike, high: ArrayLike) -> Floats:
         """Uniform from low to high (numbers or arrays)."""
@@ -104,6 +104,11 @@ class Draw:
         swapped = words & np.uint64(1) != 0
         first, second = _chosen(swapped, sine, cosine), _chosen(swapped, cosine, sine)
         return _signed(first, words << np.uint64(62)), _signed(second, words << np.uint64(61))
+
+
+def unit_of(words: NDArray[np.uint64]) -> Floats:
+    """Multiples of 2⁻⁵³ in [0, 1), of the high bits of words."""
+    return (words >> np.uint64(11)).astype(np.float64) * 2.0**-53
 
 
 def _stream(name: Sequence[object]) -> np.random.Philox:

@@ -18,7 +18,7 @@ def note():
     return "\n".join(erratum.lines(Selection(())))
 
 
-def test_everything_is_filled_in_and_well_formed(note):
+def test_the_erratum_has_every_value_filled_in_and_is_well_formed_latex(note):
     assert note.isascii()
     assert not re.search(r"<[\w ]+>", note)
     assert note.count("$") % 2 == 0
@@ -26,7 +26,7 @@ def test_everything_is_filled_in_and_well_formed(note):
     assert note.count(r"\proof") == note.count(r"\qed") >= 8
 
 
-def test_corrections_and_counterexamples_are_those_of_the_ledger(note):
+def test_the_erratum_has_the_corrections_and_counterexamples_of_the_ledger(note):
     assert r"f(\lambda) = g\,(a^{2} + \lambda)/(a^{4}\,c^{2})" in note
     assert "centre $(5/2,0,0)$: exterior, $\\Delta=0,\\ c_2=-33/4,\\ c_1=18$" in note
     assert "centre $(0,0,2)$: interior" in note
@@ -34,7 +34,7 @@ def test_corrections_and_counterexamples_are_those_of_the_ledger(note):
 
 
 @pytest.mark.skipif(shutil.which(erratum.COMPILER) is None, reason="LaTeX is not installed here: nothing compiles")
-def test_it_compiles_to_three_pages_at_most(note, tmp_path):
+def test_the_erratum_compiles_to_three_pages_at_most(note, tmp_path):
     target = tmp_path / "note.tex"
     target.write_text(note)
     assert erratum.compile_note(target) == f"wrote {target.with_suffix('.pdf')}"
@@ -43,7 +43,7 @@ def test_it_compiles_to_three_pages_at_most(note, tmp_path):
     assert pages <= 3
 
 
-def test_without_latex_the_source_is_written_and_that_it_is_not_compiled_is_said(capsys, monkeypatch, tmp_path):
+def test_without_latex_derive_writes_the_source_and_says_that_it_is_not_compiled(capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(erratum.shutil, "which", lambda _: None)
     target = tmp_path / "note.tex"
     assert main(["derive", "--format", "erratum", "--output", str(target)]) == Exit.HELD

@@ -76,7 +76,7 @@ def test_two_towers_are_refused():
         craft_of(replace(scene, hyperboloids=scene.hyperboloids * 2))
 
 
-def test_they_are_sine_and_cosine():
+def test_any_angle_gives_cosine_and_sine():
     degrees = np.linspace(-360, 360, 20001)
     cosine, sine = any_angle(degrees)
     assert abs(cosine - np.cos(np.radians(degrees))).max() < 1e-15
@@ -125,7 +125,7 @@ def test_places_whose_squares_would_overflow_are_refused(changed, message):
         craft_of(replace(tower, **changed(tower)))
 
 
-def test_procedure_2b_put_right_allows_an_interior_hull_with_a_zero_coefficient_that_the_printed_one_refuses():
+def test_repaired_procedure_2b_allows_an_interior_hull_with_a_zero_coefficient_that_the_printed_one_refuses():
     """The ledger's witness against Table 4: c2 = 0 at the first place, and nothing vanishes at the second."""
     craft = Craft((1.0, 1.0, 1.0, 1.0), (1.0, 1.0, 0.25, 0.25), 0.5, 45.0, None)
     at, heading = (np.zeros(2), np.zeros(2), np.array([1.0, 1.25])), (np.ones(2), np.zeros(2))

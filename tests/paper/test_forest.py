@@ -49,7 +49,7 @@ def test_positions_are_exact_wherever_the_centres_are():
                 assert found[place, other] == (exact_position(row) == 1)
 
 
-def test_a_line_proves_what_it_says_and_hardly_leaves_anything():
+def test_lines_prove_only_exterior_positions_and_nearly_all_of_them():
     at = np.concatenate([near(tree) for tree in range(0, 64, 5)])
     line, exterior = TREES.proved_by_line(at), TREES.exterior(at)
     assert not (line & ~exterior).any()
@@ -84,7 +84,7 @@ def test_a_step_is_refused_by_the_edge_or_by_table_2_in_float32():
     assert np.allclose(np.linalg.norm(steps.end - steps.start, axis=1), 0.25)
 
 
-def test_turns_are_the_scenes():
+def test_the_walker_turns_as_the_scene_says():
     steps = walk(TREES, FOREST.walk, FOREST.region, 400, 3)
     way = steps.end - steps.start
     heading = np.degrees(np.unwrap(np.arctan2(way[:, 1], way[:, 0])))
@@ -95,14 +95,14 @@ def test_turns_are_the_scenes():
     assert (turns[stopped] < 0).any()
 
 
-def test_no_pocket_holds_the_walker_for_ever():
+def test_the_walker_leaves_every_pocket():
     """Turned by nothing but 60 degrees she would try the same six ways again and again; seed 1 met such a place."""
     made = np.flatnonzero(walk(TREES, FOREST.walk, FOREST.region, 5000, 1).made)
     assert np.diff(made).max() < 100
     assert made[-1] > 4900
 
 
-def test_the_tallies_add_up():
+def test_made_and_refused_steps_add_up_to_tried_ones():
     result = simulated(steps=1000)
     steps, questions = result["steps"], result["questions"]
     assert steps["tried"] == 1000 == steps["made"] + steps["edge"] + steps["contact"] + steps["phantom"]
@@ -133,7 +133,7 @@ def test_a_phantom_is_contact_with_nothing_on_a_ring():
     assert result["steps"]["wrongly_allowed"] == 0
 
 
-def test_the_wall_is_seen_where_the_phantom_stood():
+def test_the_wall_is_about_the_place_of_a_phantom():
     wall = simulated(steps=4000)["wall"]
     letters = "".join(wall["lines"])
     assert set(letters) == {"e", "E"}
@@ -142,7 +142,7 @@ def test_the_wall_is_seen_where_the_phantom_stood():
     assert wall["lines"][60][60] == "E"  # the middle is the place itself
 
 
-def test_where_no_phantom_was_met_no_wall_is_seen():
+def test_without_a_phantom_there_is_no_wall():
     result = simulated(steps=10)
     assert result["steps"]["phantom"] == 0
     assert result["wall"] is None
@@ -172,7 +172,7 @@ def test_beyond_its_height_a_tree_is_not_asked():
     assert len(path) == 9  # straight over it
 
 
-def test_ways_are_those_of_each_tree_alone():
+def test_steps_in_contact_are_those_of_each_tree_alone():
     """In a thicket with long steps, so that some pass through a trunk and end in the open."""
     trunks = tuple(replace(tree, alpha=0.1) for tree in FOREST.hyperboloids[:16])
     scene = replace(
@@ -210,7 +210,7 @@ def test_the_same_seed_gives_the_same_result():
     assert simulated(steps=300)["path"][:50] == simulated(steps=60)["path"][:50]
 
 
-def test_the_scene_says_how_many_steps():
+def test_without_steps_the_scene_says_how_many():
     scene = replace(FOREST, walk=replace(FOREST.walk, steps=12))
     assert simulate_forest(ForestPlan(scene, 1, None, continuous=False))["steps"]["tried"] == 12
     assert simulated(steps=0)["path"] == [[0.0, 0.0, 0.0]]
@@ -231,7 +231,7 @@ def test_what_cannot_be_simulated_is_refused(scene, steps, message):
         simulated(scene=scene, steps=steps)
 
 
-def test_procedure_1_put_right_lets_the_walker_through_every_phantom_and_decides_nothing_else_otherwise():
+def test_repaired_procedure_1_allows_every_phantom_and_agrees_on_all_other_steps():
     result = simulate_forest(ForestPlan(read_scene("forest"), 3, 4000, continuous=False))
     phantoms = result["phantoms"]
     assert phantoms["float32"] == 5

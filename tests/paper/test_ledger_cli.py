@@ -55,7 +55,7 @@ def test_parts_are_shown_in_their_order_whatever_the_order_of_the_options(capsys
         ("Table 2", ["Table 2, lines", "Table 2"]),
     ],
 )
-def test_a_claim_is_found_by_what_people_call_it(claim, numbers):
+def test_a_claim_is_found_by_each_of_its_usual_names(claim, numbers):
     assert [entry.number for entry in entries_of(claim)] == numbers
 
 
@@ -72,7 +72,7 @@ def test_every_number_finds_its_own_entry():
         ("", "give an equation's"),
     ],
 )
-def test_an_unknown_claim_is_one_sentence(capsys, claim, advice):
+def test_derive_refuses_an_unknown_claim_in_one_sentence(capsys, claim, advice):
     code, output, errors = told(capsys, "--claim", claim)
     assert code == Exit.USAGE
     assert output == ""
@@ -87,7 +87,7 @@ def test_a_claim_and_parts_exclude_each_other(capsys):
     assert "use one of them" in errors
 
 
-def test_output_goes_to_a_file_that_is_whole(capsys, tmp_path):
+def test_derive_output_appears_only_as_a_complete_file(capsys, tmp_path):
     target = tmp_path / "derivation.json"
     code, output, _ = told(capsys, "--only", "costs", "--format", "json", "--output", str(target))
     assert (code, output) == (Exit.HELD, "")
@@ -97,7 +97,7 @@ def test_output_goes_to_a_file_that_is_whole(capsys, tmp_path):
     assert errors.startswith("hypcheck: error: cannot write")
 
 
-def test_nothing_is_left_where_a_claim_does_not_exist(capsys, tmp_path):
+def test_derive_leaves_no_file_if_the_claim_does_not_exist(capsys, tmp_path):
     target = tmp_path / "claim.txt"
     target.write_text("before")
     code, _, _ = told(capsys, "--claim", "Lemma 9", "--output", str(target))
@@ -107,7 +107,7 @@ def test_nothing_is_left_where_a_claim_does_not_exist(capsys, tmp_path):
 
 
 @pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
-def test_a_link_that_fails_ends_with_6_and_is_shown(capsys, monkeypatch, form):
+def test_a_failing_link_is_shown_and_ends_derive_with_6(capsys, monkeypatch, form):
     chain = chains()["Proposition 3, repaired"]
     link = chain.links[0]
     wrong = replace(link.parts[0], relation="<")
@@ -124,7 +124,7 @@ def test_a_link_that_fails_ends_with_6_and_is_shown(capsys, monkeypatch, form):
 
 
 @pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
-def test_a_verdict_that_is_not_borne_out_ends_with_6(capsys, monkeypatch, form):
+def test_a_verdict_without_its_evidence_ends_derive_with_6(capsys, monkeypatch, form):
     changed = tuple(
         replace(entry, verdict="proved", grounds=tuple) if entry.number == "Table 2" else entry for entry in entries()
     )

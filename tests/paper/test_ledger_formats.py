@@ -8,13 +8,14 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from matplotlib.mathtext import MathTextParser
 
+from hypcheck.cli.paper import derive
 from hypcheck.derivation.chain_book import chains
 from hypcheck.derivation.program import Operations
 from hypcheck.derivation.walk import walk
-from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
-from hypcheck.paper.derive.formats import FORMATS, PARTS, writer
+from hypcheck.paper.derive import FORMATS, PARTS, as_json, erratum, latex, markdown, text
 from hypcheck.paper.derive.latex import UnknownCharacterError, formula, sentence
 from hypcheck.paper.derive.selection import WIDTH, Selection, broken, columns, paragraph
 from hypcheck.paper.ledger import entries
@@ -131,7 +132,7 @@ def test_sentences_in_latex(plain, tex):
     assert sentence(plain) == tex
 
 
-def test_a_character_without_latex_is_refused():
+def test_a_character_without_latex_raises_an_error():
     with pytest.raises(UnknownCharacterError):
         formula("☃ = 1")
 
@@ -150,11 +151,11 @@ def test_json_fits_its_schema(chosen):
     assert {part for part in PARTS if part in document} == set(parts)
 
 
-def test_json_counts_what_operations_has():
+def test_json_has_every_count_of_operations():
     assert set(SCHEMA["$defs"]["operations"]["required"]) == {*Operations.__dataclass_fields__, "rounded"}
 
 
-def test_the_page_for_the_web_is_fresh():
+def test_docs_paper_is_what_derive_writes():
     """`make paper` writes it anew."""
     fresh = "\n".join(markdown.lines(Selection(("ledger", "costs")))) + "\n"
     assert PAGE.read_text(encoding="utf-8") == fresh
@@ -167,14 +168,14 @@ def test_markdown_has_every_part():
     assert page.count("\n### ") > 40
 
 
-def test_every_format_can_be_written():
-    assert {name: writer(name) for name in FORMATS} == {
-        "text": text.lines,
-        "latex": latex.lines,
-        "json": as_json.lines,
-        "markdown": markdown.lines,
-        "erratum": erratum.lines,
-    }
+@pytest.mark.parametrize(
+    ("form", "module"), list(zip(FORMATS, (text, latex, as_json, markdown, erratum), strict=True)), ids=FORMATS
+)
+def test_derive_writes_each_format_by_its_module(form, module):
+    whole = form == "erratum"
+    done = CliRunner().invoke(derive, ["--format", form, *([] if whole else ["--claim", "14"])])
+    chosen = Selection(tuple(PARTS)) if whole else Selection((), "14")
+    assert done.output.splitlines() == "\n".join(module.lines(chosen)).splitlines()
 
 
 def test_paragraphs_part_no_comparison_from_its_sides():

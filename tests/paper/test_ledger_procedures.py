@@ -73,7 +73,7 @@ def test_the_procedure_is_right_about_ordinary_positions():
     assert refused_though_inside(across) is None
 
 
-def test_a_rotor_beyond_the_farthest_one_does_not_exist():
+def test_no_rotor_is_farther_from_the_axis_than_the_farthest():
     hull = hull_of("Table 4, caption")
     for each in quadcopters(hull):
         reach = max(

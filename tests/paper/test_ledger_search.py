@@ -90,7 +90,7 @@ def test_positions_are_those_of_the_other_oracles():
         assert exact_position(each.point.pair.row) == each.position
 
 
-def test_points_are_exact_in_floats():
+def test_every_point_of_the_space_is_exact_in_float64():
     for each in sample():
         alpha, gamma, b, d, x, y, z = map(Fraction, each.point.pair.row)
         assert (alpha / b, gamma / d, x / b, z / d, y) == (each.point.a, each.point.c, each.point.r, each.point.z, 0)
@@ -104,7 +104,7 @@ def test_the_space_is_ordered_and_has_no_point_twice():
         assert set(stratum.points()) <= set(space())
 
 
-def test_each_stratum_is_what_its_name_says():
+def test_the_points_of_each_stratum_have_the_property_that_it_names():
     conditions = {
         "the waist, z = 0": lambda each: each.point.z == 0,
         "the axis, r = 0": lambda each: each.point.r == 0,
@@ -134,7 +134,7 @@ def test_each_stratum_is_what_its_name_says():
         (entry.PROPOSITION_5_1_WITH_C1, (3, 1, 1, 0)),
     ],
 )
-def test_the_witness_is_the_simplest(statement, expected):
+def test_the_witness_of_a_false_statement_is_its_simplest_counterexample(statement, expected):
     found = counterexample(statement).found
     assert found.point == Point(*map(Fraction, expected))
     others = [each for each in everything() if statement.where(each) and not statement.says(each)]
@@ -191,14 +191,14 @@ def test_without_its_regime_a_repaired_proposition_is_contradicted():
         assert not statement.where(found)
 
 
-def test_a_search_counts_what_it_tried():
+def test_a_search_counts_the_points_that_it_tried():
     assert first_point(lambda _: False).tried == len(everything())
     assert first_point(lambda _: True).tried == 1
     tall = first_point(lambda _: False, entry.tall).tried
     assert 0 < tall < len(everything())
 
 
-def test_a_witness_with_another_position_or_certificate_is_none():
+def test_a_witness_with_a_wrong_position_or_certificate_does_not_hold():
     found = counterexample(entry.PROPOSITION_3_1).found
     right = witness(found, "the ring")
     assert right.holds

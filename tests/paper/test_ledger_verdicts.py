@@ -192,7 +192,7 @@ def test_an_altered_equation_does_not_keep_its_verdict(number):
     assert equation(check(repaired)).confirmed == (entry.verdict != MISPRINT)
 
 
-def test_an_equation_that_chains_rest_on_would_be_seen_to_fail(monkeypatch):
+def test_a_wrong_equation_that_chains_rest_on_makes_them_fail(monkeypatch):
     from hypcheck.paper.ledger import propositions
 
     assert all(part.holds for part in printed("10"))

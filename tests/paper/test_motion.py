@@ -61,7 +61,7 @@ def alone(side, sizes, start, end, center, lane):
         (EXTERIOR, (1.0, 0.25, 1.0, 1.0), (9, 9, 1), (0.0, 0.0, 0.0)),  # c² < a
     ],
 )
-def test_a_way_keeps_to_a_side_exactly_where_it_alone_does(side, sizes, reach, center):
+def test_many_ways_at_once_are_decided_as_each_alone(side, sizes, reach, center):
     seen = set()
     for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
         clear = stays_on_side(side, sizes, start, end, center)
@@ -94,7 +94,7 @@ def test_most_ways_need_no_exact_passage(monkeypatch):
 
 
 @pytest.mark.parametrize("largest", [1.0, 45.0, 180.0])
-def test_an_arm_keeps_inside_exactly_where_it_alone_does(largest):
+def test_many_turns_at_once_are_decided_as_each_alone(largest):
     draw, rotor, arm = Draw("arms", largest), (2.0, 17.8, 0.1, 0.05), 0.135
     at = (draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, -5, 5))
     direction, degrees = any_angle(draw.between(COUNT, -180, 180)), draw.between(COUNT, -largest, largest)
@@ -152,7 +152,7 @@ def watched_alone(craft, moves, place, expected):
         expected.turns_touching += any(turning(craft.rotor, center, craft.arm, a, angle) is not INTERIOR for a in arms)
 
 
-def test_flights_are_watched_move_by_move():
+def test_verdicts_on_flights_are_those_of_their_single_moves():
     scene = read_scene("tower")
     craft, counted, expected = craft_of(scene), MoveVerdicts(), MoveVerdicts()
 

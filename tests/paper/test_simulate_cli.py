@@ -52,7 +52,7 @@ def tower(tmp_path, monkeypatch):
         ("--pitch", "20", "--runs", "1"),
     ],
 )
-def test_the_towers_json_is_what_its_schema_says(capsys, tower, more):
+def test_the_json_of_simulate_tower_fits_its_schema(capsys, tower, more):
     code, out, err = run(capsys, *tower, "--format", "json", *more)
     assert (code, err) == (0, "")
     assert violations(json.loads(out), schema("tower"), closed=True) == []
@@ -61,7 +61,7 @@ def test_the_towers_json_is_what_its_schema_says(capsys, tower, more):
 
 
 @pytest.mark.parametrize("more", [("--steps", 40), ("--continuous",), ("--steps", 0)])
-def test_the_forests_json_is_what_its_schema_says(capsys, more):
+def test_the_json_of_simulate_forest_fits_its_schema(capsys, more):
     code, out, err = run(capsys, *FOREST, "--format", "json", *more)
     assert (code, err) == (0, "")
     assert violations(json.loads(out), schema("forest"), closed=True) == []
@@ -74,7 +74,7 @@ def test_a_flights_moves_and_refused_attempts_are_counted_apart_from_its_positio
     assert out.count("Δ at its positions from ") == out.count("(refused attempts lead to none)") == 3
 
 
-def test_the_towers_text_says_what_the_table_cannot_tell_and_all_that_is_assumed(capsys, tower):
+def test_the_text_of_simulate_tower_has_the_statement_and_every_assumption(capsys, tower):
     _, out, _ = run(capsys, *tower, "--table", "5", "--runs", "2", "--continuous")
     assert "The unstated parameters are not identified by the table" in out
     assert "printed            13.9532       13.9029" in out
@@ -85,11 +85,11 @@ def test_the_towers_text_says_what_the_table_cannot_tell_and_all_that_is_assumed
     assert max(map(len, out.splitlines())) <= 120
 
 
-def test_the_statement_stands_by_the_flights_too(capsys, tower):
+def test_the_statement_is_shown_without_the_table_too(capsys, tower):
     assert "not identified by the table" in run(capsys, *tower)[1]
 
 
-def test_the_simplest_reading_can_be_chosen(capsys):
+def test_simulate_tower_takes_the_scene_tower_simplest(capsys):
     code, out, _ = run(capsys, "simulate", "tower", "--scene", "tower-simplest")
     assert code == 0
     assert "no end of its height is modelled" in out
@@ -97,7 +97,7 @@ def test_the_simplest_reading_can_be_chosen(capsys):
     assert "straight 0.25 (ahead)" in out
 
 
-def test_the_forests_text_tells_of_phantoms_and_lines(capsys):
+def test_the_text_of_simulate_forest_counts_phantoms_and_lines(capsys):
     _, out, _ = run(capsys, *FOREST, "--continuous")
     assert "64 trees (40 of type 1, 24 of type 2)" in out
     assert "without Δ" in out
@@ -106,7 +106,7 @@ def test_the_forests_text_tells_of_phantoms_and_lines(capsys):
     assert "made steps: 3 touch a tree on the way" in out
 
 
-def test_trees_outside_the_regime_and_heights_are_told(capsys, tmp_path):
+def test_the_text_names_trees_outside_the_regime_and_questions_outside_heights(capsys, tmp_path):
     path = tmp_path / "odd.toml"
     text = shipped_text("forest").replace("alpha = 0.61, gamma = 28.0", "alpha = 0.61, gamma = 0.9", 1)
     path.write_text(text.replace("height = [-0.9, 5.0]", "height = [-0.9, -0.5]", 2))
@@ -116,7 +116,7 @@ def test_trees_outside_the_regime_and_heights_are_told(capsys, tmp_path):
     assert "40 more are outside the modelled height and have no answer" in out
 
 
-def test_files_are_written_and_told_on_standard_error(capsys, tower, tmp_path):
+def test_simulate_writes_files_and_names_them_on_standard_error(capsys, tower, tmp_path):
     out = tmp_path / "new" / "folder"
     code, said, told = run(capsys, *tower, "--pitch", "20", "--runs", "2", "--out", out, "--format", "json")
     assert code == 0
@@ -131,7 +131,7 @@ def test_files_are_written_and_told_on_standard_error(capsys, tower, tmp_path):
     assert not (out / "tower-pitch.svg").exists()
 
 
-def test_without_matplotlib_all_but_the_pictures_is_written(capsys, tmp_path, monkeypatch):
+def test_without_matplotlib_simulate_writes_all_but_the_pictures(capsys, tmp_path, monkeypatch):
     imported = builtins.__import__
 
     def without(name, *arguments, **options):
@@ -170,7 +170,7 @@ def test_without_matplotlib_all_but_the_pictures_is_written(capsys, tmp_path, mo
         ),
     ],
 )
-def test_bad_input_is_one_sentence(capsys, arguments, message):
+def test_simulate_refuses_bad_input_in_one_sentence(capsys, arguments, message):
     code, _, err = run(capsys, "simulate", *arguments)
     assert code == 2
     assert message in err
@@ -199,7 +199,7 @@ def test_a_shipped_scene_can_be_printed_and_used(capsys, tmp_path):
     ("arguments", "heavy"),
     [(["--help"], {"numpy", "matplotlib", "sympy"}), (["--steps", "5"], {"matplotlib", "sympy", "fcl"})],
 )
-def test_nothing_is_loaded_that_a_run_does_not_use(arguments, heavy):
+def test_simulate_loads_no_library_that_it_does_not_use(arguments, heavy):
     code = (
         f"import sys; from hypcheck.cli.main import main; main(['simulate', 'forest', *{arguments!r}]);"
         f"sys.exit(bool({heavy!r} & set(sys.modules)))"

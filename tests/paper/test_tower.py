@@ -65,13 +65,13 @@ def test_the_root_mean_square_is_over_the_eighteen():
     assert other == pytest.approx(math.sqrt((differences**2).mean()))
 
 
-def test_the_same_seed_gives_the_same_result_whoever_does_the_work(monkeypatch):
+def test_the_same_seed_gives_the_same_table_in_one_process_and_in_several(monkeypatch):
     alone = simulated(continuous=True)
     assert json.dumps(simulated(workers=2, continuous=True)) == json.dumps(alone)
     assert simulated(seed=8)["table_5"]["percent"] != alone["table_5"]["percent"]
 
 
-def test_more_runs_go_on_where_fewer_stop():
+def test_the_first_runs_of_a_cell_are_the_same_with_more_runs():
     craft = craft_of(SHORT)
     few, more = (blocks(craft, SHORT.flight, 1, runs, watched=False)[0.1, 5] for runs in (3, LANES + 2))
     assert [block.lanes for block in more] == [LANES, 2]
@@ -81,25 +81,25 @@ def test_more_runs_go_on_where_fewer_stop():
     assert fly_block(more[1]).tallies.executions.tolist() != first.executions[:2].tolist()
 
 
-def test_cells_of_one_step_are_flown_apart():
+def test_cells_with_equal_steps_have_different_flights():
     """v t is 1.5 m for 5 m/s and 0.3 s, and for 6 m/s and 0.25 s: other flights all the same."""
     table = simulated(runs=30)["table_5"]
     assert table["percent"][2][0] != table["second_row_read_as_0.25"]["percent"][1]
 
 
-def test_one_run_has_no_standard_error():
+def test_a_table_of_one_run_has_no_standard_error():
     table = simulated(runs=1)["table_5"]
     assert table["standard_error"] == [[None] * 6] * 3
     assert table["difference_in_standard_errors"] == [[None] * 6] * 3
 
 
-def test_progress_is_told_in_moves():
+def test_progress_of_the_table_counts_moves():
     told = []
     simulated(advance=told.append)
     assert sum(told) == sum(moves_of(SHORT.flight, v * t) for t in (*TIMES, 0.25) for v in SPEEDS)
 
 
-def test_what_the_table_cannot_tell_is_said():
+def test_the_statement_says_that_the_table_does_not_identify_the_rules():
     result = simulated()
     assert result["statement"] == result["table_5"]["statement"]
     assert result["statement"].startswith(STATEMENT)
@@ -112,11 +112,11 @@ def test_what_the_table_cannot_tell_is_said():
     assert "not identified by the table" in STATEMENT
 
 
-def test_there_is_no_table_where_none_is_asked_for():
+def test_without_runs_the_result_has_no_table():
     assert simulated(runs=0)["table_5"] is None
 
 
-def test_three_paths_of_twenty_five_positions_with_their_discriminants():
+def test_the_result_has_three_paths_of_25_positions_with_their_discriminants():
     result = simulated(runs=0)["flights"]
     assert result["ways"] is None
     assert len(result["paths"]) == 3
@@ -132,7 +132,7 @@ def test_three_paths_of_twenty_five_positions_with_their_discriminants():
         assert path["executions"] >= 24 + path["refused"]
 
 
-def test_ways_are_counted_where_they_are_asked_for():
+def test_continuous_adds_verdicts_on_the_ways():
     result = simulated(runs=3, continuous=True)
     assert result["flights"]["ways"]["vertical"] + result["flights"]["ways"]["horizontal"] == 72
     ways = result["table_5"]["ways"]
@@ -145,7 +145,7 @@ def test_ways_are_counted_where_they_are_asked_for():
     assert [ways[name] for name in differ] == [0, 0, 0]  # B > A + 1 in this tower
 
 
-def test_every_assumption_is_told():
+def test_the_result_names_every_assumption():
     told = simulated()["assumptions"]
     assert told["scene"] == "cooling tower"
     assert (told["l"], told["g1_from_heading"], told["turn"], told["backward"]) == (0.135, 45.0, "executed", True)

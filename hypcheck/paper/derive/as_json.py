@@ -1,4 +1,4 @@
-"""The same for programs: one JSON object with a published schema (paper/schemas); rationals are strings, "-33/4"."""
+"""The output of `hypcheck derive` for programs: one JSON object with a published schema; a rational is "-33/4"."""
 
 from __future__ import annotations
 

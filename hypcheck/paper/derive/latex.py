@@ -1,10 +1,7 @@
-"""The derivation, the ledger and the costs in LaTeX, with packages that every distribution has; plain text as LaTeX.
+"""The output of `hypcheck derive` in LaTeX: a document that every engine compiles, with packages that every one has.
 
-Plain text with formulas, as the derivation and the ledger write it, in LaTeX: x_c² + y_c² as x_{c}^{2} + y_{c}^{2}.
-
-Everything comes out in ASCII, so that any engine and any encoding will do.
-
-The same in LaTeX: a document that any engine compiles, with packages that every distribution has.
+Plain text with formulas, as the derivation and the ledger write it, becomes LaTeX: x_c² + y_c² is x_{c}^{2} +
+y_{c}^{2}. The result is ASCII, so that any encoding will do.
 """
 
 from __future__ import annotations
@@ -14,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
-from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive import PARTS
 from hypcheck.paper.derive.selection import (
     CHECKED,
     COST_COLUMNS,

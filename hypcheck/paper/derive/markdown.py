@@ -1,4 +1,4 @@
-"""The same in Markdown; docs/paper.md is the ledger and the costs in this form."""
+"""The output of `hypcheck derive` in Markdown; docs/paper.md is the ledger and the costs in this form."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain
-from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive import PARTS
 from hypcheck.paper.derive.selection import (
     CHECKED,
     COSTS_EXPLAINED,

@@ -1,10 +1,6 @@
-"""What `hypcheck derive` is asked for, and what its formats share: the same words, lines of 100 columns.
+"""What `hypcheck derive` shows, and what its formats share: titles, details of an entry, lines of 100 columns.
 
-What `hypcheck derive` is asked for: whole parts, or one claim of the paper with all that its verdict rests on.
-
-What every format says in the same words and in the same order.
-
-Lines of text in 100 columns: what stands where, whatever the letters are made of.
+A selection is whole parts (PARTS), or one claim of the paper with all that its verdict rests on.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The derivation, the propositions, the ledger and the costs for a person at a terminal, in 100 columns of Unicode."""
+"""The output of `hypcheck derive` for a person at a terminal, in 100 columns of Unicode."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypcheck.answer import proof_lines
 from hypcheck.derivation.costs import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
 from hypcheck.geometry.pair import CENTER, SIZES, Pair
-from hypcheck.paper.derive.formats import PARTS
+from hypcheck.paper.derive import PARTS
 from hypcheck.paper.derive.selection import (
     CHECKED,
     COST_COLUMNS,

@@ -1,12 +1,10 @@
 """The whole ledger in order, and every sentence of the paper with the entries that judge it.
 
-Every sentence of the paper, in order: the rows of the ledger that judge it, or why none does.
-
-A sentence is named by its section and its first words. A displayed formula belongs to the sentence that brings it in.
+A sentence is named by its section and its first words. A displayed formula belongs to the sentence that introduces it.
 The lines of a table, and its caption, are a sentence each. Headings, key words, the acknowledgment and the references
 are left out: they state nothing.
 
-The whole ledger: displayed formulas first, then what the text states, section by section.
+The ledger has displayed formulas first, then what the text states, section by section.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """An entry of the ledger and its evidence, and the paper's statements about pairs as conditions on a point.
 
-What the ledger says of one claim of the paper, and what that rests on.
-
-The paper's statements about pairs, and what they become when repaired, as conditions on the facts of a point.
+An entry says what became of one claim of the paper, and what the verdict rests on. The statements about pairs are
+those of the paper, as printed and as repaired.
 """
 
 from __future__ import annotations

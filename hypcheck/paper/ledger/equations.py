@@ -1,8 +1,7 @@
-"""The ledger's entries about displayed formulas, and about costs that can be counted from the programs.
+"""The ledger's entries about displayed formulas, (1) to (23) and Appendix A, and about costs.
 
-The ledger's lines about displayed formulas: (1) to (23) and those of Appendix A, from their checks (printed.py).
-
-The ledger's lines about cost: what can be counted is counted from the programs, the rest is not judged.
+Formulas are judged by their checks (derivation/printed_equations.py). Costs that can be counted are counted from the
+programs; the others are not judged.
 """
 
 from __future__ import annotations
@@ -198,8 +197,6 @@ def _taken_out() -> LedgerEntry:
 
 
 def _trigonometric() -> tuple[LedgerEntry, ...]:
-    cosines, table_2 = cost_of(ROOTS_TRIGONOMETRIC), cost_of(FORMULAS["table-2"])
-    (sweep,) = (cost for cost in counted() if cost.name == "roots-sweep")
     return (
         LedgerEntry(
             "Section 3.1, [13]",
@@ -209,41 +206,51 @@ def _trigonometric() -> tuple[LedgerEntry, ...]:
             "the text of [13] was not read",
             "a program that takes the three roots by cosines stands in for it here: `roots-trigonometric`",
         ),
-        LedgerEntry(
-            "Section 3.1, roots",
-            "3.1",
-            "to decide by the roots implies to evaluate trigonometric functions when Δ > 0",
-            FALSE,
-            f"by cosines it takes {cosines.query.functions} functions and {cosines.query.rounded} operations "
-            "a position, "
-            f"Table 2 takes none and {table_2.query.rounded}; but `roots-sweep` finds all three roots by + − × ÷ alone",
-            "signs of coefficients need no roots; the sign of g at its local maximum takes one square root",
-            lambda: (
-                Evidence(
-                    "count",
-                    f"{sweep.query.functions} functions in a sweep that finds roots, "
-                    f"{cosines.query.functions} by cosines",
-                    sweep.query.functions == 0 < cosines.query.functions,
-                ),
-                by_programs(ROOTS_TRIGONOMETRIC),
+        _by_roots(),
+        _cost_of_roots(),
+    )
+
+
+def _by_roots() -> LedgerEntry:
+    cosines, table_2 = cost_of(ROOTS_TRIGONOMETRIC), cost_of(FORMULAS["table-2"])
+    (sweep,) = (cost for cost in counted() if cost.name == "roots-sweep")
+    return LedgerEntry(
+        "Section 3.1, roots",
+        "3.1",
+        "to decide by the roots implies to evaluate trigonometric functions when Δ > 0",
+        FALSE,
+        f"by cosines it takes {cosines.query.functions} functions and {cosines.query.rounded} operations "
+        "a position, "
+        f"Table 2 takes none and {table_2.query.rounded}; but `roots-sweep` finds all three roots by + − × ÷ alone",
+        "signs of coefficients need no roots; the sign of g at its local maximum takes one square root",
+        lambda: (
+            Evidence(
+                "count",
+                f"{sweep.query.functions} functions in a sweep that finds roots, {cosines.query.functions} by cosines",
+                sweep.query.functions == 0 < cosines.query.functions,
             ),
-            "the closed form of three real roots takes cosines; Table 2 takes none",
-            harmless="for the conclusion: Table 2 takes no trigonometric function, and fewer operations",
+            by_programs(ROOTS_TRIGONOMETRIC),
         ),
-        LedgerEntry(
-            "Section 3.1, cost of roots",
-            "3.1",
-            "the coefficients alone cost less than the roots by trigonometric functions",
-            PROVED,
-            f"{table_2.query.rounded} rounded operations a position against {cosines.query.rounded} and, among these, "
-            f"{cosines.query.functions} functions; `hypcheck bench` measured the same: {BENCH['roots']}",
-            "prefer the coefficients, or g at its local maximum",
-            lambda: (
-                Evidence(
-                    "count",
-                    f"{table_2.query.rounded} < {cosines.query.rounded}",
-                    table_2.query.rounded < cosines.query.rounded and table_2.query.functions == 0,
-                ),
+        "the closed form of three real roots takes cosines; Table 2 takes none",
+        harmless="for the conclusion: Table 2 takes no trigonometric function, and fewer operations",
+    )
+
+
+def _cost_of_roots() -> LedgerEntry:
+    cosines, table_2 = cost_of(ROOTS_TRIGONOMETRIC), cost_of(FORMULAS["table-2"])
+    return LedgerEntry(
+        "Section 3.1, cost of roots",
+        "3.1",
+        "the coefficients alone cost less than the roots by trigonometric functions",
+        PROVED,
+        f"{table_2.query.rounded} rounded operations a position against {cosines.query.rounded} and, among these, "
+        f"{cosines.query.functions} functions; `hypcheck bench` measured the same: {BENCH['roots']}",
+        "prefer the coefficients, or g at its local maximum",
+        lambda: (
+            Evidence(
+                "count",
+                f"{table_2.query.rounded} < {cosines.query.rounded}",
+                table_2.query.rounded < cosines.query.rounded and table_2.query.functions == 0,
             ),
         ),
     )

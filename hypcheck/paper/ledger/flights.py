@@ -1,4 +1,4 @@
-"""The ledger's lines about section 4's flights: where Δ is small, and what Table 5 says of its own figures."""
+"""The ledger's entries about section 4's flights: where Δ is small, and what Table 5 says of its own figures."""
 
 from __future__ import annotations
 

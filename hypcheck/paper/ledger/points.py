@@ -1,15 +1,11 @@
-"""Small rational points, what is true of each, and the search for counterexamples and examples among them.
+"""Small rational points, the facts of each, and the search for counterexamples and examples among them.
 
-Exact pairs with small numbers, and what a statement about pairs may speak of: Δ, the coefficients, the position.
-
-Where statements about pairs are tried: small rational points, everywhere and on thin sets.
-
-On a thin set some sign that a statement asks for is 0, and there statements fail. Each is a stratum: its points come
-from the derivation's polynomials, solved for the number that puts them there, and are kept where that number is
-rational. The space is finite and has an order, the simplest point first, so a search that finds a counterexample finds
-the least one, and one that finds none has tried every point.
-
-Searching the space of small points for counterexamples and examples, and proving what was found.
+A point is an exact pair with small numbers; its facts are what a statement about pairs may speak of: Δ, the
+coefficients, the position. Statements are tried everywhere and on thin sets, where some sign that a statement asks for
+is 0: there statements fail. Each thin set is a stratum: its points come from the derivation's polynomials, solved for
+the number that puts them there, and are kept where that number is rational. The space is finite and has an order, the
+simplest point first. So a search that finds a counterexample finds the least one, and one that finds none has tried
+every point. What is found gets a certificate.
 """
 
 from __future__ import annotations

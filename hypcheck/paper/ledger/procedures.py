@@ -1,8 +1,7 @@
 """The ledger's entries about Tables 1 to 4: the procedures as printed, run in exact arithmetic.
 
-Quadcopters for Procedure 2.b: a hull and four rotors in it, and where the procedure refuses what is inside.
-
-The ledger's lines about Tables 1 to 4: the procedures as printed, run in exact arithmetic.
+For Procedure 2.b there are quadcopters, a hull with four rotors in it, and a search for those that it refuses although
+they are inside.
 """
 
 from __future__ import annotations

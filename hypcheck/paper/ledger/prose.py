@@ -1,4 +1,4 @@
-"""The ledger's lines about what the text says beside its formulas: slips of words, and what the models leave out."""
+"""The ledger's entries about what the text says beside its formulas: slips of words, and what the models leave out."""
 
 from __future__ import annotations
 
@@ -24,16 +24,21 @@ from hypcheck.paper.ledger.leaning import first_change
 
 def prose() -> tuple[LedgerEntry, ...]:
     """Slips of words first, then small truths that the text states, then what the models leave open."""
-    return (*_slips(), *_small_truths(), *_movements(), *_left_open())
+    return (
+        *_slips_of_section_2(),
+        *_later_slips(),
+        *_truths_of_section_2(),
+        *_later_truths(),
+        *_movements(),
+        *_left_open(),
+    )
 
 
 def _same(text: str, left: sympy.Expr, right: sympy.Expr) -> Evidence:
     return Evidence("identity", text, sympy.simplify(left - right) == 0)
 
 
-def _slips() -> tuple[LedgerEntry, ...]:
-    degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
-    factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
+def _slips_of_section_2() -> tuple[LedgerEntry, ...]:
     return (
         LedgerEntry(
             "Section 2, respectively",
@@ -72,6 +77,13 @@ def _slips() -> tuple[LedgerEntry, ...]:
             ),
             "α/b ≥ 1",
         ),
+    )
+
+
+def _later_slips() -> tuple[LedgerEntry, ...]:
+    degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
+    factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
+    return (
         LedgerEntry(
             "Section 3.1, f in (12)",
             "3.1",
@@ -106,13 +118,12 @@ def _slips() -> tuple[LedgerEntry, ...]:
     )
 
 
-def _small_truths() -> tuple[LedgerEntry, ...]:
+def _truths_of_section_2() -> tuple[LedgerEntry, ...]:
     b, d = sympy.symbols("b d", positive=True)
-    angle, lambda_ = sympy.Symbol("g", real=True), pencil.LAMBDA
+    lambda_ = pencil.LAMBDA
     scaling, matrix = sympy.diag(1 / b, 1 / b, 1 / d), sympy.diag(1 / b**2, 1 / b**2, 1 / d**2)
     cubic = pencil.cubic()
     mirrored = -(lambda_**3) + cubic.c2 * lambda_**2 - cubic.c1 * lambda_ + cubic.c0
-    cosine, sine, alpha, gamma, z = sympy.cos(angle), sympy.sin(angle), *map(symbol, ("α", "γ", "z0"))
     return (
         LedgerEntry(
             "Theorem 1, proof",
@@ -142,6 +153,13 @@ def _small_truths() -> tuple[LedgerEntry, ...]:
                 _same("c0 = −AB", sympy.expand(cubic.c0), -pencil.A * pencil.B),
             ),
         ),
+    )
+
+
+def _later_truths() -> tuple[LedgerEntry, ...]:
+    angle = sympy.Symbol("g", real=True)
+    cosine, sine, alpha, gamma, z = sympy.cos(angle), sympy.sin(angle), *map(symbol, ("α", "γ", "z0"))
+    return (
         LedgerEntry(
             "Section 3.2, T1 and T2",
             "3.2",
@@ -235,63 +253,72 @@ def _changed_by_leaning() -> Evidence:
     return Evidence("search", text, len(found) == len(searches) and all(each.holds for each in found), leaning=found)
 
 
-def _left_open() -> tuple[LedgerEntry, ...]:
-    return (
-        _open(
-            "Section 1, convex",
-            "1",
-            "previous methods consider only convex bodies",
-            "[3]–[9] were not read",
-            "meshes need no convex bodies (docs/mesh-oracle.md)",
-        ),
-        _open(
-            "Section 2, in practice",
-            "2",
-            "the most used hyperboloids have α/b ≥ 1 or (γ/d)² ≥ α/b; those of architecture are large",
-            "no count of hyperboloids in use is given",
-            "the coefficient rule for all sizes needs no such condition (docs/mathematics.md)",
-        ),
-        _open(
-            "Section 3.1, heights",
-            "3.1",
-            "a trunk is a hyperboloid, and the walker stays within its height",
-            "(1) has no end; trunks have one, and the paper gives no height",
+_OPEN = (
+    (
+        "Section 1, convex",
+        "1",
+        "previous methods consider only convex bodies",
+        "[3]–[9] were not read",
+        "meshes need no convex bodies (docs/mesh-oracle.md)",
+    ),
+    (
+        "Section 2, in practice",
+        "2",
+        "the most used hyperboloids have α/b ≥ 1 or (γ/d)² ≥ α/b; those of architecture are large",
+        "no count of hyperboloids in use is given",
+        "the coefficient rule for all sizes needs no such condition (docs/mathematics.md)",
+    ),
+    (
+        "Section 3.1, heights",
+        "3.1",
+        "a trunk is a hyperboloid, and the walker stays within its height",
+        "(1) has no end; trunks have one, and the paper gives no height",
+        (
             "ask no tree whose height does not hold the walker's centre, and give such a question no answer, as "
-            "`hypcheck simulate forest` does; near an end the trunk's end face is not modelled",
+            "`hypcheck simulate forest` does; near an end the trunk's end face is not modelled"
         ),
-        _open(
-            "Section 3.2, heights",
-            "3.2",
-            "the tower bounds the flight up to its maximum height, and Figure 2's towers are bounded by hyperboloids",
-            "(1) has no end; the tower's height is not given, nor are the sizes of Figure 2's towers",
-            "`hypcheck simulate tower` assumes |z| ≤ 17.8 m and says so",
-        ),
-        _open(
-            "Section 3.2, distance",
-            "3.2",
-            "methods by distance are adequate only where the shape is similar at all heights",
-            "“adequate” has no measure",
-            "the nearest point of a hyperboloid decides exactly (docs/mathematics.md, “Nearest point and clearance”)",
-        ),
-        _open(
-            "Section 3.2, l and g1",
-            "3.2",
-            "(15) places the rotors by l and g1, and Figure 3 has them apart and inside the body",
+    ),
+    (
+        "Section 3.2, heights",
+        "3.2",
+        "the tower bounds the flight up to its maximum height, and Figure 2's towers are bounded by hyperboloids",
+        "(1) has no end; the tower's height is not given, nor are the sizes of Figure 2's towers",
+        "`hypcheck simulate tower` assumes |z| ≤ 17.8 m and says so",
+    ),
+    (
+        "Section 3.2, distance",
+        "3.2",
+        "methods by distance are adequate only where the shape is similar at all heights",
+        "“adequate” has no measure",
+        "the nearest point of a hyperboloid decides exactly (docs/mathematics.md, “Nearest point and clearance”)",
+    ),
+    (
+        "Section 3.2, l and g1",
+        "3.2",
+        "(15) places the rotors by l and g1, and Figure 3 has them apart and inside the body",
+        (
             "neither l nor g1 is given anywhere; rotors with b_s = 0.1 are apart and inside a body with b = "
             "0.25 only if "
-            "0.1414 ≤ l ≤ 0.15",
+            "0.1414 ≤ l ≤ 0.15"
+        ),
+        (
             "`hypcheck simulate tower` fits l = 0.135, at which neighbours overlap: l·√2 = 0.191 < 2·b_s = 0.2; "
-            "docs/simulate.md has 0.1415 and 0.15 beside it",
+            "docs/simulate.md has 0.1415 and 0.15 beside it"
         ),
-        _open(
-            "Section 4, trees of volumes",
-            "4",
-            "trees of spheres and spheroids are simple to implement and suitable for efficient minimum computation",
-            "[14, 15] were not read, and “simple” has no measure",
-            "Procedure 2.b is such a tree of two levels; see Table 4 and Section 4, cost",
-        ),
+    ),
+    (
+        "Section 4, trees of volumes",
+        "4",
+        "trees of spheres and spheroids are simple to implement and suitable for efficient minimum computation",
+        "[14, 15] were not read, and “simple” has no measure",
+        "Procedure 2.b is such a tree of two levels; see Table 4 and Section 4, cost",
+    ),
+)
+"""What the models leave open: number, section, statement, why it is not checkable, what follows."""
+
+
+def _left_open() -> tuple[LedgerEntry, ...]:
+    return tuple(
+        LedgerEntry(number, section, statement, NOT_CHECKABLE, why, follows)
+        for number, section, statement, why, follows in _OPEN
     )
-
-
-def _open(number: str, section: str, statement: str, why: str, follows: str) -> LedgerEntry:
-    return LedgerEntry(number, section, statement, NOT_CHECKABLE, why, follows)
