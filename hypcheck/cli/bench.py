@@ -1,9 +1,9 @@
-"""`hypcheck bench`: options into a plan, the run under a progress bar, the reports, the exit code."""
+"""`hypcheck bench`: methods compared by error and run time, and their speed compared with an earlier run."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,11 +12,8 @@ from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 
-if TYPE_CHECKING:
-    pass
 
-
-@click.command(short_help="Compare methods by error and run time, and hold their speed to an earlier run.")
+@click.command(short_help="Compare methods by error and run time, and their speed with an earlier run.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
 @click.option("--out", type=OutputPath(), default=Path("reports/bench"), show_default=True)
 @click.option(
@@ -30,7 +27,7 @@ if TYPE_CHECKING:
 @click.option(
     "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]"
 )
-@click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to be held to.")
+@click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to compare with.")
 @click.option("--max-slowdown", type=NumberOption(1), help="What --baseline allows.  [default: 1.1]")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
@@ -41,13 +38,14 @@ if TYPE_CHECKING:
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
 
-    Every method is judged by the flip distance of the rows it gets wrong, then timed in fresh processes, in rounds that
-    take all methods in turn. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
+    Every method is judged by the flip distance of the rows it answers wrongly, then timed in fresh processes, in rounds
+    of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
-    With --baseline, times relative to the reference method are held to those of an earlier record, of this machine or
-    another. That and --kernel are the gates of speed, and without one no time fails the run: 3 when one is slower than
-    the gate allows, 4 when the machine was too noisy to tell. Ends with 1 when a method that promises to be exact
-    erred, or one answered otherwise while it was timed, 5 when a SPEC could not be started, else with 0.
+    With --baseline, times relative to the reference method are compared with those of an earlier record, of this
+    machine or another; with --kernel, times of the fast path with its targets. Without them no time fails the run.
+
+    Ends with 0 if all held, 1 if a method that promises to be exact erred, or a method answered differently while it
+    was timed, 3 if one is slower than allowed, 4 if the machine was too noisy to tell, 5 if a SPEC could not start.
     """
     from dataclasses import replace
     from tempfile import TemporaryDirectory
@@ -61,7 +59,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     quick = options["quick"]
     if options["max_slowdown"] is not None and options["baseline"] is None:
-        raise InputError("--max-slowdown holds a run to an earlier one; name that one with --baseline")
+        raise InputError("--max-slowdown compares a run with an earlier one; name the earlier one with --baseline")
     plan = BenchPlan(
         specs=specs,
         methods=names_in(options["methods"]),
@@ -95,21 +93,18 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
             outcome.because[Exit.WRONG].extend(unchanged.record_changes(running.recorder))
         running.exit_code = outcome.exit_code
     if outcome.exit_code == Exit.INCONCLUSIVE:
-        click.echo(f"hypcheck: {_what_to_do(plan.processes)}", err=True)
+        click.echo(
+            "hypcheck: the machine was too noisy to tell: end other programs, switch frequency scaling off, or take "
+            f"more samples with --processes {2 * plan.processes}",
+            err=True,
+        )
     context.exit(outcome.exit_code)
 
 
 def _refuse_replacing(baseline: Path | None, out: Path) -> None:
-    """A run found slower would be the baseline of the next, which would find nothing."""
+    """Raise InputError if the run would replace its own baseline, so that the next run would find nothing slower."""
     from hypcheck.record.reader import file_of
     from hypcheck.tables.streams import same_file
 
     if baseline is not None and same_file(str(file_of(baseline)), str(file_of(out))):
-        raise InputError(f"--baseline {baseline} is what --out {out} would replace; name another folder for --out")
-
-
-def _what_to_do(processes: int) -> str:
-    return (
-        "the machine was too noisy to tell: end what else runs on it, switch frequency scaling off, or take more "
-        f"samples with --processes {2 * processes}"
-    )
+        raise InputError(f"--out {out} would replace --baseline {baseline}; name another folder for --out")

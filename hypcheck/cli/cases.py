@@ -1,4 +1,4 @@
-"""`hypcheck cases`: options into a question to the casebook, its answer onto the screen or into a file."""
+"""`hypcheck cases`: list, show, generate, check and freeze certified test vectors."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def cases() -> None:
     """
 
 
-@cases.command("list", short_help="Say what families there are, and how many cases of each are frozen.")
+@cases.command("list", short_help="List the families, and how many cases of each are frozen.")
 def list_() -> None:
-    """Say what families there are, and how many cases of each are frozen."""
+    """List the families, and how many cases of each are frozen."""
     from hypcheck.vectors.showing import list_lines
 
     for line in list_lines():
@@ -34,7 +34,7 @@ def list_() -> None:
 
 @cases.command(short_help="Show a family, or a case with its proof.")
 @click.argument("name", metavar="ID|FAMILY")
-@click.option("--json", "as_json", is_flag=True, help="As it stands in the file.")
+@click.option("--json", "as_json", is_flag=True, help="Print the JSON of the vector file.")
 def show(name: str, as_json: bool) -> None:
     """Show a family, a frozen case (ring-0007) or a generated one (ring/1/42/7)."""
     from hypcheck.vectors.showing import show as lines_of
@@ -47,10 +47,10 @@ def show(name: str, as_json: bool) -> None:
 @click.argument("family")
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 @click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Rows.")
-@click.option("--format", "said", type=click.Choice(_FORMATS), help="By default what --output ends in, or json.")
+@click.option("--format", "said", type=click.Choice(_FORMATS), help="By default the ending of --output, or json.")
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:
-    """Make the first rows of a family's seed: the same bytes on every machine, and a longer run begins with a shorter.
+    """Make rows of a family: the same bytes on every machine, and more rows begin with those of fewer.
 
     FAMILY is one that `cases list` shows, or one for given sizes, such as razor@2.0,17.8,0.25,0.15,z=-17.8:17.8.
 
@@ -68,15 +68,15 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
     type=click.Choice(("python", "coq")),
     default="python",
     show_default=True,
-    help="coq: position and tangency alone, by the checker that `make prove` proves and builds.",
+    help="coq: position and tangency only, by the checker that `make prove` proves and builds.",
 )
 @click.pass_context
 def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
-    """Prove every label of every vector from its certificate, and compute the rest anew.
+    """Prove every label of every vector from its certificate, and compute the rest again.
 
-    What a file says of its flags, and of a family that hypcheck knows, must be what hypcheck says of them.
+    Flags, and the description of a family that hypcheck knows, must be those that hypcheck has.
 
-    Ends with 1 where a label or a head is wrong, 2 where a file is not as its schema demands.
+    Ends with 0 if all is right, 1 if a label or a head is wrong, 2 if a file does not have the form of its schema.
     """
     from hypcheck.errors import Exit
     from hypcheck.proofs.build import run_checker
@@ -93,19 +93,18 @@ def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
         checked += report.count
         faulty += len({fault.case for fault in report.faults})
         heads += bool(report.head)
-    say = "says at its head" if heads == 1 else "say at their heads"
-    at_heads = f"; what {heads} of the files {say} is wrong" if heads else ""
+    at_heads = f"; {counted(heads, 'file')} with a wrong head" if heads else ""
     click.echo(f"{counted(checked, 'case')} checked, {faulty or 'none'} with a wrong label{at_heads}")
     context.exit(Exit.WRONG if faulty or heads else Exit.HELD)
 
 
-@cases.command(short_help="Make the frozen files anew, keeping every id.")
+@cases.command(short_help="Make the frozen files again, keeping every id.")
 @click.argument("names", nargs=-1, metavar="[FAMILY]...")
 @click.option("--into", type=click.Path(path_type=Path), default=Path("cases"), show_default=True, metavar="FOLDER")
 def freeze(names: tuple[str, ...], into: Path) -> None:
-    """Make the frozen files anew: the cases that are there keep ids and rows, new ones come after them.
+    """Make the frozen files again: existing cases keep ids and rows, new ones follow.
 
-    Everything takes about two minutes, most of them the search for the worst cancellation.
+    All files take about two minutes, most of it the search for the worst cancellation.
     """
     from hypcheck.vectors.freezing import NAMES
     from hypcheck.vectors.freezing import freeze as write

@@ -1,18 +1,9 @@
-"""The commands by name, imported when called; their completion by the shell; exit codes and error messages.
+"""The commands by name, loaded when called; their completion by the shell; exit codes and error messages.
 
-How the program ends: one table from errors to exit code and message.
-
-A closed pipe ends quietly with 141, as a program that the system stops for it would: a reader that left early must not
-turn a failure into a pass, nor a run into an error of ours.
-
-Groups of commands: what they say of a command that is missing or unknown, and of which command an error is.
-
-The commands by name. A command's module is imported when the command is asked for, and its work when it runs.
-
-Completion by the shell: the script that makes it ask, and the answer when it asks.
-
-The shell starts `hypcheck` with the variable COMPLETE set for every press of the key, so commands are loaded as for
---help: without numpy. The protocol and the scripts are click's.
+One table maps each error to its exit code and message. A closed pipe ends quietly with 141, as the system would end the
+program: a reader that stops early must not turn a failure into a pass, nor a run into an internal error. For completion
+the shell starts `hypcheck` at every press of the key with the variable COMPLETE set, so commands load as for --help,
+without numpy. The protocol and the scripts are click's.
 """
 
 from __future__ import annotations
@@ -35,14 +26,14 @@ from hypcheck.version import VERSION
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """A status and the lines for standard error, none where it ends quietly."""
+    """How the program ends: the exit code, and lines for standard error."""
 
     code: int
     lines: tuple[str, ...] = ()
 
 
 def ending_of(error: BaseException) -> Ending:
-    """How the program ends that `error` reached: by the first row of the table that fits."""
+    """How the program ends after `error`: by the first row of the table that fits."""
     for kind, ending in _ENDINGS:
         if isinstance(error, kind):
             return ending(error)
@@ -62,7 +53,7 @@ def _usage(error: BaseException) -> Ending:
         Exit.USAGE,
         (
             f"hypcheck: error: {message[:1].lower()}{message[1:]}",
-            f"hypcheck: '{command} --help' tells what is possible",
+            f"hypcheck: '{command} --help' shows what is possible",
         ),
     )
 
@@ -105,7 +96,7 @@ _ENDINGS: tuple[tuple[type[BaseException], Callable[[BaseException], Ending]], .
 
 
 class CommandGroup(click.Group):
-    """A group that asks for one of its commands in a sentence, where click would print the whole help as an error."""
+    """A group whose message about a missing command is one sentence; click prints the whole help."""
 
     def __init__(self, *given: Any, **named: Any) -> None:  # noqa: ANN401 - click's
         super().__init__(*given, **{**named, "no_args_is_help": False})
@@ -113,7 +104,7 @@ class CommandGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does, with a better word about a command that is not there. Raises click.UsageError.
+        """As click does, but an unknown command gets a suggestion. Raises click.UsageError.
 
         While a shell completes a line, an unknown command has no completions and is no error.
         """
@@ -144,14 +135,14 @@ COMMANDS = {
 """Name → module:attribute of the click command."""
 
 _WORDS = f"{__name__}.words"
-"""Where a context keeps what stands behind the command: who asks for help gets it, whatever the settings are."""
+"""The key of the words after the command in a context's meta: --help among them works with bad settings too."""
 
 
 class LazyGroup(CommandGroup):
     """A group whose commands are those of COMMANDS."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """The names, in the order in which they are of use to a newcomer."""
+        """The names, in the order in which a new user needs them."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
@@ -167,7 +158,7 @@ class LazyGroup(CommandGroup):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As every group, keeping the words behind the command."""
+        """As every group; keeps the words after the command."""
         ctx.meta[_WORDS] = args[1:]
         return super().resolve_command(ctx, args)
 
@@ -179,22 +170,22 @@ class LazyGroup(CommandGroup):
 )
 @click.version_option(VERSION, message="%(prog)s %(version)s")
 @click.option("--debug", is_flag=True, expose_value=False, help="Show the traceback of an error (before the command).")
-@click.option("--no-settings", is_flag=True, help="Leave hypcheck.toml aside (before the command).")
+@click.option("--no-settings", is_flag=True, help="Ignore hypcheck.toml (before the command).")
 @click.pass_context
 def hypcheck(context: click.Context, /, no_settings: bool) -> None:
-    """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, and a judge of others."""
+    """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, tests of programs."""
     if no_settings or any(name in context.meta.get(_WORDS, ()) for name in context.help_option_names):
         return
-    from hypcheck.cli.settings import COMMANDS as SETTING
-    from hypcheck.cli.settings import FILE, read_settings
+    from hypcheck.cli import settings
 
-    found = read_settings(Path(FILE)) if context.invoked_subcommand in SETTING else None
-    if found is not None:
-        context.obj, context.default_map = found, found.default_map
+    if context.invoked_subcommand in settings.COMMANDS:
+        found = settings.read_settings(Path(settings.FILE))
+        if found is not None:
+            context.obj, context.default_map = found, found.default_map
 
 
 def context_of(words: Iterable[str]) -> click.Context:
-    """A context of the command that these words name, to tell whose an option is."""
+    """A context of the command that these words name, for the message about a wrong option."""
     context = click.Context(hypcheck, info_name="hypcheck")
     for word in words:
         group = context.command
@@ -220,12 +211,12 @@ def completion(shell: str) -> None:
         hypcheck completion fish > ~/.config/fish/completions/hypcheck.fish
 
     The script calls the hypcheck that is first on PATH. Open a new shell afterwards.
-    """  # noqa: D301 - the \b is click's: what follows it is not to be filled
+    """  # noqa: D301 - \b tells click not to fill what follows
     click.echo(_completing(shell).source())
 
 
-def answer(instruction: str) -> None:
-    """Print what the variable COMPLETE asks for: a shell's script, or completions. Raises InputError."""
+def answer_shell(instruction: str) -> None:
+    """Print what the variable COMPLETE asks for: the script of a shell, or completions. Raises InputError."""
     shell, _, wanted = instruction.partition("_")
     if shell not in SHELLS or wanted not in {"source", "complete"}:
         known = ", ".join(f"{name}_source" for name in SHELLS)
@@ -240,8 +231,6 @@ def answer(instruction: str) -> None:
 
 
 def _completing(shell: str) -> ShellComplete:
-    # DROPPED
-
     kind = get_completion_class(shell)
     if kind is None:
         raise InputError(f"the installed version of click has no completion for {shell}")
@@ -249,7 +238,7 @@ def _completing(shell: str) -> ShellComplete:
 
 
 def _completions(completing: ShellComplete) -> str:
-    """What fits the unfinished word; where nothing is known to, the shell is told to offer files."""
+    """Completions of the unfinished word; if there are none, the shell offers files."""
     words, unfinished = completing.get_completion_args()
     found = completing.get_completions(words, unfinished)
     if not found and not unfinished.startswith("-"):

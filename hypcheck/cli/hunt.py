@@ -1,10 +1,7 @@
-"""`hypcheck hunt`, `minimise` and `replay`: wrong answers are found, made simple, and shown beside the truth.
+"""`hypcheck hunt`, `minimise` and `replay`: find wrong answers, simplify them, and show them beside the truth.
 
-`hypcheck hunt`: options into a plan, the hunt under a progress bar, what it found, the exit code.
-
-`hypcheck minimise`: from a wrong answer to the simplest row that is answered wrongly in the same way.
-
-`hypcheck replay`: one case asked of one implementation, with the truth, its proof and the formula's values.
+Hunt and minimise open an implementation with the same options; replay shows one case with the proof of the right answer
+and the intermediate values of a formula.
 """
 
 from __future__ import annotations
@@ -22,28 +19,27 @@ import click
 
 from hypcheck.cli.options import LARGEST_SEED, Command, IntegerOption, NumberOption, OutputPath, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
-from hypcheck.cli.settings import announce_file
+from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
     from hypcheck.runs.hunt import Hunt, HuntTarget
-    from hypcheck.runs.hunt_search import Progress
 
 
 IMPLEMENTATION_OPTIONS = (
     click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
     click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
-    click.option("--domain", metavar="JSON", help="Where it is asked, in place of what it declares."),
+    click.option("--domain", metavar="JSON", help="The domain to ask in, in place of the one it declares."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
     click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u."),
     with_limits,
 )
-"""How an implementation is opened and judged: options that every command that asks one alone has."""
+"""How an implementation is opened and judged: options of the commands that ask a single one."""
 
 
 def about_one_implementation(command: Command) -> Command:
-    """The command with the options of SUBJECT, for `opened`."""
+    """The command with IMPLEMENTATION_OPTIONS, for `opened`."""
     for option in reversed(IMPLEMENTATION_OPTIONS):
         command = option(command)
     return command
@@ -58,9 +54,9 @@ def opened(
     domain: str | None,
     regimes: str | None,
     tolerance: float,
-    **limits: Any,  # noqa: ANN401 - of with_limits
+    **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> Iterator[HuntTarget]:
-    """The implementation that SPEC names, running, and what the options say of it. Raises InputError, StartError."""
+    """The running implementation of `spec`, judged as the options say. Raises InputError, StartError."""
     from hypcheck.implementations.description import parse_domain
     from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.hunt import target_of
@@ -71,7 +67,7 @@ def opened(
     if tolerance != DEFAULT_TOLERANCE:
         options.append(("--tolerance", repr(tolerance)))
     claimed = None if domain is None else parse_domain(domain)
-    announce_file()
+    print_file_settings()
     with open_implementation(
         spec, limits_of(**limits), precision=precision, question=question, domain=claimed
     ) as implementation:
@@ -85,22 +81,26 @@ def opened(
 
 
 _HUNT_HELP = """\
-Look for answers of SPEC that are wrong by much: thin sets of rows first, then ever worse ones next to these.
+Look for badly wrong answers of SPEC: in thin sets of rows first, then next to the worst rows found.
 
 \b
 hypcheck hunt library:./libcollide.so --budget 300 --out our-cases.json
 hypcheck hunt builtin:table-2-float64 --queries 200000
 
-Ends with 0 when nothing wrong beyond tolerance was found (which proves nothing), 1 when something was.
+Ends with 0 if no answer was wrong beyond the tolerance (which proves nothing), 1 if one was.
 """
 
 
 @click.command(help=_HUNT_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
 @click.option("--budget", type=NumberOption(0, excluded=True), help="Seconds.  [default: 60, or none with --queries]")
-@click.option("--queries", type=IntegerOption(1), help="Rows asked at most; with no --budget the same is found again.")
+@click.option(
+    "--queries", type=IntegerOption(1), help="Rows asked at most; without --budget, a run finds the same again."
+)
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--show", type=IntegerOption(0), default=10, show_default=True, help="Kinds of wrong answers in full.")
+@click.option(
+    "--show", type=IntegerOption(0), default=10, show_default=True, help="Kinds of wrong answers shown in full."
+)
 @click.option(
     "--out", type=OutputPath(), metavar="FILE", help="A vector file to which the worst row of each kind is added."
 )
@@ -115,9 +115,9 @@ def hunt(
     seed: int,
     show: int,
     out: Path | None,
-    **subject: Any,  # noqa: ANN401 - the options of SUBJECT
+    **subject: Any,  # noqa: ANN401 - IMPLEMENTATION_OPTIONS
 ) -> None:
-    """Hunt for the budget, and tell what was found; interrupted, what was found until then."""
+    """Hunt until the budget is spent, and print the findings; after an interrupt, those until then."""
     from hypcheck.runs.hunt import Hunt, HuntPlan
 
     if out is not None:
@@ -128,33 +128,30 @@ def hunt(
     with opened(spec, **subject) as target:
         run = Hunt(target, plan)
         try:
-            _pursue(run)
+            _hunt_with_bar(run)
         finally:
-            _tell(run, show, out)
+            _print_findings(run, show, out)
     context.exit(_exit_code(run))
 
 
-def _pursue(run: Hunt) -> None:
-    """Hunt, under a progress bar where a person is watching."""
-    from hypcheck.runs.hunt_search import run_hunt as pursue
+def _hunt_with_bar(run: Hunt) -> None:
+    """Hunt, under a progress bar on a terminal."""
+    from hypcheck.runs.hunt_search import run_hunt
 
     if not is_terminal(sys.stderr):
-        pursue(run)
+        run_hunt(run)
         return
     with click.progressbar(length=1000, label="hunt", file=sys.stderr, show_pos=False, show_eta=False) as bar:
-        pursue(run, _progress_shown(bar))
+
+        def show(run: Hunt) -> None:
+            kinds = len(run.findings.worst_first())
+            bar.label = f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers"
+            bar.update(int(1000 * run.spent) - bar.pos)
+
+        run_hunt(run, show)
 
 
-def _progress_shown(bar: Any) -> Progress:  # noqa: ANN401 - click has no public name for its bars
-    def show(run: Hunt) -> None:
-        kinds = len(run.findings.worst_first())
-        bar.label = f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers"
-        bar.update(int(1000 * run.spent) - bar.pos)
-
-    return show
-
-
-def _tell(run: Hunt, show: int, out: Path | None) -> None:
+def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
     from hypcheck.runs.hunt_results import hunt_lines
 
     for line in hunt_lines(run, show):
@@ -167,12 +164,12 @@ def _tell(run: Hunt, show: int, out: Path | None) -> None:
         added = keep_rows(str(out), [cluster.worst.case.row for cluster in found], made_by)
         click.echo(
             f"\n{printable(out)}: {counted(added, 'row')} added"
-            f"{'' if added == len(found) else ', the others were there'}"
+            f"{'' if added == len(found) else ', the others were there already'}"
         )
 
 
 def _exit_code(run: Hunt) -> Exit:
-    """Raises NothingJudgedError where no row was answered, for a reason that is no fault of the implementation."""
+    """The exit code. Raises NothingJudgedError if no row was answered, and the implementation is not at fault."""
     from hypcheck.runs.judge import Status
 
     broken = not run.answered and set(run.faults) - {Status.NOT_RUN} == {Status.PROTOCOL}
@@ -197,7 +194,7 @@ CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z, or RE
 hypcheck minimise builtin:table-2-float64 ring/1/0/3
 hypcheck minimise library:./libcollide.so "2.1,17.8,0.25,0.15,1.31,-0.4,7"
 
-Ends with 0 when the simplest row is shown, 2 where the answer to CASE is not wrong, 5 when SPEC cannot be started.
+Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 5 if SPEC cannot be started.
 """
 
 
@@ -205,8 +202,8 @@ Ends with 0 when the simplest row is shown, 2 where the answer to CASE is not wr
 @click.argument("spec")
 @click.argument("case")
 @about_one_implementation
-def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of SUBJECT
-    """Simplify, and tell what came of it."""
+def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
+    """Simplify, and print the result."""
     from hypcheck.answer import answer, answer_as_text
     from hypcheck.geometry.pair import Pair
     from hypcheck.runs.hunt_results import minimised_lines
@@ -223,7 +220,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401 - of
 
 
 _REPLAY_HELP = """\
-Show what SPEC answers to CASE, what is true and why, and where the formula goes wrong that is nearest to it.
+Show SPEC's answer to CASE, the right answer with its proof, and where the formula nearest to SPEC goes wrong.
 
 CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats, or
 RECORD:N, the N-th case that a record.jsonl (or the folder of its run) has kept, as reports number them.
@@ -233,21 +230,21 @@ hypcheck replay ring-0007 builtin:table-2-float64
 hypcheck replay 2,5,1,1,3,0,0 library:./libcollide.so
 hypcheck replay reports/latest/record.jsonl:3 "command:./adapter --fast"
 
-The values of a formula are those of a straight-line program, in the implementation's precision beside exact arithmetic.
->> marks the first decision that rounding turned, and > the number it was taken from.
+The values of a formula are shown in the implementation's precision beside exact arithmetic. >> marks the first decision
+that rounding changed, and > the number that it depends on.
 
-Ends with 0 when the answer is right or tolerated, 1 when it is not, 5 when SPEC cannot be started.
+Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC cannot be started.
 """
 
 
 @click.command(help=_REPLAY_HELP, short_help="Show an implementation's answer to one case, and where it goes wrong.")
 @click.argument("case")
 @click.argument("spec")
-@click.option("--formula", metavar="NAME", help="Whose values to show.  [default: its own, or one that answers alike]")
+@click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
 @click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
-@click.option("--domain", metavar="JSON", help="Where it claims to be right, in place of what it declares.")
+@click.option("--domain", metavar="JSON", help="The domain where it must be right, in place of the one it declares.")
 @click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u.")
 @with_limits
 @click.pass_context
@@ -262,9 +259,9 @@ def replay(
     question: str | None,
     domain: str | None,
     tolerance: float,
-    **limits: Any,  # noqa: ANN401 - of with_limits
+    **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> None:
-    """Replay, and tell what came of it."""
+    """Replay, and print the result."""
     from hypcheck.implementations.description import parse_domain
     from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.intermediates import require_formula
@@ -276,7 +273,7 @@ def replay(
     asked = case_of(case)
     require_formula(formula)
     claimed = None if domain is None else parse_domain(domain)
-    announce_file()
+    print_file_settings()
     with open_implementation(
         spec, limits_of(**limits), precision=precision, question=question, domain=claimed
     ) as implementation:

@@ -1,4 +1,4 @@
-"""Where the process begins and ends: whatever happens, the user gets a status and a sentence, never a traceback."""
+"""Beginning and end of the process: whatever happens, the user gets an exit code and a sentence, never a traceback."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ INTERRUPTED = (130, 143)
 
 
 def process() -> NoReturn:
-    """The whole of a process: main, and its end.
+    """Run the command line of this process and end it.
 
-    An interrupt can come while a pool of workers holds a lock, which nobody will then let go, and Python waits for the
-    pool's threads as it ends. Everything is written by now, and the workers are gone, so there is no waiting.
+    An interrupt may leave a lock of a pool of workers held for ever, and Python waits for the pool's threads when it
+    ends. Everything is written by then, and the workers are gone, so an interrupted process ends without waiting.
     """
     code = _fill_closed_descriptors() or main()
     if code not in INTERRUPTED:
@@ -34,9 +34,9 @@ def process() -> NoReturn:
 
 
 def _fill_closed_descriptors() -> int:
-    """Let no file of ours take the place of a closed standard stream, into which a library may write.
+    """Open the null device for each closed standard stream, so that no other file gets its number.
 
-    0, or the exit code where that cannot be done.
+    A library may write to that number. Returns 0, or the exit code if that fails.
     """
     try:
         while _is_closed(0) or _is_closed(1) or _is_closed(2):
@@ -72,30 +72,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if sys.stdout is not None:
                 sys.stdout.flush()
             return code
-    except BaseException as error:  # noqa: BLE001 - this is the end of the line for every error
+    except BaseException as error:  # noqa: BLE001 - every error ends here
         return _end(error, debug="--debug" in words)
 
 
 @contextmanager
 def _command_line(words: list[str]) -> Iterator[click.Context]:
-    """The context of the words, to invoke. Not click's own main(): it decides how errors and closed pipes end."""
+    """The context of the words, to invoke. click's own main() would handle errors and closed pipes itself."""
     import click
 
     from hypcheck.cli.commands import context_of, hypcheck
 
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # a terminal that cannot show α still gets an answer
+        if isinstance(stream, TextIOWrapper):  # for a terminal that cannot show α
             stream.reconfigure(errors="backslashreplace")
     if asked := os.environ.get(COMPLETE):
-        from hypcheck.cli.commands import answer
+        from hypcheck.cli.commands import answer_shell
 
-        answer(asked)
+        answer_shell(asked)
         raise click.exceptions.Exit(0)
     try:
         with hypcheck.make_context("hypcheck", list(words)) as context:
             yield context
     except click.UsageError as error:
-        error.ctx = error.ctx or context_of(words)  # click leaves it out where an option lacks its value
+        error.ctx = error.ctx or context_of(words)  # click leaves it out if an option lacks its value
         raise
 
 
@@ -109,14 +109,14 @@ def _end(error: BaseException, *, debug: bool) -> int:
             import traceback
 
             traceback.print_exception(error)
-        for line in ending.lines if sys.stderr is not None else ():  # print would take standard output then
-            print(line, file=sys.stderr)  # noqa: T201 - the one place that speaks of errors
+        for line in ending.lines if sys.stderr is not None else ():  # print would use standard output
+            print(line, file=sys.stderr)  # noqa: T201 - the one place that prints errors
     _silence_stdout()
     return int(ending.code)
 
 
 def _silence_stdout() -> None:
-    """Keep what could not be written from being tried, and complained about, once more when the interpreter ends."""
+    """Keep Python from writing again, as it ends, what could not be written, and from printing an error about it."""
     with suppress(OSError, ValueError, AttributeError):
         sys.stdout.flush()
         return
@@ -126,9 +126,9 @@ def _silence_stdout() -> None:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """While it lasts, SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed.
+    """Within the block SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed.
 
-    So does SIGHUP, with which a terminal takes leave, unless it is ignored, as nohup has it.
+    So does SIGHUP, which a closed terminal sends, unless it is ignored (nohup).
     """
     wanted = [each for each in _ENDING if each == signal.SIGTERM or signal.getsignal(each) is not signal.SIG_IGN]
     try:
@@ -149,11 +149,11 @@ _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(si
 
 
 def _terminate(_signal: int, _frame: object) -> NoReturn:
-    raise Terminated  # imported above: here any module may be half imported, click too
+    raise Terminated  # imported at the top: at this moment any other module may be half imported
 
 
-def _unraisable(lost: Any) -> None:  # noqa: ANN401 - its type has a name in typeshed alone
-    """An interrupt that came while an object was freed, where nothing can be raised, comes again a moment later."""
+def _unraisable(lost: Any) -> None:  # noqa: ANN401 - only typeshed has a name for its type
+    """Send an interrupt again, a moment later, that came while an object was freed and nothing could be raised."""
     if issubclass(lost.exc_type, Exception) or not hasattr(signal, "pthread_kill"):
         sys.__unraisablehook__(lost)
         return

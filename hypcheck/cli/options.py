@@ -1,8 +1,6 @@
-"""Options that several commands have, and the values that they are read as.
+"""Options that several commands have, and how their values are read.
 
-Whole numbers as a person writes them on the command line: in digits, or large ones as 1e9, 2.5e6 or 1_000_000.
-
-Options that several commands have, and what they are read as.
+Whole numbers are written in digits, or large ones as 1e9, 2.5e6 or 1_000_000.
 """
 
 from __future__ import annotations
@@ -23,17 +21,18 @@ from hypcheck.tables.streams import STREAM
 if TYPE_CHECKING:
     from hypcheck.implementations.session import Limits
 
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 LARGEST_SEED = 2**63 - 1
 
 LARGEST_COUNT = 10**15
-"""More than anybody can wait for."""
+"""More rows than any run can finish."""
 
 MOST_PROCESSES = 1024
-"""More would only take each other's time, and the system's memory."""
+"""More would only compete for processors and memory."""
 
 _INTEGER = re.compile(r"\d{1,20}(_\d{1,20}){0,9}(\.\d{1,20})?([eE]\+?\d{1,2})?", re.ASCII)
-"""Of few digits, and with a small exponent: the number itself has as many digits as that says."""
+"""Few digits and a small exponent: 1e99999999 would take all memory."""
 
 
 class IntegerOption(click.types.IntParamType):
@@ -52,7 +51,7 @@ class IntegerOption(click.types.IntParamType):
 
 
 def integer_of(text: str) -> int | None:
-    """The whole number that a text writes, exactly; None where it writes none."""
+    """The whole number that a text writes, exactly; None if it writes none."""
     from fractions import Fraction
 
     if not _INTEGER.fullmatch(text):
@@ -62,17 +61,14 @@ def integer_of(text: str) -> int | None:
 
 
 def integer_wanted(least: int, greatest: int) -> str:
-    """What a number must be, for the end of a sentence."""
+    """The end of a sentence: what a number must be."""
     digits = str(greatest)
     power = len(digits) > 6 and not digits[1:].strip("0") and digits[0] == "1"
     return f"a whole number, at least {least} and at most {f'1e{len(digits) - 1}' if power else digits}"
 
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
-
 class NumberOption(click.types.FloatParamType):
-    """A finite number from `least` to `greatest`; greater than `least` where that is `excluded`."""
+    """A finite number from `least` to `greatest`; greater than `least` if that is `excluded`."""
 
     def __init__(self, least: float, greatest: float = math.inf, *, excluded: bool = False) -> None:
         self.least = least
@@ -91,7 +87,7 @@ class NumberOption(click.types.FloatParamType):
 
 
 class OutputPath(click.Path):
-    """Where files are written to: a path that is not empty, and "-" only where that is standard output (`stream`)."""
+    """A path to write to: not empty, and "-" only if that means standard output (`stream`)."""
 
     def __init__(self, *, stream: bool = False) -> None:
         super().__init__(path_type=Path)
@@ -111,11 +107,15 @@ _SECONDS = NumberOption(0, excluded=True)
 
 _LIMITS = (
     click.option(
-        "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it is ready."
+        "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it must be ready."
     ),
     click.option("--timeout", type=_SECONDS, default=10.0, show_default=True, help="Seconds without progress."),
-    click.option("--restarts", type=IntegerOption(0), default=20, show_default=True, help="After crashes and hangs."),
-    click.option("--memory", metavar="BYTES", default="4G", show_default=True, help="For its processes together."),
+    click.option(
+        "--restarts", type=IntegerOption(0), default=20, show_default=True, help="Restarts after crashes and hangs."
+    ),
+    click.option(
+        "--memory", metavar="BYTES", default="4G", show_default=True, help="Memory of its processes together."
+    ),
 )
 
 
@@ -127,14 +127,14 @@ def with_limits(command: Command) -> Command:
 
 
 def limits_of(startup_timeout: float, timeout: float, restarts: int, memory: str) -> Limits:
-    """What these options say. Raises InputError."""
+    """The limits that these options set. Raises InputError."""
     from hypcheck.implementations.session import Limits
 
     return Limits(startup_timeout, timeout, restarts, bytes_of(memory))
 
 
 def names_in(text: str | None) -> tuple[str, ...]:
-    """The names in a list separated by commas; none of None."""
+    """The names in a list separated by commas; none for None."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())
 
 

@@ -1,9 +1,4 @@
-"""`hypcheck derive` and `hypcheck simulate`: the paper's derivation and claims, and its two applications.
-
-`hypcheck derive`: the derivation, the propositions, the ledger of the paper's claims and the costs.
-
-`hypcheck simulate`: the paper's two applications. Options into a plan, the result as text or JSON, and pictures.
-"""
+"""`hypcheck derive` and `hypcheck simulate`: the paper's derivation and claims, and its two applications."""
 
 from __future__ import annotations
 
@@ -24,10 +19,10 @@ if TYPE_CHECKING:
     from hypcheck.scene.model import SceneModel
 
 
-_HELP = """Show the derivation step by step, the proofs of the propositions, and what became of the paper's claims.
+_HELP = """Show the derivation step by step, the proofs of the propositions, and a verdict on each claim of the paper.
 
-Everything that is shown is derived by sympy while it is printed: formulas are held against what follows from the two
-surfaces, counterexamples are searched for among small rational pairs and proved by certificates.
+sympy derives everything while it is printed: formulas are compared with what follows from the two surfaces, and
+counterexamples are found among small rational pairs and proved by certificates.
 
 \b
 hypcheck derive
@@ -36,7 +31,7 @@ hypcheck derive --claim "Proposition 3"
 hypcheck derive --format latex --output derivation.tex
 hypcheck derive --format erratum --output erratum.tex
 
-Ends with 0 when all that was shown holds, with 6 when our derivation disagrees with what it is said to show.
+Ends with 0 if everything shown holds, with 6 if the derivation disagrees with a result that it should show.
 """
 
 
@@ -44,12 +39,14 @@ Ends with 0 when all that was shown holds, with 6 when our derivation disagrees 
 @click.option("--format", "form", type=click.Choice(tuple(FORMATS)), default="text", show_default=True)
 @click.option("--only", multiple=True, type=click.Choice(tuple(PARTS)), help="A part; several may be given.")
 @click.option("--claim", metavar="NUMBER", help="One claim in full: 12, A.2b, 'Remark 4', 'Table 2', 'Proposition 5'.")
-@click.option("--output", default="-", show_default=True, metavar="FILE", help="Where it goes, whole or not at all.")
+@click.option(
+    "--output", default="-", show_default=True, metavar="FILE", help="The file to write, complete or not at all."
+)
 @click.pass_context
 def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: str | None, output: str) -> None:
-    """Derive, and tell what came of it."""
+    """Derive, and print the results."""
     if claim is not None and only:
-        raise InputError("--claim shows one claim and --only parts of all; use one of them")
+        raise InputError("--claim shows one claim, and --only parts of all; use one of them")
     if form == "erratum" and (claim is not None or only):
         raise InputError("--format erratum writes one whole note; it takes neither --claim nor --only")
     from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
@@ -62,7 +59,9 @@ def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: s
         click.echo(erratum.compile_note(Path(output)), err=True)
     failing = chosen.failing
     if failing:
-        click.echo(f"hypcheck: our derivation disagrees with what it is said to show: {', '.join(failing)}", err=True)
+        click.echo(
+            f"hypcheck: the derivation disagrees with results that it should show: {', '.join(failing)}", err=True
+        )
     context.exit(Exit.ORACLES_DISAGREE if failing else Exit.HELD)
 
 
@@ -83,11 +82,16 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 SEED = click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 OUT = click.option("--out", type=OutputPath(), help="A folder for the JSON and the pictures.")
-CONTINUOUS = click.option("--continuous", is_flag=True, help="Decide exactly what happens between the positions too.")
+CONTINUOUS = click.option("--continuous", is_flag=True, help="Also decide exactly what happens between the positions.")
 FORMAT = click.option(
-    "--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True, help="To the terminal."
+    "--format",
+    "form",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="The format of the output.",
 )
-SHOW = click.option("--show-scene", is_flag=True, help="Print a shipped scene's file, to be changed, and end.")
+SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
 
 def common(command: Command) -> Command:
@@ -109,13 +113,13 @@ def simulate() -> None:
 
 @simulate.command(short_help="A walker among many trees, by Procedure 1 in float32.")
 @click.option("--scene", "name", default="forest", show_default=True, help="A scene file, or a shipped scene.")
-@click.option("--steps", type=IntegerOption(0), help="Steps to try.  [default: as the scene says]")
+@click.option("--steps", type=IntegerOption(0), help="Steps to try.  [default: the scene's]")
 @common
 def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
-    """A walker among trees of both types (section 3.1), by Procedure 1 with what Table 2 takes out of the loop.
+    """A walker among trees of both types (section 3.1), by Procedure 1 with the values that Table 2 precomputes.
 
-    She obeys the procedure in float32. Told are the evaluations that a line makes needless, and the phantom contacts:
-    places far from any tree where the procedure stops her all the same.
+    The walker obeys the procedure in float32. Shown are the evaluations that a line makes needless, and phantom
+    contacts: places far from any tree where the procedure stops the walker nevertheless.
     """
     if flags["show_scene"]:
         _show(name)
@@ -123,21 +127,26 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     from hypcheck.paper.forest import ForestPlan, forest_lines, simulate_forest
 
     plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
-    length = plan.count
-    _make_ready("forest", out)
-    with watched(length, "steps") as pace:
+    _prepare_folder("forest", out)
+    with watched(plan.count, "steps") as pace:
         result = simulate_forest(plan, pace.advance)
     _deliver(result, form, forest_lines(result), out)
 
 
-@simulate.command(short_help="A quadcopter in a cooling tower, by Procedures 2.a and 2.b; Table 5 again.")
+@simulate.command(short_help="A quadcopter in a cooling tower, by Procedures 2.a and 2.b; Table 5 reproduced.")
 @click.option("--scene", "name", default="tower", show_default=True, help="A scene file, or tower-simplest.")
-@click.option("--table", type=click.Choice(["5"]), help="Make the paper's Table 5 again.")
+@click.option("--table", type=click.Choice(["5"]), help="Reproduce the paper's Table 5.")
 @click.option("--runs", type=IntegerOption(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
 @click.option(
-    "--speed", type=NumberOption(1e-6, 1e6), default=5.0, show_default=True, help="Of the flights in the figure, m/s."
+    "--speed",
+    type=NumberOption(1e-6, 1e6),
+    default=5.0,
+    show_default=True,
+    help="Speed of the flights in the figure, m/s.",
 )
-@click.option("--time", type=NumberOption(1e-6, 1e6), default=0.2, show_default=True, help="Their response time, s.")
+@click.option(
+    "--time", type=NumberOption(1e-6, 1e6), default=0.2, show_default=True, help="Response time of these flights, s."
+)
 @click.option(
     "--pitch",
     type=NumberOption(0, 90),
@@ -176,11 +185,11 @@ def tower(
 
     flown = table is not None or pitch is not None
     if runs is not None and not flown:
-        raise InputError("--runs is of the table; it needs --table 5 or --pitch")
+        raise InputError("--runs is for the table; it needs --table 5 or --pitch")
     each = (1000 if runs is None else runs) if flown else 0
     plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch)
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
-    _make_ready("tower", out)
+    _prepare_folder("tower", out)
     count = min(workers or usable_processors(), len(moves))
     with processes(count) as executor, watched(sum(moves), "flights") as pace:
         result = simulate_tower(plan, executor, pace.advance)
@@ -201,8 +210,8 @@ def _show(name: str) -> None:
     click.echo(shipped_text(name), nl=False)
 
 
-def _make_ready(kind: str, out: Path | None) -> None:
-    """See that the folder for the files can take them, before anything is simulated."""
+def _prepare_folder(kind: str, out: Path | None) -> None:
+    """Make the folder for the files, before anything is simulated."""
     if out is not None:
         from hypcheck.report.simulation import make_ready
 
@@ -210,7 +219,7 @@ def _make_ready(kind: str, out: Path | None) -> None:
 
 
 def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path | None) -> None:
-    """The files first, then the result; what was written goes to standard error, beside it."""
+    """Write the files, then print the result; the names of the files go to standard error."""
     import json
 
     written = []

@@ -1,9 +1,4 @@
-"""`hypcheck report` and `hypcheck record`: a record into any of its reports, and whether it is as it was written.
-
-`hypcheck report`: a record into any of its reports, on the screen, into a file or into a folder.
-
-`hypcheck record`: whether a record is as it was written, and what of it can be saved.
-"""
+"""`hypcheck report` and `hypcheck record`: reports made from a record; a record checked, and repaired."""
 
 from __future__ import annotations
 
@@ -15,9 +10,9 @@ import click
 
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import OutputPath
-from hypcheck.cli.progress import in_lines
+from hypcheck.cli.progress import summary_options
 from hypcheck.errors import Exit, InputError
-from hypcheck.messages import escaped, printable
+from hypcheck.messages import counted, escaped, printable
 from hypcheck.report.write import REPORTS, kept_formats, write_reports
 from hypcheck.tables.streams import STREAM, same_file, writing
 
@@ -26,10 +21,10 @@ if TYPE_CHECKING:
     from hypcheck.record.integrity import FileCondition
 
 
-_HELP = f"""Make reports of RECORD, a record.jsonl or the folder of a run, from nothing but what the record has.
+_HELP = f"""Make reports of RECORD, a record.jsonl or the folder of a run.
 
 Without options the summary is printed. With --out FOLDER every report of a run is written there; with --out FILE the
-one that its name says. --format chooses ({", ".join(REPORTS)}); one of them without --out goes to standard output.
+one that its name says. --format chooses ({", ".join(REPORTS)}); without --out, one of them goes to standard output.
 
 \b
 hypcheck report reports/latest
@@ -49,7 +44,7 @@ each run, never times of two machines.
 def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Path | None) -> None:
     """Make reports of a record."""
     wanted = tuple(dict.fromkeys(formats))
-    _refuse_silence(wanted, against)
+    _require_comparing(wanted, against)
     target = None if out is None else _file_format(out, wanted)
     if out is None and len(wanted) > 1:
         raise InputError(f"{len(wanted)} formats need a folder: --out FOLDER")
@@ -64,15 +59,15 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
         _into_file(found, record, out, target, other)
 
 
-def _refuse_silence(wanted: Sequence[str], against: Path | None) -> None:
-    """A comparison that none of the formats shows would be lost without a word."""
+def _require_comparing(wanted: Sequence[str], against: Path | None) -> None:
+    """Raise InputError if none of the wanted formats shows the comparison."""
     comparing = [name for name, each in REPORTS.items() if each.compares]
     if against is not None and wanted and not set(wanted) & set(comparing):
-        raise InputError(f"--against is shown by {', '.join(comparing)} alone, not by {', '.join(wanted)}")
+        raise InputError(f"--against is shown only by {', '.join(comparing)}, not by {', '.join(wanted)}")
 
 
 def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
-    """The format of the one file that --out names; None where it names a folder."""
+    """The format of the file that --out names; None if it names a folder."""
     if out.is_dir() or not out.suffix or len(wanted) > 1:
         return None
     if wanted:
@@ -81,7 +76,7 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
     usual = [name for name in fitting if name in kept_formats()]
     named = [name for name in fitting if REPORTS[name].file == out.name] or usual
     if len(named or fitting) != 1:
-        raise InputError(f"--out {out}: its name does not tell which report it is; say --format {', '.join(REPORTS)}")
+        raise InputError(f"--out {out}: its name does not say which report it is; use --format {', '.join(REPORTS)}")
     return (named or fitting)[0]
 
 
@@ -102,7 +97,7 @@ def _print(record: Record, name: str, against: Record | None) -> None:
     from hypcheck.report.write import ReportContext
 
     if name == "terminal":
-        for line in summary_lines(record, (), against=against, **in_lines()):
+        for line in summary_lines(record, (), against=against, **summary_options()):
             click.echo(line)
         return
     content = REPORTS[name].render(record, ReportContext(against=against))
@@ -120,7 +115,7 @@ def _into_file(record: Record, source: Path, out: Path, name: str, against: Reco
 
 
 def _beside(source: Path, out: Path) -> list[str]:
-    """The pictures of the same run: those in the record's own folder, where the report goes there too."""
+    """The pictures of the same run: those in the record's folder, if the report goes there too."""
     folder = source if source.is_dir() else source.parent
     if folder.resolve() != out.parent.resolve():
         return []
@@ -132,33 +127,31 @@ def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Reco
         click.echo(printable(each.path if each.skipped is None else f"no {each.path.name}: {each.skipped}"))
 
 
-@click.group(
-    "record", cls=CommandGroup, short_help="Check a record's checksums, and save what is good of a damaged one."
-)
+@click.group("record", cls=CommandGroup, short_help="Check a record's checksums, and repair a damaged record.")
 def record_() -> None:
-    """Look after a record.jsonl, whose every line has a checksum."""
+    """Check and repair a record.jsonl, whose every line has a checksum."""
 
 
-@record_.command(short_help="Say whether a record is as it was written.")
+@record_.command(short_help="Check whether a record is as it was written.")
 @click.argument("record", type=click.Path(path_type=Path))
 @click.pass_context
 def check(context: click.Context, /, record: Path) -> None:
-    """Say whether RECORD is as it was written, and where it is not.
+    """Check whether RECORD is as it was written, and show where it is not.
 
     RECORD is a record.jsonl, the folder of a run, or - for standard input.
 
-    Ends with 0 when it is whole, 1 when it is cut off (its run was interrupted: what was finished is good) or when a
-    newer run in its folder has not finished, 2 when it is damaged.
+    Ends with 0 if it is complete, 1 if it is cut off (its run was interrupted, and the finished part is good) or if a
+    newer run in its folder has not finished, 2 if it is damaged.
     """
     from hypcheck.record.integrity import check as condition_of
     from hypcheck.record.reader import file_and_newer
 
     file, newer = file_and_newer(record)
     found = condition_of(file)
-    sums = "with their checksums" if found.sealed else f"without checksums, as schema {found.schema} has them"
+    sums = "with their checksums" if found.sealed else f"without checksums, which schema {found.schema} does not have"
     click.echo(f"{escaped(file)}: {_kept(found)}, {sums}; {_ending(found)}")
     if newer:
-        click.echo(f"it is of an older run: {escaped(newer)}")
+        click.echo(f"this is an older run: {escaped(newer)}")
     context.exit(Exit.HELD if found.complete and not newer else Exit.WRONG)
 
 
@@ -168,12 +161,12 @@ def check(context: click.Context, /, record: Path) -> None:
     "--out",
     type=OutputPath(stream=True),
     required=True,
-    help="Where what is good is written (- is standard output).",
+    help="The file to write; - is standard output.",
 )
 def repair(record: Path, out: Path) -> None:
     """Write everything of RECORD up to its last good line to another file, and say what is lost.
 
-    Without its footer the result is read as truncated: reports can be made of it, and it counts as no pass.
+    A result without a footer is read as truncated: reports can be made of it, but it counts as no pass.
     """
     from hypcheck.record.integrity import repair as repaired
     from hypcheck.record.reader import file_of
@@ -186,21 +179,14 @@ def repair(record: Path, out: Path) -> None:
 
 
 def _kept(found: FileCondition) -> str:
-    return f"{_lines(found.lines, 'good ')}, {_bytes(found.size)}"
+    return f"{counted(found.lines, 'good line')}, {counted(found.size, 'byte')}"
 
 
 def _ending(found: FileCondition) -> str:
     if found.complete and not found.lost_bytes:
-        return f"it is whole, of a run that ended with {found.exit_code}"
+        return f"it is complete, of a run that ended with {found.exit_code}"
     if not found.lost_bytes:
         return "it has no footer, so it is cut off, or its run was interrupted"
     verb = "is" if found.lost_bytes == 1 else "are"
-    return f"{_bytes(found.lost_bytes)} ({_lines(found.lost_lines)}) from byte {found.size} on {verb} lost"
-
-
-def _bytes(number: int) -> str:
-    return f"{number} byte{'' if number == 1 else 's'}"
-
-
-def _lines(count: int, kind: str = "") -> str:
-    return f"{count} {kind}line{'' if count == 1 else 's'}"
+    lost = f"{counted(found.lost_bytes, 'byte')} ({counted(found.lost_lines, 'line')})"
+    return f"{lost} from byte {found.size} on {verb} lost"

@@ -1,15 +1,13 @@
-"""Stages run under a progress bar, with a record that `--resume` continues, and reports at the end.
+"""A run with a record: stages under a progress bar, the record as it grows, and reports at the end.
 
-Running stages under a progress bar, with a record that keeps what was finished, and reports at the end.
-
-`--resume`: what the record of an interrupted run has to go on with, or that there is nothing left to do.
+An interrupted run leaves a record that `--resume` continues; if that record is finished, nothing is left to do.
 """
 
 from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.progress import in_lines, watched
-from hypcheck.cli.settings import announce
+from hypcheck.cli.progress import summary_options, watched
+from hypcheck.cli.settings import print_settings
 from hypcheck.errors import Exit, HypcheckError, InputError, NothingJudgedError, system_reason
 from hypcheck.messages import escaped, printable
 from hypcheck.tables.streams import STREAM, same_file
@@ -33,7 +31,12 @@ if TYPE_CHECKING:
 
 @dataclass
 class Recording:
-    """A run whose record is kept: its recorder, the code that it ends with, and its record once it has ended."""
+    """A run with a record.
+
+    recorder: takes the lines of the run.
+    exit_code: the exit code of the run, which the run sets.
+    record: the complete record, once the run has ended.
+    """
 
     recorder: Recorder
     exit_code: int = Exit.HELD
@@ -48,13 +51,12 @@ def recording(
     provenance: Provenance | None = None,
     carried: Sequence[RecordLine] = (),
 ) -> Iterator[Recording]:
-    """Keep the record of a run in `out` while it lasts; then write the reports beside it, and print the summary.
+    """Write the record of a run to `out` while the block lasts; then write the reports, and print the summary.
 
-    An interrupted run leaves what it finished, reported as truncated, on GitHub too. When the run begins, its `title`
-    is told, if it has one, and its settings; reports of an earlier run are removed, and its record stays until the new
-    one takes its place.
-    `carried` are lines of a run that is gone on with, whose record may be the one in `out`. Raises InputError where
-    `out` cannot be written, or another run is writing there.
+    When the run begins, its `title` and its settings are printed, and reports of an earlier run are removed; the record
+    of the earlier run stays until the new one is complete. An interrupted run leaves a truncated record with reports.
+    `carried` are lines of the run that this one resumes; its record may be the one in `out`. Raises InputError if `out`
+    cannot be written, or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.reader import FILE, GROWING
@@ -65,7 +67,9 @@ def recording(
     with ExitStack() as stack:
         try:
             out.mkdir(parents=True, exist_ok=True)
-            _require_no_folder(out / FILE, growing)
+            for file in (out / FILE, growing):
+                if file.is_dir():
+                    raise InputError(f"--out {out} cannot be written: {file.name} in it is a folder")
             stack.enter_context(folder_locked(out))
             recorder = Recorder(stack.enter_context(GrowingFile(growing)), options, provenance, carried)
         except OSError as error:
@@ -74,8 +78,8 @@ def recording(
         try:
             remove_reports(out)
             if title:
-                _say(title)
-            announce(None if provenance is None else provenance.settings)
+                _print_note(title)
+            print_settings(None if provenance is None else provenance.settings)
             yield running
             running.record = recorder.close(running.exit_code)
         except BaseException as error:
@@ -84,11 +88,17 @@ def recording(
             _ended_early(error, growing, recorder)
             raise
         _settle(recorder, growing, out / FILE)
-        _report_whole(running.record, out)
+        try:
+            report(running.record, out)
+        except BaseException:
+            place = shlex.quote(str(out))
+            then = f"hypcheck report {place} --out {place} makes its reports"
+            _print_note(f"the record in {escaped(out / FILE)} is complete; {then}")
+            raise
 
 
 def run_stages(stages: Sequence[Stage]) -> None:
-    """Every stage in turn, under a progress bar where a person is watching."""
+    """Run the stages one after the other, under a progress bar."""
     with watched(sum(stage.steps for stage in stages), "") as pace:
         for stage in stages:
             pace.name(label(stage.title), "")
@@ -96,46 +106,28 @@ def run_stages(stages: Sequence[Stage]) -> None:
 
 
 def label(title: str) -> str:
-    """The title of a stage, as wide as all are beside the bar."""
+    """The title of a stage as the bar shows it, all equally wide."""
     return f"{title:28}"
 
 
-def _report_whole(record: Record, out: Path) -> None:
-    """Report, and tell where the record is should that be interrupted."""
-    from hypcheck.record.reader import FILE
-
-    try:
-        report(record, out)
-    except BaseException:
-        place = shlex.quote(str(out))
-        _say(f"the record in {escaped(out / FILE)} is whole; hypcheck report {place} --out {place} makes its reports")
-        raise
-
-
-def _require_no_folder(*files: Path) -> None:
-    for file in files:
-        if file.is_dir():
-            raise InputError(f"--out {file.parent} cannot be written: {file.name} in it is a folder")
-
-
 def _require_folder(out: Path, error: OSError) -> None:
-    """Raise InputError where a run that an error of the system ended has lost the folder that it writes to."""
+    """Raise InputError if the folder that a run writes to has gone, and `error` came of that."""
     if not out.is_dir():
-        raise InputError(f"--out {out} is no folder any more: it was replaced or removed during the run") from error
+        raise InputError(f"--out {out} is not a folder any more; it was replaced or removed during the run") from error
 
 
 def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
-    """Raises InputError where the record cannot take its place; it is then where it grew."""
+    """Move the complete record to its place. Raises InputError if that fails; the record is then still in `growing`."""
     try:
         recorder.settle(path)
     except OSError as error:
         _require_folder(path.parent, error)
         reason = system_reason(error)
-        raise InputError(f"cannot write {path}: {reason}; what was finished is in {growing}") from error
+        raise InputError(f"cannot write {path}: {reason}; the finished part is in {growing}") from error
 
 
 def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> None:
-    """Keep what was finished, make reports of it, and tell where it is; of a run that proves nothing, leave nothing."""
+    """Keep what was finished, with reports, and print where it is; leave nothing of a run that proves nothing."""
     from hypcheck.record import read
     from hypcheck.record.reader import FILE
     from hypcheck.report.write import write_reports
@@ -145,18 +137,18 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
         return
     out, path = growing.parent, growing.with_name(FILE)
     _settle(recorder, growing, path)
-    then = f"with --resume {shlex.quote(str(out))} goes on" if recorder.goes_on else "begins anew"
+    then = f"with --resume {shlex.quote(str(out))} continues" if recorder.goes_on else "starts again"
     try:
         with suppress(HypcheckError, OSError):
             record = read(path)
             write_reports(record, out)
-            _tell(record, [])
-    finally:  # who interrupts twice is told too
-        _say(f"what was finished is in {escaped(path)}; the same command {then}")
+            _print_summary(record, [])
+    finally:  # after a second interrupt too
+        _print_note(f"the finished part is in {escaped(path)}; the same command {then}")
 
 
-def _say(sentence: str) -> None:
-    """Tell whoever watches, if anybody still does."""
+def _print_note(sentence: str) -> None:
+    """Print a sentence to standard error, if that is still open."""
     with suppress(OSError):
         click.echo(f"hypcheck: {escaped(sentence)}", err=True)
 
@@ -166,11 +158,11 @@ def report(record: Record, out: Path) -> None:
     from hypcheck.report.terminal import summary_lines
     from hypcheck.report.write import write_reports
 
-    _tell(record, summary_lines(record, write_reports(record, out), **in_lines()))
+    _print_summary(record, summary_lines(record, write_reports(record, out), **summary_options()))
 
 
-def _tell(record: Record, lines: Sequence[str]) -> None:
-    """Print the summary; on GitHub, with annotations after it and the report in the step's summary."""
+def _print_summary(record: Record, lines: Sequence[str]) -> None:
+    """Print the summary; on GitHub also annotations, and the report in the summary of the step."""
     from hypcheck.report import github
 
     if not github.on_github(os.environ):
@@ -180,23 +172,18 @@ def _tell(record: Record, lines: Sequence[str]) -> None:
     for line in [*github.harmless(lines), *github.error_lines(record)]:
         click.echo(line)
     summary = os.environ.get("GITHUB_STEP_SUMMARY")
-    trouble = github.append_summary(record, Path(summary)) if summary else None
-    if trouble:
-        click.echo(f"hypcheck: {printable(trouble)}", err=True)
-
-
-def folder_of(path: Path) -> Path:
-    """Where a run goes on whose record or folder this is."""
-    return path if path.is_dir() else path.parent
+    fault = github.append_summary(record, Path(summary)) if summary else None
+    if fault:
+        click.echo(f"hypcheck: {printable(fault)}", err=True)
 
 
 def resumed(
     path: Path, out: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str], cases: int
 ) -> ResumedRun | int:
-    """What the plan's run goes on with; of a finished run the code it ended with, which is told. Nothing is changed.
+    """What the record of an interrupted run has finished; the exit code of a finished run, which gets its reports.
 
-    `path` is a record, or the folder of a run. Raises InputError where the record cannot be read, is being written, or
-    is not one of just this run, saying what differs.
+    `path` is a record, or the folder of a run. Raises InputError if the record cannot be read, is being written, or is
+    of another run, naming what differs.
     """
     from hypcheck.record.reader import GROWING, interrupted_in, read
     from hypcheck.record.writer import folder_locked
@@ -220,20 +207,19 @@ def resumed(
 
 
 def _make_reports(record: Record, file: Path, out: Path) -> None:
-    """Make the reports of a finished record in `out` that its run had no time, or no room, for."""
+    """Make the reports of a finished record in `out`, if its run was interrupted before they were written."""
     from hypcheck.record.reader import FILE, GROWING, read
     from hypcheck.report.write import files_of
 
     path = out / FILE
     if same_file(str(file), str(out / GROWING)):
         file.replace(path)
-    elif not same_file(str(file), str(path)) or all(
-        map(_is_newer_than(path), (out / name for name in files_of(record)))
-    ):
+    elif not same_file(str(file), str(path)) or _has_newer_reports(out, files_of(record), path):
         return
     report(read(path), out)
 
 
-def _is_newer_than(record: Path) -> Callable[[Path], bool]:
-    """Whether a report was written after the record."""
-    return lambda file: file.is_file() and file.stat().st_mtime_ns >= record.stat().st_mtime_ns
+def _has_newer_reports(out: Path, names: Sequence[str], record: Path) -> bool:
+    """Whether all of these reports were written after the record."""
+    written = record.stat().st_mtime_ns
+    return all((out / name).is_file() and (out / name).stat().st_mtime_ns >= written for name in names)

@@ -1,9 +1,4 @@
-"""`hypcheck plan` and `hypcheck emit`: what a scene needs, and a kernel that contains only that.
-
-`hypcheck plan`: what a scene needs, what it does without, why, and what that saves.
-
-`hypcheck emit`: a kernel that contains only what a scene needs, in one of five languages.
-"""
+"""`hypcheck plan` and `hypcheck emit`: what a scene needs, and a kernel that contains only that."""
 
 from __future__ import annotations
 
@@ -20,7 +15,7 @@ if TYPE_CHECKING:
     from hypcheck.kernel.specialise.plan import ScenePlan
 
 
-_PLAN_HELP = """Tell what SCENE needs of the mathematics, what is left out, why that is allowed, and what it saves.
+_PLAN_HELP = """Show what SCENE needs of the mathematics, what is left out, why that is allowed, and what it saves.
 
 SCENE is a file (docs/scenes.md) or a shipped scene; `hypcheck emit` writes the kernel that the plan describes.
 
@@ -31,14 +26,14 @@ hypcheck plan tower --measure
 """
 
 
-@click.command(help=_PLAN_HELP, short_help="Tell what a scene needs, and what can be left out.")
+@click.command(help=_PLAN_HELP, short_help="Show what a scene needs, and what can be left out.")
 @click.argument("scene")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option("--measure", is_flag=True, help="Compile the kernel, and time it beside Table 2 as printed.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def plan(scene: str, precision: str, question: str | None, measure: bool, as_json: bool) -> None:
-    """Plan, and tell."""
+    """Plan, and print the plan."""
     import json
 
     from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
@@ -48,8 +43,8 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
     if as_json:
         from hypcheck.bench.scene import saving_fields
 
-        told = plan_as_json(found)
-        click.echo(json.dumps({**told, "measured": [saving_fields(each) for each in times]} if measure else told))
+        measured = {"measured": [saving_fields(each) for each in times]} if measure else {}
+        click.echo(json.dumps(plan_as_json(found) | measured))
         return
     for text in plan_lines(found):
         click.echo(printable(text))
@@ -58,7 +53,7 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
 
 
 def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
-    """The plan for a scene by its name; raises InputError."""
+    """The plan for a scene file or a shipped scene. Raises InputError."""
     from dataclasses import replace
 
     from hypcheck.errors import InputError
@@ -75,7 +70,7 @@ def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
 
 
 def _measured(found: ScenePlan) -> Iterator[KernelSaving]:
-    """What each setting saves; raises UnavailableError where there is no C compiler."""
+    """The saving of each setting. Raises UnavailableError if there is no C compiler."""
     from pathlib import Path
     from tempfile import TemporaryDirectory
 
@@ -90,14 +85,14 @@ LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 _EMIT_HELP = """Write a kernel that contains only what a scene needs: small, readable, without dependencies.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
-is answered; `hypcheck plan` tells what is left out and why. The head of the kernel says what is proved of it.
+is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.
 
 \b
 hypcheck emit --scene tower --language c --output kernel.c
 hypcheck emit --scene forest.toml --language rust --precision float32 --output kernel.rs
 cc -O3 -fPIC -shared kernel.c -lm -o kernel.so && hypcheck verify library:./kernel.so
 
-C, C++ and Rust have the names and the signature that `verify library:` takes; the Python file is for
+C, C++ and Rust have the names and the signature that `verify library:` expects; the Python file is for
 `python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
 `hypcheck init --language javascript`.
 
@@ -109,23 +104,22 @@ default names.
 
 @click.command(help=_EMIT_HELP, short_help="Write a kernel that contains only what a scene needs.")
 @click.option("--scene", required=True, metavar="SCENE", help="A scene file, or the name of a shipped scene.")
-@click.option("--language", required=True, type=click.Choice(LANGUAGES), help="What the kernel is written in.")
+@click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option(
-    "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="What the kernel's functions begin with."
+    "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="The beginning of the functions' names."
 )
 @click.option(
-    "--output", default="-", show_default=True, metavar="FILE", help="Where to write it; - is standard output."
+    "--output", default="-", show_default=True, metavar="FILE", help="The file to write; - is standard output."
 )
 @click.option(
-    "--proof", metavar="FILE", help="Write a proof of the discriminant's bound too, for Coq (docs/proofs.md)."
+    "--proof", metavar="FILE", help="Also write a proof of the discriminant's bound, for Coq (docs/proofs.md)."
 )
 def emit(
     scene: str, language: str, precision: str, question: str | None, prefix: str, output: str, proof: str | None
 ) -> None:
-    """Plan, and write."""
-    # DROPPED
+    """Plan, and write the kernel."""
     from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
     from hypcheck.kernel.printing.coq import proof_of
     from hypcheck.tables.streams import writing

@@ -1,6 +1,6 @@
-"""A project's settings: `hypcheck.toml` in the working directory, of which every key stands for a command-line option.
+"""A project's settings: `hypcheck.toml` in the working directory. Each key stands for an option of the command line.
 
-What is given on the command line goes before it. A key that is not known or a value that cannot be is refused.
+Options on the command line take precedence. An unknown key or an invalid value is refused.
 """
 
 from __future__ import annotations
@@ -29,26 +29,30 @@ if TYPE_CHECKING:
 FILE = "hypcheck.toml"
 
 ABOUT_ONE = ("tolerance", "precision", "question", "domain", "startup_timeout", "timeout", "restarts", "memory")
-"""How an implementation is opened and judged: keys that also stand for options of commands that ask one alone."""
+"""How an implementation is opened and judged: keys for the commands that ask a single one, too."""
 
 COMMANDS = ("verify", "replay", "hunt", "minimise")
-"""Commands that go by the settings: verify by all of them, the others by ABOUT_ONE."""
+"""Commands that read the settings: verify all of them, the others ABOUT_ONE."""
 
 _LONGEST_KEY = 100
-"""Characters of a key that is looked for among the known ones and in the text; no setting has so long a name."""
+"""Characters of a key that is looked for in the text; no setting has a longer name."""
 _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class ProjectSettings:
-    """What a file says: `specs` for verify where none is named, and values by the names of options' parameters."""
+    """The settings of a file.
+
+    specs: what verify gates if no SPEC is given.
+    options: values by the names of the options' parameters.
+    """
 
     specs: tuple[str, ...]
     options: Mapping[str, Any]
 
     @property
     def default_map(self) -> dict[str, dict[str, Any]]:
-        """The values by command, as click wants them."""
+        """The values by command, for click."""
         about_one = {name: value for name, value in self.options.items() if name in ABOUT_ONE}
         return {command: dict(self.options) if command == "verify" else about_one for command in COMMANDS}
 
@@ -56,7 +60,7 @@ class ProjectSettings:
 _LARGER = ("tolerance", "max_abstained", "max_slowdown")
 _SMALLER = ("count", "judged", "roots", "meshes")
 _OTHER = ("fail_on", "oracles")
-"""Options that weaken a gate where their value is larger, smaller, or another than their default."""
+"""Options that weaken a gate if their value is larger than their default, smaller, or different."""
 
 _UNSET: Mapping[str, Any] = MappingProxyType(
     {
@@ -65,16 +69,16 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
         "question": "as declared",
         "domain": "as declared",
         "known_failures": "none",
-        "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN, which is not loaded here
+        "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN; its module is not loaded here
     }
 )
-"""What goes where an option has no value; but for the last, any value of these weakens a gate."""
+"""What applies if an option has no value; any value of these except the last weakens a gate."""
 
 
 def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsPart | None:
-    """The settings of a record's header: the file of the command that runs, and each option that weakens its gate.
+    """The settings in a record's header: the file that was read, and each option that weakens the gate of this run.
 
-    None where there is neither; options that the run does not use are `unused`.
+    None if there is neither. `unused` are options that the run does not have.
     """
     settings, weakened = context.find_object(ProjectSettings), []
     for option in context.command.params:
@@ -91,21 +95,21 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsP
     return SettingsPart(file=None if settings is None else FILE, weakened=[WeakenedPart(**each) for each in weakened])
 
 
-def announce(settings: SettingsPart | None) -> None:
-    """Tell on standard error what in_effect says."""
+def print_settings(settings: SettingsPart | None) -> None:
+    """Print the settings in effect to standard error."""
     from hypcheck.report.messages import settings_facts
 
     for fact in settings_facts(settings):
         click.echo(f"hypcheck: {escaped(fact)}", err=True)
 
 
-def announce_file() -> None:
-    """As announce, for a command that makes no report: what its settings file says, and not what was typed."""
+def print_file_settings() -> None:
+    """Print the settings that came from the file, for a command that makes no report."""
     from msgspec.structs import replace
 
     found = in_effect(click.get_current_context())
     if found is not None and found.file is not None:
-        announce(replace(found, weakened=[each for each in found.weakened if each.source == found.file]))
+        print_settings(replace(found, weakened=[each for each in found.weakened if each.source == found.file]))
 
 
 def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any option's value
@@ -121,7 +125,7 @@ def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any
 
 
 def _leaves_out_families(value: str) -> bool:
-    """Whether this choice lacks a family that is asked by default; one that names nothing is refused later on."""
+    """Whether this choice lacks a family that is asked by default; a choice of nothing is refused later."""
     from hypcheck.vectors.families import select
 
     try:
@@ -135,7 +139,7 @@ def _as_text(value: object) -> str:
 
 
 def read_settings(path: Path) -> ProjectSettings | None:
-    """The settings in a file, None where there is no such file. Raises InputError naming file, line and key."""
+    """The settings in a file, None if there is no such file. Raises InputError naming file, line and key."""
     try:
         text = toml.text_of(str(path))
     except FileNotFoundError:
@@ -145,7 +149,7 @@ def read_settings(path: Path) -> ProjectSettings | None:
     return ProjectSettings(checked.pop("specs", ()), checked)
 
 
-def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - of the type its option wants
+def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - the type of its option
     where = f"{path}{_line_of(text, key)}"
     check = _KEYS.get(key)
     if check is None:
@@ -154,12 +158,12 @@ def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: AN
         return check(value)
     except ValueError as error:
         raise InputError(f"{where}: {key} is {_shown(value)}; it must be {error}") from None
-    except InputError as error:  # a domain says itself what of it is wrong
+    except InputError as error:  # of a domain, whose message is whole
         raise InputError(f"{where}: {error}") from None
 
 
 def _line_of(text: str, key: str) -> str:
-    """The end of "FILE, line 3" for the line that seems to set the key or begin its table; empty where none does."""
+    """The end of "FILE, line 3" for the line that sets the key or begins its table; empty if none is found."""
     if len(key) > _LONGEST_KEY:
         return ""
     quoted = rf"""["']?{re.escape(key)}["']?"""
@@ -182,7 +186,7 @@ def _texts(value: object) -> tuple[str, ...]:
 
 
 def _names(value: object) -> str:
-    """A list of names and globs as the option has it: separated by commas."""
+    """A list of names and globs in the form of the option: separated by commas."""
     parts = [value] if isinstance(value, str) else value
     if not isinstance(parts, list) or not parts or not all(isinstance(each, str) and each.strip() for each in parts):
         raise ValueError('names and globs, such as ["ring", "tower-*"]')
@@ -209,7 +213,7 @@ def _integer(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], in
 def _number(value: object, *, above: bool = False) -> float:
     wanted = "a number above 0" if above else "a number, 0 or more"
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
+        raise ValueError(wanted)  # noqa: TRY004 - the caller makes a sentence about the value of it
     if not 0 <= value < math.inf or (above and not value) or value > sys.float_info.max:
         raise ValueError(wanted)
     return float(value)
@@ -255,7 +259,7 @@ def _questions() -> tuple[str, ...]:
 
 
 def _domain(value: object) -> str:
-    """A table as the option has it, in JSON. Raises InputError too."""
+    """A table in the form of the option, JSON. Raises InputError too."""
     from hypcheck.implementations.description import parse_domain
 
     if not isinstance(value, dict):
@@ -286,4 +290,4 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "memory": _bytes,
     }
 )
-"""What each key may hold, and how its option has it."""
+"""Checks the value of each key, and gives it the form of its option."""

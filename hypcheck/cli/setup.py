@@ -1,9 +1,4 @@
-"""`hypcheck init` and `hypcheck info`: the files of a project under test, and what this installation has.
-
-`hypcheck init`: options into a project's files, written; then what to type next.
-
-`hypcheck info`: versions, which kernel runs and why, which oracles and engines are available.
-"""
+"""`hypcheck init` and `hypcheck info`: the files of a project under test, and what this installation has."""
 
 from __future__ import annotations
 
@@ -19,8 +14,8 @@ from hypcheck.errors import InputError
 from hypcheck.messages import printable
 from hypcheck.scaffold.project import LANGUAGES, Project
 
-_NAMELESS = "predicate"
-"""The name where neither --name nor the folder has one."""
+_DEFAULT_NAME = "predicate"
+"""The name if neither --name nor the folder gives one."""
 
 
 @click.command(short_help="Write an adapter around a stub, its build line, settings and a CI workflow.")
@@ -31,16 +26,16 @@ _NAMELESS = "predicate"
     default=Path(),
     help="The repository's root; by default the working directory.",
 )
-@click.option("--name", help="What reports call the implementation; by default as the directory.")
+@click.option("--name", help="The name of the implementation in reports; by default that of the directory.")
 @click.option(
     "--from",
     "source",
     metavar="REQUIREMENT",
     help="What the workflow installs, pinned: a git URL (https, ssh, file), a wheel or sdist, or NAME==VERSION.",
 )
-@click.option("--force", is_flag=True, help="Replace files that are there.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
 def init(language: str, directory: Path, name: str | None, source: str | None, *, force: bool) -> None:
-    """Write what gates an implementation of your own: an adapter around a stub, hypcheck.toml, a CI workflow.
+    """Write the files that gate your implementation: an adapter around a stub, hypcheck.toml, a CI workflow.
 
     \b
     hypcheck init --language c --directory engine
@@ -52,43 +47,43 @@ def init(language: str, directory: Path, name: str | None, source: str | None, *
 
     A second language in the same directory is added to hypcheck.toml and to the workflow, which then gate both.
 
-    Without --from the workflow fails in its step `Install hypcheck`, which says what to write there: no package index
-    is known to have hypcheck, and anyone may take a free name. A branch or tag of a git URL is pinned to its commit.
-    """  # noqa: D301 - the \b is click's: what follows it is not to be filled
+    Without --from the workflow fails in its step `Install hypcheck`, which says what to write there: hypcheck is in no
+    known package index, and anyone may take a free name. A branch or tag of a git URL is pinned to its commit.
+    """  # noqa: D301 - \b tells click not to fill what follows
     from hypcheck.scaffold.repository import IGNORED, shared_files, write_all
     from hypcheck.scaffold.requirement import pinned, requirement
 
     wanted = pinned(requirement(source, directory)) if source is not None else None
     project = Project(LANGUAGES[language], _named(name, directory))
-    shared, told = shared_files(directory, project, wanted, force=force)
+    shared, notes = shared_files(directory, project, wanted, force=force)
     added = {path for path in shared if os.path.exists(directory / path) and (path == IGNORED or not force)}
     texts = project.files() | shared
     write_all(directory, texts, force=force, replaced=added)
     for path in texts:
         click.echo(printable(f"{directory / path}{_remark(path, project, added)}"))
-    for sentence in (*told, *(wanted.says if wanted is not None else ())):
+    for sentence in (*notes, *(wanted.says if wanted is not None else ())):
         click.echo(printable(sentence))
-    _say_next(project, directory)
+    _print_next(project, directory)
 
 
 def _remark(path: str, project: Project, added: Collection[str]) -> str:
     if path == project.predicate:
         return "   the stub: replace it"
-    return "   was there: added to" if path in added else ""
+    return "   existed: added to" if path in added else ""
 
 
-def _say_next(project: Project, directory: Path) -> None:
+def _print_next(project: Project, directory: Path) -> None:
     click.echo(f"\nType next{'' if directory == Path() else f', in {printable(shlex.quote(str(directory)))}'}:\n")
     for command in project.commands:
         click.echo(printable(f"    {command}"))
-    click.echo(f"\nThe second passes. The third fails, on the ring for one, until {project.predicate} is yours.")
+    click.echo(f"\nThe second passes. The third fails, on the ring for example, until {project.predicate} is yours.")
 
 
 def _named(name: str | None, directory: Path) -> str:
     from hypcheck.scaffold.project import safe_name
 
     if name is None:
-        return safe_name(os.path.basename(os.path.abspath(directory))) or _NAMELESS
+        return safe_name(os.path.basename(os.path.abspath(directory))) or _DEFAULT_NAME
     safe = safe_name(name)
     if not safe:
         raise InputError(f"--name is {name!r}; it must have a letter or a digit of ASCII")
@@ -100,22 +95,22 @@ def _named(name: str | None, directory: Path) -> str:
 LIBRARIES = ("numpy", "sympy", "mpmath", "python-fcl", "click", "matplotlib", "jinja2", "distributed", "coal")
 
 
-@click.command(short_help="Say which versions, kernel and oracles are here, and why.")
+@click.command(short_help="Show versions, the kernel in use and why, and the oracles.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def info(as_json: bool) -> None:
-    """Say what this installation has: versions, the kernel in use and the reason for it, the oracles.
+    """Show what this installation has: versions, the kernel in use and the reason for it, the oracles.
 
     HYPCHECK_KERNEL=compiled or numpy forces a kernel, HYPCHECK_LEVEL its instruction set, HYPCHECK_THREADS the number
     of threads it may use.
     """
     import json
 
-    found = gathered()
+    found = installation()
     click.echo(json.dumps(found) if as_json else "\n".join(_lines(found)))
 
 
-def gathered() -> dict[str, Any]:
-    """Everything that is told, as --json has it."""
+def installation() -> dict[str, Any]:
+    """Everything that info shows, as the object of --json."""
     import platform
     import sys
 
@@ -132,7 +127,7 @@ def gathered() -> dict[str, Any]:
         "python": platform.python_version(),
         "executable": sys.executable,
         "system": f"{platform.system()} {platform.machine()}",
-        "versions": _versions(),
+        "versions": {name: _version(name) for name in LIBRARIES},
         "kernel": {"name": chosen.kernel, "level": chosen.level, "reason": chosen.reason, "threads": threads},
         "header": str(HEADER),
         "oracles": {name: _availability_of(oracle.available()) for name, oracle in ORACLES.items()},
@@ -140,16 +135,12 @@ def gathered() -> dict[str, Any]:
     }
 
 
-def _availability_of(trouble: str | None) -> dict[str, Any]:
-    return {"available": trouble is None, "reason": trouble}
-
-
-def _versions() -> dict[str, str | None]:
-    """Of the libraries that may be used, from their metadata: to ask the modules would load them."""
-    return {name: _version(name) for name in LIBRARIES}
+def _availability_of(reason: str | None) -> dict[str, Any]:
+    return {"available": reason is None, "reason": reason}
 
 
 def _version(name: str) -> str | None:
+    """The version of a library from its metadata, so that it is not loaded; None if it is not installed."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:
@@ -175,8 +166,8 @@ def _lines(found: dict[str, Any]) -> list[str]:
 
 
 def _availability(title: str, found: dict[str, dict[str, Any]]) -> list[str]:
-    said = [
+    lines = [
         f"{name}: {'available' if each['available'] else 'not available: ' + each['reason']}"
         for name, each in found.items()
     ]
-    return [f"{title if place == 0 else '':11}{each}" for place, each in enumerate(said)]
+    return [f"{title if place == 0 else '':11}{each}" for place, each in enumerate(lines)]

@@ -1,17 +1,10 @@
-"""`hypcheck verify`: with SPEC a conformance run of implementations, without it a self-check of hypcheck.
-
-A run of `hypcheck verify SPEC`: implementations are gated against the frozen vectors and exact decisions.
-
-A run of `hypcheck verify` without SPEC: hypcheck itself is derived, proved, cross-checked, judged and timed.
-
-`hypcheck verify`: which of its two runs is meant, and the options that this run has: its parameters.
-"""
+"""`hypcheck verify`: with SPEC a conformance run of implementations, without it a self-check of hypcheck."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Collection, Mapping
+from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,7 +23,7 @@ from hypcheck.cli.options import (
     with_limits,
 )
 from hypcheck.cli.progress import watched
-from hypcheck.cli.recording import folder_of, label, recording, resumed, run_stages
+from hypcheck.cli.recording import label, recording, resumed, run_stages
 from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.messages import escaped, printable
@@ -40,67 +33,49 @@ if TYPE_CHECKING:
     from hypcheck.runs.plan import ConformancePlan
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConformanceOptions:
-    """The options of this run, by the names that they have on the command line."""
+_WITH_SPEC = frozenset(
+    {
+        *("max_abstained", "fail_on", "deterministic", "known_failures", "update", "precision", "question", "domain"),
+        *("startup_timeout", "timeout", "restarts", "memory", "cluster", "resume"),
+    }
+)
+_WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
+"""Options that only one of the two runs has, by the names of their parameters."""
 
-    specs: tuple[str, ...]
-    out: Path
-    families: str | None
-    count: int
-    seed: int
-    tolerance: float
-    max_abstained: int
-    fail_on: str
-    deterministic: bool
-    known_failures: Path | None
-    update: bool
-    precision: str | None
-    question: str | None
-    domain: str | None
-    startup_timeout: float
-    timeout: float
-    restarts: int
-    memory: str
-    workers: int | None
-    cluster: str | None
-    resume: Path | None
 
-    def plan(self) -> ConformancePlan:
-        """The plan of the run. Raises InputError where an option is wrong."""
-        from hypcheck.implementations.description import parse_domain
-        from hypcheck.runs.plan import ConformancePlan
+def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformancePlan:
+    """The plan of a conformance run. Raises InputError about a wrong option."""
+    from hypcheck.implementations.description import parse_domain
+    from hypcheck.runs.plan import ConformancePlan
 
-        to_make = self.update and self.known_failures is not None and not self.known_failures.exists()
-        plan = ConformancePlan(
-            specs=self.specs,
-            families=names_in(self.families),
-            count=self.count,
-            seed=self.seed,
-            tolerance=Fraction(self.tolerance),
-            max_abstained=self.max_abstained,
-            fail_on=self.fail_on,
-            deterministic=self.deterministic,
-            known_failures=None if to_make else self.known_failures,
-            precision=self.precision,
-            question=self.question,
-            domain=None if self.domain is None else parse_domain(self.domain),
-            limits=limits_of(self.startup_timeout, self.timeout, self.restarts, self.memory),
-            workers=self.workers,
-            cluster=self.cluster,
+    update, known_failures = options["update"], options["known_failures"]
+    to_be_made = update and known_failures is not None and not known_failures.exists()
+    plan = ConformancePlan(
+        specs=specs,
+        families=names_in(options["families"]),
+        count=options["count"],
+        seed=options["seed"],
+        tolerance=Fraction(options["tolerance"]),
+        max_abstained=options["max_abstained"],
+        fail_on=options["fail_on"],
+        deterministic=options["deterministic"],
+        known_failures=None if to_be_made else known_failures,
+        precision=options["precision"],
+        question=options["question"],
+        domain=None if options["domain"] is None else parse_domain(options["domain"]),
+        limits=limits_of(options["startup_timeout"], options["timeout"], options["restarts"], options["memory"]),
+        workers=options["workers"],
+        cluster=options["cluster"],
+    )
+    if update and (known_failures is None or plan.filtered):
+        raise InputError(
+            "--update needs --known-failures and a run of all families, or it would forget failures of the others"
         )
-        if self.update and (self.known_failures is None or plan.filtered):
-            raise InputError(
-                "--update needs --known-failures and a run of all families, or it would forget what it skipped"
-            )
-        return plan
+    return plan
 
 
-def conformance(options: ConformanceOptions, title: str, settings: SettingsPart | None) -> int:
-    """Run it, begun anew or gone on with, write the reports, and give the exit code.
-
-    Raises InputError where an option is wrong.
-    """
+def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
+    """Run or resume a conformance run, write its reports, and return the exit code. Raises InputError."""
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs import conformance as run
@@ -109,61 +84,45 @@ def conformance(options: ConformanceOptions, title: str, settings: SettingsPart 
     from hypcheck.runs.plan import planned_size
     from hypcheck.runs.resume import ResumedRun
 
-    plan, out = options.plan(), options.out
-    shown = {**asdict(plan), "tolerance": options.tolerance, "known_failures": str(plan.known_failures or "")}
+    plan, out, resume = _plan_of(specs, options), options["out"], options["resume"]
+    recorded = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
     unchanged = FileSnapshot(files)
-    begun = ResumedRun() if options.resume is None else resumed(options.resume, out, plan, shown, files, cases)
+    begun = ResumedRun() if resume is None else resumed(resume, out, plan, recorded, files, cases)
     if isinstance(begun, int):
         return begun
     outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings)
-    with recording(out, shown, title, provenance, begun.carried) as running:
+    with recording(out, recorded, title, provenance, begun.carried) as running:
         with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
             run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state)
         changed = unchanged.record_changes(running.recorder)
         running.exit_code = Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
-    if options.update and options.known_failures is not None and running.record is not None and not changed:
-        click.echo(printable(update(options.known_failures, running.record)))
+    if options["update"] and running.record is not None and not changed:
+        click.echo(printable(update(options["known_failures"], running.record)))
     return running.exit_code
 
 
-@dataclass(frozen=True, kw_only=True)
-class SelfCheckOptions:
-    """The options of this run, by the names that they have on the command line."""
-
-    out: Path
-    families: str | None
-    count: int
-    seed: int
-    tolerance: float
-    oracles: str
-    judged: int
-    roots: int
-    meshes: int
-    workers: int | None
-
-
-def self_check(options: SelfCheckOptions, title: str, settings: SettingsPart | None) -> Exit:
-    """Run it and write the reports. Raises InputError where an option is wrong."""
+def _self_check(options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> Exit:
+    """Run the self-check, write its reports, and return the exit code. Raises InputError."""
     from hypcheck.processes import usable_processors
     from hypcheck.record.writer import Provenance
     from hypcheck.runs import self_check as run
     from hypcheck.runs.findings import SelfCheckPlan
 
     plan = SelfCheckPlan(
-        families=names_in(options.families),
-        oracles=_oracles(options.oracles),
-        count=max(1, options.count),
-        judged=options.judged,
-        roots=options.roots,
-        meshes=options.meshes,
-        seed=options.seed,
-        workers=options.workers or usable_processors(),
-        tolerance=Fraction(options.tolerance),
+        families=names_in(options["families"]),
+        oracles=_oracles(options["oracles"]),
+        count=max(1, options["count"]),
+        judged=options["judged"],
+        roots=options["roots"],
+        meshes=options["meshes"],
+        seed=options["seed"],
+        workers=options["workers"] or usable_processors(),
+        tolerance=Fraction(options["tolerance"]),
     )
     outcome = RunOutcome()
-    with recording(options.out, run.options(plan), title, Provenance(settings=settings)) as running:
+    with recording(options["out"], run.options(plan), title, Provenance(settings=settings)) as running:
         run_stages(run.stages(plan, running.recorder, outcome))
         running.exit_code = outcome.exit_code
     return outcome.exit_code
@@ -184,19 +143,23 @@ _COUNT = IntegerOption(1)
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...")
-@click.option("--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="For the reports.")
+@click.option(
+    "--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="The folder of the reports."
+)
 @click.option(
     "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
 )
 @click.option("--count", type=IntegerOption(0), default=400, show_default=True, help="Generated rows of each family.")
 @click.option(
-    "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Of the generated rows."
+    "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
 )
 @click.option(
     "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
 )
-@click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="Which oracles to ask.")
-@click.option("--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of our methods.")
+@click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="The oracles to ask.")
+@click.option(
+    "--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of the built-in methods."
+)
 @click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
 @click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
 @click.option(
@@ -204,61 +167,62 @@ _COUNT = IntegerOption(1)
     type=IntegerOption(1, MOST_PROCESSES),
     help="Processes.  [default: one a processor; with SPEC, of large runs]",
 )
-@click.option("--precision", help="With SPEC: stands for the precision it declares.")
-@click.option("--question", help="With SPEC: stands for the question it declares.")
-@click.option("--domain", help="With SPEC: stands for the domain it declares, in JSON.")
-@click.option("--max-abstained", type=IntegerOption(0), default=0, show_default=True, help="Cases it may not answer.")
+@click.option("--precision", help="With SPEC: used instead of the declared precision.")
+@click.option("--question", help="With SPEC: used instead of the declared question.")
+@click.option("--domain", help="With SPEC: used instead of the declared domain; JSON.")
+@click.option(
+    "--max-abstained", type=IntegerOption(0), default=0, show_default=True, help="Cases that it may leave unanswered."
+)
 @click.option(
     "--fail-on",
     type=click.Choice(["wrong", "false-clear"]),
     default="wrong",
     show_default=True,
-    help="Any wrong answer beyond --tolerance, or only those that say clear in contact.",
+    help="Any wrong answer beyond --tolerance, or only one that says clear at a contact.",
 )
-@click.option("--deterministic", is_flag=True, help="Fail too when an answer changes within the tolerance.")
+@click.option("--deterministic", is_flag=True, help="Also fail if an answer changes within the tolerance.")
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
-@click.option("--self", "of_ourselves", is_flag=True, help="Verify hypcheck itself, whatever hypcheck.toml names.")
+@click.option("--self", "self_check", is_flag=True, help="Verify hypcheck itself, even if hypcheck.toml names SPECs.")
 @with_limits
-@click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to go on with it.")
+@click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to continue it.")
 @click.option("--cluster", metavar="ADDRESS", help="With SPEC: a dask.distributed scheduler; local:N starts one here.")
 @click.pass_context
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Verify hypcheck itself, or gate the implementations that SPEC names.
 
     Without SPEC: derive the coefficients, prove the formulas, cross-check four oracles, judge every method, time the
-    fast path. Ends with 0 when the oracles agree and the fast path is exact, 6 when oracles disagree, 1 when an exact
-    method erred or the mathematical findings are not the known ones. Where the environment variable CI is set, --self
-    must be given for that: a step that was to gate an implementation, and finds none, ends with 2.
+    fast path. Ends with 0 if the oracles agree and the fast path is exact, 6 if oracles disagree, 1 if an exact method
+    erred or the mathematical findings are not the known ones. If the environment variable CI is set, this needs --self:
+    a CI step that should gate an implementation, and names none, ends with 2.
 
     With SPEC (builtin:NAME, python:package.module:function, python:file.py:function, library:path.so, command:…):
-    ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 when no answer is
-    wrong by more than --tolerance units, 1 when one is or a case ended without an answer, 5 when it cannot be started.
+    ask it the frozen vectors and generated rows, judge every answer, ask some again. Ends with 0 if no answer is wrong
+    by more than --tolerance units, 1 if one is or a case ended without an answer, 5 if it cannot be started.
 
-    A run with SPEC that was interrupted or killed goes on with --resume RECORD (or the folder of its run, which --out
-    then is unless it is given) and the same options. A run without SPEC keeps what it finished, and begins anew.
+    A run with SPEC that was interrupted or killed continues with --resume RECORD (or the folder of its run, which is
+    then the default of --out) and the same options. A run without SPEC keeps what it finished, and starts again.
 
     Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, measurements.csv and
-    pictures. Options that are not given are those of hypcheck.toml in the working directory, if it is there, and so are
-    the SPECs. Each option that weakens the gate is told at the start and in every report.
+    pictures. Options and SPECs that are not given are read from hypcheck.toml in the working directory, if it exists.
+    Each option that weakens the gate is shown at the start and in every report.
     """
-    chosen = _chosen(context, specs, of_ourselves=options.pop("of_ourselves"))
-    unused = options.keys() - {each.name for each in fields(ConformanceOptions if chosen else SelfCheckOptions)}
-    _refuse_others(context, unused, chosen=chosen, given=specs)
-    if options["resume"] and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
-        options["out"] = folder_of(options["resume"])
+    chosen = _chosen_specs(context, specs, self_check=options.pop("self_check"))
+    unused = _WITHOUT_SPEC if chosen else _WITH_SPEC
+    _refuse_unused(context, unused, chosen=chosen, given=specs)
+    resume = options["resume"]
+    if resume and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
+        options["out"] = resume if resume.is_dir() else resume.parent
     settings = in_effect(context, unused)
-    used = {name: value for name, value in options.items() if name not in unused}
     if chosen:
         title = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
-        context.exit(conformance(ConformanceOptions(specs=chosen, **used), title, settings))
-    title = "verifying hypcheck itself, no implementation"
-    context.exit(self_check(SelfCheckOptions(**used), title, settings))
+        context.exit(_conformance(chosen, options, title, settings))
+    context.exit(_self_check(options, "verifying hypcheck itself, no implementation", settings))
 
 
-def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: bool) -> tuple[str, ...]:
-    """The SPECs to gate; none where hypcheck itself is verified. Raises InputError where nobody chose that."""
-    if of_ourselves:
+def _chosen_specs(context: click.Context, specs: tuple[str, ...], *, self_check: bool) -> tuple[str, ...]:
+    """The SPECs to gate; none if hypcheck itself is verified. Raises InputError in CI if nothing is named."""
+    if self_check:
         if specs:
             raise InputError(f"--self verifies hypcheck itself and takes no SPEC; {escaped(specs[0])} is one")
         return ()
@@ -272,11 +236,11 @@ def _chosen(context: click.Context, specs: tuple[str, ...], *, of_ourselves: boo
     return chosen
 
 
-def _refuse_others(
+def _refuse_unused(
     context: click.Context, unused: Collection[str], *, chosen: tuple[str, ...], given: tuple[str, ...]
 ) -> None:
-    """Raise InputError where an option was typed that the run does not have."""
+    """Raise InputError about an option on the command line that the run does not have."""
     for option in context.command.params:
         if option.name in unused and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE:
-            hint = f"; {FILE} names one, and --self leaves it aside" if chosen != given else ""
+            hint = f"; {FILE} names one; --self ignores it" if chosen != given else ""
             raise InputError(f"{option.opts[0]} is for a run {'without' if chosen else 'with'} SPEC{hint}")

@@ -154,7 +154,7 @@ def test_a_run_does_not_replace_its_baseline(tmp_path):
     before = path.read_bytes()
     for named in (path, tmp_path):
         words = ["--quick", "--baseline", str(named), "--out", str(tmp_path)]
-        with pytest.raises(InputError, match=r"is what --out .* would replace"):
+        with pytest.raises(InputError, match=r"--out .* would replace --baseline"):
             CliRunner().invoke(bench, words, standalone_mode=False, catch_exceptions=False)
     assert path.read_bytes() == before
 

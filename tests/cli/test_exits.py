@@ -104,7 +104,7 @@ def test_wrong_usage_is_one_sentence_and_where_to_look(arguments, sentence, caps
     assert output == ""
     assert message.startswith("hypcheck: error: ")
     assert sentence in message
-    assert hint == f"hypcheck: '{' '.join(['hypcheck', *_commands(arguments)])} --help' tells what is possible"
+    assert hint == f"hypcheck: '{' '.join(['hypcheck', *_commands(arguments)])} --help' shows what is possible"
 
 
 def _commands(arguments):

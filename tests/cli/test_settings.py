@@ -122,7 +122,7 @@ def test_specs_are_for_verify_alone(project, capsys):
     assert main(["replay", "ring-0001"]) == 2
     assert "SPEC" in capsys.readouterr().err
     assert main(["verify", "--oracles", "exact"]) == 2
-    assert "--self leaves it aside" in capsys.readouterr().err
+    assert "--self ignores it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("value", ["true", "1", "yes"])

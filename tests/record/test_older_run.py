@@ -44,8 +44,8 @@ def killed(held):
 def test_record_check_ends_1_where_a_newer_run_has_not_finished(killed, capsys, named):
     assert main(["record", "check", str(killed / named)]) == 1
     first, second = capsys.readouterr().out.splitlines()
-    assert first.endswith("it is whole, of a run that ended with 0")
-    assert second.startswith(f"it is of an older run: {killed / GROWING} is of a newer run")
+    assert first.endswith("it is complete, of a run that ended with 0")
+    assert second.startswith(f"this is an older run: {killed / GROWING} is of a newer run")
 
 
 def test_report_says_that_it_shows_an_older_run_and_how_to_go_on(killed, capsys):

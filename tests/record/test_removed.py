@@ -61,7 +61,7 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
             if keeps:
                 running.recorder.keep(PROGRESS)
 
-    with pytest.raises(InputError, match="out is no folder any more: it was replaced or removed during the run"):
+    with pytest.raises(InputError, match="out is not a folder any more; it was replaced or removed during the run"):
         run()
     assert out.read_text() == "a file"
 

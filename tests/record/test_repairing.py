@@ -36,7 +36,7 @@ def test_a_whole_record_is_whole(path, capsys):
     code, text = asked(capsys, "check", path)
     assert code == 0
     assert (
-        f"4 good lines, {path.stat().st_size} bytes, with their checksums; it is whole, of a run that ended with 6"
+        f"4 good lines, {path.stat().st_size} bytes, with their checksums; it is complete, of a run that ended with 6"
         in text
     )
 
@@ -94,7 +94,7 @@ def test_a_cut_one_is_saved_without_what_is_half(path, capsys, tmp_path):
 def test_a_whole_one_is_copied(path, capsys, tmp_path):
     code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
     assert code == 0
-    assert "it is whole" in text
+    assert "it is complete" in text
     assert (tmp_path / "saved.jsonl").read_bytes() == path.read_bytes()
 
 

@@ -74,9 +74,9 @@ def test_a_file_of_any_name_with_a_format(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--out", "a.dat"], "its name does not tell which report it is"),
+        (["--out", "a.dat"], "its name does not say which report it is"),
         (["--format", "json", "--format", "junit"], "2 formats need a folder: --out FOLDER"),
-        (["--format", "junit", "--against", "record.jsonl"], "--against is shown by terminal, markdown"),
+        (["--format", "junit", "--against", "record.jsonl"], "--against is shown only by terminal, markdown"),
         (["--against", "nowhere.jsonl"], "cannot read nowhere.jsonl: no such file"),
         (["--out", "record.jsonl", "--format", "json"], "is a record that is being read"),
     ],

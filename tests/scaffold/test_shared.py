@@ -53,7 +53,7 @@ def test_each_language_after_the_first_is_gated_beside_the_others(names, init, t
         shown = f"'{spec}'" if " " in spec else spec
         expected[f"Verify hypcheck-{name}"] = f"hypcheck verify {shown} --out hypcheck-report/{name}"
     assert list(found.items()) == list(expected.items())
-    assert "hypcheck.toml   was there: added to" in capsys.readouterr().out
+    assert "hypcheck.toml   existed: added to" in capsys.readouterr().out
 
 
 def test_a_second_language_changes_no_file_of_the_first(init, tmp_path):

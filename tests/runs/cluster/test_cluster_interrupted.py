@@ -45,7 +45,7 @@ def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
     out = tmp_path / "out"
     said = lost(tmp_path, out, Cluster.kill_scheduler)
     assert "the cluster was lost: its scheduler is not there any more; what was finished is in the record" in said
-    assert f"the same command with --resume {out} goes on" in said
+    assert f"the same command with --resume {out} continues" in said
     assert "Traceback" not in said
     assert ended(out, "--resume", str(out))[0] == CODE
     assert came_to(out) == whole

@@ -81,7 +81,7 @@ def interrupted(out, whole, dice, number, *more):
     assert "Traceback" not in said or number == signal.SIGINT  # Python itself may still be starting
     if process.returncode > CODE and (out / FILE).exists():
         record = read(out / FILE)
-        goes_on = f"the same command {f'with --resume {out} goes on' if record.of(ProgressLine) else ''}"
+        goes_on = f"the same command {f'with --resume {out} continues' if record.of(ProgressLine) else ''}"
         assert (f"hypcheck report {out} --out {out} makes its reports" if record.footer else goes_on) in said
 
 
@@ -103,7 +103,7 @@ def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_pa
         patch.setattr("hypcheck.report.write.write_reports", interrupts)
         code, said = here(tmp_path)
     assert code == 130
-    assert f"{tmp_path / FILE} is whole; hypcheck report {tmp_path} --out {tmp_path} makes its reports" in said
+    assert f"{tmp_path / FILE} is complete; hypcheck report {tmp_path} --out {tmp_path} makes its reports" in said
     assert read(tmp_path / FILE).footer
     assert main(["report", str(tmp_path), "--out", str(tmp_path)]) == 0
     assert (tmp_path / "summary.json").exists()
@@ -123,7 +123,7 @@ def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_
         patch.setattr(ProgressWriter, "keep", keeps_late)
         code, said = here(tmp_path)
     assert code == 130
-    assert f"the same command with --resume {tmp_path} goes on" in said
+    assert f"the same command with --resume {tmp_path} continues" in said
     assert read(tmp_path / FILE).of(ProgressLine)
     assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
     assert came_to(tmp_path) == whole[0]

@@ -206,5 +206,5 @@ def test_a_folder_that_takes_the_place_of_the_record_meanwhile_costs_nothing(tmp
     kept = Recorder.settle
     monkeypatch.setattr(Recorder, "settle", settle)
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
-    assert f"is a directory; what was finished is in {tmp_path / GROWING}" in capsys.readouterr().err
+    assert f"is a directory; the finished part is in {tmp_path / GROWING}" in capsys.readouterr().err
     assert read(tmp_path / GROWING).footer

@@ -40,7 +40,7 @@ def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, 
     code, (said, closing) = checked(tmp_path, capsys, TEXT.replace(old, new, 1))
     assert code == 1
     assert said.startswith(sentence)
-    assert closing == "6 cases checked, none with a wrong label; what 1 of the files says at its head is wrong"
+    assert closing == "6 cases checked, none with a wrong label; 1 file with a wrong head"
 
 
 def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
