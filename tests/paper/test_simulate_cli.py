@@ -153,7 +153,7 @@ def test_without_matplotlib_simulate_writes_all_but_the_pictures(capsys, tmp_pat
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("tower", "--runs", 5), "--runs is of the table; it needs --table 5 or --pitch"),
+        (("tower", "--runs", 5), "--runs is for the table; it needs --table 5 or --pitch"),
         (("tower", "--table", "4"), "'4'"),
         (("tower", "--pitch", "91"), "'--pitch': '91' must be a number, at least 0 and at most 90"),
         (("tower", "--table", "5", "--runs", 0), "'0' must be a whole number, at least 1"),
