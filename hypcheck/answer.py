@@ -8,18 +8,24 @@ Loads no numpy.
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.pair import TILTED_COLUMNS, UPRIGHT, Pair, Position
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Point, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
+from hypcheck.truth.tilted import certificate as tilted_certificate
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted import prove as tilted_prove
+from hypcheck.truth.tilted.certificate import TiltedCertificate
+from hypcheck.truth.tilted.pair import TiltedPair
 
 
 class DisagreementError(HypcheckError):
@@ -36,7 +42,7 @@ def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measure
     position, tangent = decided
     if measured[0] == position and (measured[1] == 0) == tangent:
         return
-    pair = ", ".join(f"{name} {value!r}" for name, value in zip(COLUMNS, row, strict=True))
+    pair = ", ".join(f"{name} {value!r}" for name, value in zip(TILTED_COLUMNS, row, strict=False))
     said = f"{Position(position).label}{' (tangent)' if tangent else ''}"
     raise DisagreementError(
         f"two oracles disagree about {pair}: by exact decision {said}, by the nearest point "
@@ -60,19 +66,60 @@ class Answer:
     certificate: Certificate
 
 
-def answer(pair: Pair) -> Answer:
-    """Decide, measure and prove. Raises DisagreementError if two oracles disagree, or the proof does not hold."""
-    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath, which replay does without
+@dataclass(frozen=True, slots=True)
+class TiltedAnswer:
+    """The same about a pair whose axis leans, which has no kind: the kinds are those of upright spheroids."""
+
+    pair: TiltedPair
+    decision: tilted_exact.Decision
+    clearance: float
+    certificate: TiltedCertificate
+
+
+def measured_clearance(pair: TiltedPair, decision: tilted_exact.Decision) -> float:
+    """The clearance by the nearest point, which must agree with the decision. Raises DisagreementError."""
+    from hypcheck.truth.tilted.nearest import nearest  # noqa: PLC0415 - loads mpmath
+
+    measured = nearest(pair)
+    if measured.position is None:  # nearer to a tangency than any float64 but 0
+        return 0.0 if decision.tangent else math.copysign(math.ulp(0.0), abs(decision.position) - 0.5)
+    require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
+    return measured.clearance
+
+
+def answer(pair: Pair | TiltedPair) -> Answer | TiltedAnswer:
+    """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict.
+
+    A pair with an axis that is an upright one all the same is answered as that.
+    """
+    if isinstance(pair, TiltedPair):
+        return _upright_answer(pair.upright) if pair.upright is not None else _tilted_answer(pair)
+    return _upright_answer(pair)
+
+
+def _upright_answer(pair: Pair) -> Answer:
+    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath
 
     decision = exact.decide(pair.lengths)
     measured = nearest(pair)
     require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
     certificate = prove(pair, decision)
     if certificate.position is not decision.position or not check_certificate(pair, certificate):
-        raise DisagreementError(
-            f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck"
-        )
+        raise _unproved(pair)
     return Answer(pair, decision, measured.clearance, certificate)
+
+
+def _tilted_answer(pair: TiltedPair) -> TiltedAnswer:
+    decision = tilted_exact.decide(pair.lengths)
+    clearance = measured_clearance(pair, decision)
+    certificate = tilted_prove.prove(pair, decision)
+    if certificate.position is not decision.position or not tilted_certificate.check_certificate(pair, certificate):
+        raise _unproved(pair)
+    return TiltedAnswer(pair, decision, clearance, certificate)
+
+
+def _unproved(pair: Pair | TiltedPair) -> DisagreementError:
+    return DisagreementError(f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck")
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,22 +147,23 @@ class PairSquares:
         return self.B + self.P + self.Q - self.A - 1 - 2 * double
 
 
-def height_of_point(pair: Pair, point: Point) -> Fraction:
+def height_of_point(pair: Pair | TiltedPair, point: Point) -> Fraction:
     """h = (x²+y²)/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
     u, v, w = point
     alpha, gamma = Fraction(pair.alpha), Fraction(pair.gamma)
     return (u * u + v * v) / (alpha * alpha) - (w / gamma) ** 2 - 1
 
 
-def reach_of_point(pair: Pair, point: Point) -> Fraction:
+def reach_of_point(pair: Pair | TiltedPair, point: Point) -> Fraction:
     """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
-    u, v, w = (
-        coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)
-    )
-    return (u * u + v * v) / Fraction(pair.b) ** 2 + (w / Fraction(pair.d)) ** 2
+    way = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
+    axis = [Fraction(each) for each in (pair.axis if isinstance(pair, TiltedPair) else UPRIGHT)]
+    square = sum((each * each for each in way), Fraction(0))
+    along = sum((a * b for a, b in zip(way, axis, strict=True)), Fraction(0)) ** 2 / sum(each * each for each in axis)
+    return (square - along) / Fraction(pair.b) ** 2 + along / Fraction(pair.d) ** 2
 
 
-def answer_as_json(answer: Answer) -> str:
+def answer_as_json(answer: Answer | TiltedAnswer) -> str:
     """The answer as one JSON object on one line, rationals as strings such as "3/2", an infinite clearance as "inf"."""
     decision = answer.decision
     return json.dumps(
@@ -124,14 +172,16 @@ def answer_as_json(answer: Answer) -> str:
             "label": decision.position.label,
             "tangent": decision.tangent,
             "clearance": answer.clearance if answer.clearance != float("inf") else "inf",
-            "kind": decision.kind.value,
+            "kind": answer.decision.kind.value if isinstance(answer, Answer) else None,
             "proof": proof_as_json(answer.pair, answer.certificate),
         }
     )
 
 
-def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
+def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate | TiltedCertificate) -> dict[str, Any]:
     """A certificate about a pair, and the numbers that check it, as values for JSON."""
+    if isinstance(pair, TiltedPair):
+        return _tilted_proof_as_json(pair, certificate)
     squares = PairSquares.of(pair)
     if certificate.multiplier is not None:
         outside = certificate.position is Position.EXTERIOR
@@ -149,10 +199,48 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
             "third_root": exact_text(squares.third_root(certificate.double_root)),
             **_squares_as_json(squares),
         }
-    return {"by": "points", "points": [_point_as_json(pair, point) for point in certificate.points]}
+    return _points_as_json(pair, certificate.points)
 
 
-def _point_as_json(pair: Pair, point: Point) -> dict[str, str]:
+def _tilted_proof_as_json(pair: TiltedPair, certificate: Certificate | TiltedCertificate) -> dict[str, Any]:
+    """The same where the axis leans: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
+    if certificate.multiplier is not None:
+        pivots = _pivots(pair, certificate.multiplier, 4)
+        return {
+            "by": "multiplier",
+            "lambda": exact_text(certificate.multiplier),
+            "pivots": list(map(exact_text, pivots)),
+        }
+    if certificate.double_root is not None:
+        m = certificate.double_root
+        return {
+            "by": "double root",
+            "m": exact_text(m),
+            "f": [exact_text(each) for each in _quartic(pair)],
+            "pivots": list(map(exact_text, _pivots(pair, m, 3))),
+        }
+    return _points_as_json(pair, certificate.points)
+
+
+def _pivots(pair: TiltedPair, at: Fraction, size: int) -> list[Fraction]:
+    """The pivots of the first rows and columns of S + λH."""
+    S, H = tilted_certificate.matrices(pair)
+    both = [[a + at * b for a, b in zip(*rows, strict=True)][:size] for rows in zip(S, H, strict=True)][:size]
+    return tilted_certificate.pivots(both)
+
+
+def _quartic(pair: TiltedPair) -> list[Fraction]:
+    """f(λ) = det(S + λH) over det S, the lowest power first: the whole numbers of truth/tilted/exact.py, so scaled."""
+    F = tilted_exact.quartic(pair.lengths)
+    lowest_first = [each * F.side**power for power, each in enumerate(reversed(F.coefficients))]
+    return [Fraction(each, -F.f0) for each in lowest_first]
+
+
+def _points_as_json(pair: Pair | TiltedPair, points: tuple[Point, ...]) -> dict[str, Any]:
+    return {"by": "points", "points": [_point_as_json(pair, point) for point in points]}
+
+
+def _point_as_json(pair: Pair | TiltedPair, point: Point) -> dict[str, str]:
     named = dict(zip(("x", "y", "z"), map(exact_text, point), strict=True))
     return named | {"h": exact_text(height_of_point(pair, point)), "s": exact_text(reach_of_point(pair, point))}
 
@@ -161,7 +249,7 @@ def _squares_as_json(squares: PairSquares) -> dict[str, str]:
     return {name: exact_text(getattr(squares, name)) for name in "ABPQ"}
 
 
-def answer_as_text(answer: Answer) -> str:
+def answer_as_text(answer: Answer | TiltedAnswer) -> str:
     """The answer as lines of text, without an end of line after the last: position, clearance, kind, proof."""
     decision, clearance = answer.decision, answer.clearance
     radii = f"{repr(clearance).removesuffix('.0')} spheroid {'radius' if clearance == 1 else 'radii'}"
@@ -169,7 +257,7 @@ def answer_as_text(answer: Answer) -> str:
     lines = [
         decision.position.label + ", tangent" * decision.tangent,
         f"clearance  {radii} ({_meaning(clearance)})",
-        f"kind       {kind_as_text(decision.kind)}",
+        *([f"kind       {kind_as_text(answer.decision.kind)}"] if isinstance(answer, Answer) else []),
         f"proof      {proof[0]}",
         *(f"{'':11}{line}" for line in proof[1:]),
     ]
@@ -189,17 +277,61 @@ def kind_as_text(kind: Kind) -> str:
     return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
 
 
-def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
+def proof_lines(pair: Pair | TiltedPair, certificate: Certificate | TiltedCertificate) -> list[str]:
     """A certificate about a pair as lines of text, and how to check it by hand."""
+    if isinstance(pair, TiltedPair):
+        return _tilted_proof_lines(pair, certificate)
     if certificate.multiplier is not None:
         lines = _by_multiplier(pair, certificate.position, certificate.multiplier)
     elif certificate.double_root is not None:
         lines = _by_double_root(pair, certificate.double_root)
     else:
-        lines = _by_points(pair, certificate.points)
-    if any("≈" in line for line in lines):
-        lines.append("≈ marks a rounded number; --json gives all of them exactly.")
-    return lines
+        lines = [*_by_points(pair, certificate.points), f"{_HEIGHT}, s = ((x−x₀)²+(y−y₀)²)/b² + (z−z₀)²/d², {_CENTER}."]
+    return _with_note(lines)
+
+
+_HEIGHT = "where h = (x²+y²)/α² − z²/γ² − 1"
+_CENTER = "centre (x₀, y₀, z₀)"
+
+
+def _with_note(lines: list[str]) -> list[str]:
+    rounded = any("≈" in line for line in lines)
+    return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
+
+
+def _tilted_proof_lines(pair: TiltedPair, certificate: Certificate | TiltedCertificate) -> list[str]:
+    matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
+    if certificate.multiplier is not None:
+        at, side = certificate.multiplier, "above" if certificate.multiplier > 0 else "below"
+        return _with_note(
+            [
+                f"λ {equals_text(at)} is {side} 0, and S + λH is positive definite;",
+                f"any such λ proves {certificate.position.label}. By hand, elimination leaves pivots above 0:",
+                ", ".join(map(readable_text, _pivots(pair, at, 4))),
+                "where S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1,",
+                f"{matrix}.",
+            ]
+        )
+    if certificate.double_root is not None:
+        m, pivots = certificate.double_root, _pivots(pair, certificate.double_root, 3)
+        at_pole = "" if all(pivots) else " and f″(m) ≤ 0"
+        return _with_note(
+            [
+                f"m {equals_text(m)} is a double root of f, and M + mD has pivots that are not below 0:",
+                ", ".join(map(readable_text, pivots)),
+                f"this proves that the surfaces touch. By hand, f(m) = f′(m) = 0{at_pole}, where up to a factor",
+                f"f(t) = det(S + tH) = {_polynomial(_quartic(pair))},",
+                "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1, D = diag(1/α², 1/α², −1/γ²),",
+                f"{matrix}.",
+            ]
+        )
+    by_hand = f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix}."
+    return _with_note([*_by_points(pair, certificate.points), by_hand])
+
+
+def _polynomial(coefficients: list[Fraction]) -> str:
+    powers = ("", "·t", "·t²", "·t³", "·t⁴")
+    return " + ".join(f"({readable_text(each)}){power}" for each, power in zip(coefficients, powers, strict=True))
 
 
 def _by_multiplier(pair: Pair, position: Position, at: Fraction) -> list[str]:
@@ -231,7 +363,7 @@ def _definitions(squares: PairSquares) -> list[str]:
     ]
 
 
-def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
+def _by_points(pair: Pair | TiltedPair, points: tuple[Point, ...]) -> list[str]:
     on_hyperboloid = [point for point in points if height_of_point(pair, point) == 0][:1]
     if on_hyperboloid:
         lines = ["a point of the spheroid (s ≤ 1) lies on the hyperboloid (h = 0):"]
@@ -243,5 +375,4 @@ def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
     for point in on_hyperboloid or points:
         h, s = height_of_point(pair, point), reach_of_point(pair, point)
         lines.append(f"({', '.join(map(readable_text, point))}) has s {equals_text(s)} and h {equals_text(h)},")
-    lines.append("where h = (x²+y²)/α² − z²/γ² − 1, s = ((x−x₀)²+(y−y₀)²)/b² + (z−z₀)²/d², centre (x₀, y₀, z₀).")
     return lines

@@ -12,10 +12,10 @@ from functools import partial
 
 import numpy as np
 
-from hypcheck.answer import require_agreement
+from hypcheck.answer import measured_clearance, require_agreement
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import REFUSED, Pair
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
+from hypcheck.geometry.rows import Rows, require_valid
 from hypcheck.processes import in_order, usable_processors
 from hypcheck.tables.chunk import TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
@@ -23,13 +23,17 @@ from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, reading, same_file, writing
 from hypcheck.truth import exact, float_filter, nearest
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedPair
 
 
 def answers(rows: Rows) -> TableAnswers:
-    """Position, tangency and clearance of every row (n, 7); float64 (n, 7) in, (n,) each out.
+    """Position, tangency and clearance of every row; float64 (n, 7) or (n, 10) in, (n,) each out.
 
     Raises InputError about the first invalid row, DisagreementError if two oracles disagree about a row.
     """
+    if rows.shape[1] == len(TILTED_COLUMNS):
+        return _answers_of_ten(rows)
     measured = nearest.clearances(rows)
     # The filter never proves a tangency: λ proves a gap, and two points of the spheroid strictly on either side of the
     # hyperboloid prove that it passes through the spheroid's inside.
@@ -46,6 +50,24 @@ def answers(rows: Rows) -> TableAnswers:
             (int(measured.position[index]), float(measured.clearance[index])),
         )
     return TableAnswers(positions, tangent, measured.clearance)
+
+
+def _answers_of_ten(rows: Rows) -> TableAnswers:
+    """Those of rows with an axis: upright ones together, the others pair by pair."""
+    require_valid(rows)
+    count = len(rows)
+    found = TableAnswers(np.empty(count, dtype=np.int8), np.zeros(count, dtype=np.bool_), np.empty(count))
+    leans = (rows[:, 7:9] != 0).any(axis=1) & (rows[:, 2] != rows[:, 3])
+    if not leans.all():
+        upright = answers(rows[~leans][:, : len(COLUMNS)])
+        found.positions[~leans], found.tangent[~leans] = upright.positions, upright.tangent
+        found.clearance[~leans] = upright.clearance
+    for index in np.flatnonzero(leans).tolist():
+        pair = TiltedPair.from_row(rows[index].tolist())
+        decision = tilted_exact.decide(pair.lengths)
+        found.positions[index], found.tangent[index] = decision.position, decision.tangent
+        found.clearance[index] = measured_clearance(pair, decision)
+    return found
 
 
 _READ = {"csv": read_csv, "jsonl": read_jsonl, "npy": read_npy}

@@ -9,9 +9,10 @@ import click
 
 from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import CENTER, SIZES, Pair
+from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, SIZES, Pair
 from hypcheck.tables.numbers import number_of_text
 from hypcheck.tables.streams import FORMATS, route
+from hypcheck.truth.tilted.pair import TiltedPair
 
 _HELP = """Say where a spheroid stands to a hyperboloid: exterior, contact (tangency included) or interior.
 
@@ -21,11 +22,13 @@ its centre, would just touch the hyperboloid.
 
 \b
 One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0
+Leaning:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 0.5 --center 2.5 0 0 --axis 1 0 2
 A table:   hypcheck classify --input pairs.csv --output answers.csv
 
-A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order; all others are passed through, and position
-(+1, 0, -1), label, tangent and clearance are added. A .npy file is float64 (n, 7), and int8 (n,) as output. A file
-appears when it is complete, or not at all; standard output is written as the rows come.
+A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
+lean; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. A .npy file is
+float64 (n, 7) or (n, 10), and int8 (n,) as output. A file appears when it is complete, or not at all; standard output
+is written as the rows come.
 """
 
 
@@ -33,8 +36,9 @@ appears when it is complete, or not at all; standard output is written as the ro
 @click.option("--alpha", metavar="NUMBER", help="Radius of the hyperboloid's waist.")
 @click.option("--gamma", metavar="NUMBER", help="Its semi-axis along z.")
 @click.option("--b", metavar="NUMBER", help="Radius of the spheroid's equator.")
-@click.option("--d", metavar="NUMBER", help="Its semi-axis along z.")
+@click.option("--d", metavar="NUMBER", help="Its semi-axis along its axis, which is z's direction without --axis.")
 @click.option("--center", nargs=3, metavar="X Y Z", help="Centre of the spheroid; the hyperboloid's is the origin.")
+@click.option("--axis", nargs=3, metavar="X Y Z", help="The spheroid's axis, of any length; without it, upright.")
 @click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
 @click.option(
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
@@ -54,6 +58,7 @@ def classify(
     b: str | None,
     d: str | None,
     center: tuple[str, str, str] | None,
+    axis: tuple[str, str, str] | None,
     as_json: bool,
     source: str | None,
     target: str | None,
@@ -62,18 +67,17 @@ def classify(
 ) -> None:
     """Answer about one pair, or about a table if --input names one."""
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
+    vectors = {"--center": center is not None, "--axis": axis is not None}
     for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
     for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
     if source is not None:
-        _refuse(
-            for_a_pair | {"--center": center is not None}, "is for one pair, and --input for a table; use one of them"
-        )
+        _refuse(for_a_pair | vectors, "is for one pair, and --input for a table; use one of them")
         _answer_table(source, target, said, mark=on_invalid == "flag")
         return
     _refuse(for_a_table, "is for tables; name one with --input")
     from hypcheck.answer import answer, answer_as_json, answer_as_text
 
-    found = answer(_pair_of(sizes, center))
+    found = answer(_pair_of(sizes, center, axis))
     click.echo(answer_as_json(found) if as_json else answer_as_text(found))
 
 
@@ -98,16 +102,24 @@ def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
         yield pace.advance
 
 
-def _pair_of(sizes: dict[str, str | None], center: tuple[str, str, str] | None) -> Pair:
+def _pair_of(
+    sizes: dict[str, str | None], center: tuple[str, str, str] | None, axis: tuple[str, str, str] | None
+) -> Pair | TiltedPair:
     """The pair that these texts write. Raises InputError naming what is missing or no valid number."""
     missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
-    if len(missing) == len(sizes) + 1:
+    if len(missing) == len(sizes) + 1 and axis is None:
         raise InputError("nothing to classify; give --alpha --gamma --b --d --center X Y Z, or --input and --output")
     if missing:
         verb = "is" if len(missing) == 1 else "are"
         raise InputError(f"{', '.join(missing)} {verb} missing; a pair needs --alpha --gamma --b --d --center X Y Z")
     numbers = [_number("--", name, text or "") for name, text in sizes.items()]
-    return Pair.from_row(numbers + [_number("--center: ", *named) for named in zip(CENTER, center or (), strict=True)])
+    numbers += [_number("--center: ", *named) for named in zip(CENTER, center or (), strict=True)]
+    if axis is None:
+        return Pair.from_row(numbers)
+    direction = [_number("--axis: ", *named) for named in zip(AXIS, axis, strict=True)]
+    if not any(direction):
+        raise InputError(f"--axis: {NO_DIRECTION}")
+    return TiltedPair.from_row(numbers + direction)
 
 
 def _number(begin: str, name: str, text: str) -> float:

@@ -24,6 +24,9 @@ AXIS = ("axis_x", "axis_y", "axis_z")
 TILTED_COLUMNS = COLUMNS + AXIS
 """The names of the ten numbers of a tilted spheroid beside a hyperboloid."""
 
+UPRIGHT = (0.0, 0.0, 1.0)
+"""The axis of an upright spheroid, where rows have ten numbers."""
+
 NO_DIRECTION = "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
 RADIAL = ("alpha", "b", "x", "y")
 AXIAL = ("gamma", "d", "z")

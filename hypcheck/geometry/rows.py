@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, Sizes, trouble_with_row
+from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, UPRIGHT, Sizes, trouble_with_row
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -109,10 +109,6 @@ def invalid(rows: Rows) -> Mask:
     if rows.shape[1] == len(TILTED_COLUMNS):
         valid &= (rows[:, len(COLUMNS) :] != 0).any(axis=1)
     return np.asarray(~valid)
-
-
-UPRIGHT = (0.0, 0.0, 1.0)
-"""The axis of an upright spheroid, where rows have ten numbers."""
 
 
 def with_axis(rows: Rows) -> Rows:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, REFUSED, Position
+from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS, UPRIGHT, Position, trouble_with_row
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.tables.numbers import shown
 
@@ -27,7 +27,7 @@ _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "
 
 
 def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
-    """Raise InputError, beginning with `where`, unless each of the seven columns is there once, and no added one.
+    """Raise InputError, beginning with `where`, unless each column is there once (columns_of), and no added one.
 
     Other names are allowed and passed through; none but the empty one may stand twice.
     """
@@ -37,11 +37,16 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
     for name in ADDED:
         if name in names:
             raise InputError(f"{where}: {noun} {name!r} is there already and would be added; rename or remove it")
-    missing = [name for name in COLUMNS if name not in names]
+    missing = [name for name in columns_of(names) if name not in names]
     if missing:
         nouns = noun if len(missing) == 1 else f"{noun}s"
         verb = "is" if len(missing) == 1 else "are"
         raise InputError(f"{where}: {nouns} {', '.join(missing)} {verb} missing; {_advice(names, missing)}")
+
+
+def columns_of(names: Iterable[str]) -> tuple[str, ...]:
+    """The columns that a table of these names must have: ten if an axis is among them, else seven."""
+    return TILTED_COLUMNS if any(name.casefold() in AXIS for name in names) else COLUMNS
 
 
 def first_double(names: Sequence[str]) -> str | None:
@@ -54,7 +59,7 @@ def first_double(names: Sequence[str]) -> str | None:
 
 def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
     """What would be right: the nearest name, if one is near."""
-    others = [name for name in names if name not in COLUMNS][:_MOST_COMPARED]
+    others = [name for name in names if name not in TILTED_COLUMNS][:_MOST_COMPARED]
     for wanted in missing:
         for name in others:
             if _ALSO_CALLED.get(name.casefold(), name.casefold()) == wanted:
@@ -64,6 +69,8 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
             return f"{shown(near[0])} must be written {wanted}, if that is what it means"
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         return "columns are separated by commas"
+    if set(missing) <= set(AXIS):
+        return f"an axis needs {', '.join(AXIS)}, in any order"
     return f"it needs {', '.join(COLUMNS)}, in any order"
 
 
@@ -77,7 +84,7 @@ LABELS = {int(position): position.label for position in Position} | {REFUSED: "r
 class TableChunk:
     """Some rows of a table.
 
-    rows: float64 (n, 7); the numbers of a refused row mean nothing.
+    rows: float64 (n, 7), or (n, 10) where a row has an axis; the numbers of a refused row mean nothing.
     refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
     texts: the text of each row without its line end; None if the table is no text.
     """
@@ -93,11 +100,12 @@ UnreadChunk: TypeAlias = Callable[[], TableChunk]
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table to be read: its chunks, and for CSV its header and the end of its lines."""
+    """A table to be read: its chunks, for CSV its header and the end of its lines, and for an array its columns."""
 
     chunks: Iterator[UnreadChunk]
     header: str | None = None
     line_end: str = "\n"
+    columns: tuple[str, ...] = COLUMNS
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,20 +157,32 @@ def read_values(
     *,
     mark: bool,
 ) -> tuple[Rows, NDArray[np.bool_]]:
-    """The rows (n, 7) of these values, and which of them are refused, (n,).
+    """The rows of these values, seven or ten each, and which of them are refused, (n,).
 
-    `number_of(column, value)` raises ValueError with the end of a sentence about a value that is wrong. Without `mark`
-    the first such row raises InputError; with it the row is refused, and NaN stands in it.
+    Where one has ten, the rows are (n, 10), and those of seven upright. `number_of(column, value)` raises ValueError
+    with the end of a sentence about a value that is wrong. Without `mark` the first such row raises InputError; with it
+    the row is refused, and NaN stands in it.
     """
     rows: list[list[float]] = []
     refused: list[bool] = []
     for index, row in enumerate(values):
         try:
-            rows.append([number_of(name, value) for name, value in zip(COLUMNS, row, strict=True)])
+            rows.append(_numbers(row, number_of))
             refused.append(False)
         except ValueError as trouble:  # noqa: PERF203 - each row has its own
             if not mark:
                 raise InputError(f"{places.of(index)}: {trouble}") from None
-            rows.append([math.nan] * len(COLUMNS))
+            rows.append([math.nan] * len(row))
             refused.append(True)
-    return np.array(rows, dtype=np.float64).reshape(len(rows), len(COLUMNS)), np.array(refused, dtype=np.bool_)
+    width = max(map(len, rows), default=len(COLUMNS))
+    wide = [row if len(row) == width else [*row, *UPRIGHT] for row in rows]
+    return np.array(wide, dtype=np.float64).reshape(len(wide), width), np.array(refused, dtype=np.bool_)
+
+
+def _numbers(values: Sequence[Value], number_of: Callable[[str, Value], float]) -> list[float]:
+    """The row of seven or ten values. Raises ValueError as `number_of`."""
+    row = [number_of(name, value) for name, value in zip(TILTED_COLUMNS, values, strict=False)]
+    trouble = trouble_with_row(row)
+    if trouble is not None:
+        raise ValueError(trouble)
+    return row

@@ -30,6 +30,7 @@ from hypcheck.tables.chunk import (
     TableChunk,
     UnreadChunk,
     check_names,
+    columns_of,
     read_values,
 )
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text
@@ -113,15 +114,15 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
     check_names(names, where)
     text = records.text
     line_end = "\r\n" if text.endswith("\r\n") else "\n"
-    chunks = _chunks(records, len(names), [names.index(column) for column in COLUMNS], mark=mark)
+    chunks = _chunks(records, len(names), [names.index(column) for column in columns_of(names)], mark=mark)
     return Table(chunks, records.byte_order_mark + text.rstrip("\r\n"), line_end)
 
 
 @contextmanager
 def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
-    """Rows with four cells more: a row's own text where the table has text, else its seven numbers."""
+    """Rows with four cells more: a row's own text where the table has text, else its numbers."""
     end = table.line_end
-    header = table.header if table.header is not None else ",".join(COLUMNS)
+    header = table.header if table.header is not None else ",".join(table.columns)
     writer.write(f"{header},{','.join(ADDED)}{end}".encode())
     yield Sink(partial(_render, end), writer.write)
 
@@ -209,5 +210,5 @@ def _rows_if_valid(cells: Sequence[tuple[str, ...]]) -> Rows | None:
         numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
     except ValueError:
         return None
-    rows = numbers.reshape(len(cells), len(COLUMNS))
+    rows = numbers.reshape(len(cells), len(cells[0]) if cells else len(COLUMNS))
     return None if invalid(rows).any() else rows

@@ -17,7 +17,7 @@ from operator import itemgetter
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import COLUMNS, REFUSED
+from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows, invalid
 from hypcheck.tables.chunk import (
     ADDED,
@@ -30,6 +30,7 @@ from hypcheck.tables.chunk import (
     TableChunk,
     UnreadChunk,
     check_names,
+    columns_of,
     read_values,
 )
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
@@ -48,7 +49,7 @@ def read_jsonl(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Objects with four keys more: a row's own object where the table has text, else one of its seven numbers."""
+    """Objects with four keys more: a row's own object where the table has text, else one of its numbers."""
     yield Sink(_render, writer.write)
 
 
@@ -74,14 +75,15 @@ _REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangen
 
 
 def _object(row: list[float]) -> str:
-    """The object of seven numbers; null stands for a number that JSON does not have (in a refused row)."""
-    return json.dumps({name: value if isfinite(value) else None for name, value in zip(COLUMNS, row, strict=True)})
+    """The object of seven or ten numbers; null stands for a number that JSON does not have (in a refused row)."""
+    named = zip(TILTED_COLUMNS, row, strict=False)
+    return json.dumps({name: value if isfinite(value) else None for name, value in named})
 
 
 _DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
-_PICK = itemgetter(*COLUMNS)
+_PICK, _PICK_TILTED = itemgetter(*COLUMNS), itemgetter(*TILTED_COLUMNS)
 _BLANKS = " \t\r\n"
-_CLEAR_OF_ADDED = frozenset(ADDED).isdisjoint
+_CLEAR_OF_ADDED, _CLEAR_OF_AXIS = frozenset(ADDED).isdisjoint, frozenset(AXIS).isdisjoint
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
@@ -122,21 +124,24 @@ def _chunk(texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
 
 
 def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
-    """The rows if all of them are valid, else None."""
+    """The rows if all of them are valid and all, or none, have an axis; else None."""
     try:
         objects = list(map(_DECODER.decode, texts))
-        flat = list(chain.from_iterable(map(_PICK, objects)))
+        upright = all(map(_CLEAR_OF_AXIS, objects))
+        if upright and "axis_" in "".join(texts).casefold() and set(map(columns_of, objects)) != {COLUMNS}:
+            return None  # a key such as Axis_x
+        flat = list(chain.from_iterable(map(_PICK if upright else _PICK_TILTED, objects)))
         if not (set(map(type, flat)) <= {float, int} and all(map(_CLEAR_OF_ADDED, objects))):
             return None
         numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
     except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
         return None
-    rows = numbers.reshape(len(texts), len(COLUMNS))
+    rows = numbers.reshape(len(texts), len(COLUMNS if upright else TILTED_COLUMNS))
     return None if invalid(rows).any() else rows
 
 
 def _values(text: str, where: str) -> tuple[object, ...]:
-    """The seven values of a line, numbers as Literal or int. Raises InputError if it is no object that has them."""
+    """The seven or ten values of a line, numbers as Literal or int. Raises InputError if it is no object with them."""
     try:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:
@@ -149,4 +154,4 @@ def _values(text: str, where: str) -> tuple[object, ...]:
     if not isinstance(row, dict):
         raise InputError(f"{where}: {shown_json(row)} is not an object; it must be one, with {', '.join(COLUMNS)}")
     check_names(list(row), where, noun="key")
-    return tuple(row[name] for name in COLUMNS)
+    return tuple(row[name] for name in columns_of(row))

@@ -1,4 +1,4 @@
-"""numpy's .npy files: float64 (n, 7) in, int8 (n,) out, read in blocks and never unpickled.
+"""numpy's .npy files: float64 (n, 7) or (n, 10) in, int8 (n,) out, read in blocks and never unpickled.
 
 Files are not mapped into memory: if another process shortens a mapped file, the next access ends this process with
 SIGBUS, and a pipe cannot be mapped.
@@ -18,13 +18,13 @@ import numpy as np
 from numpy.lib import format as npy
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import AXIS, COLUMNS, TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows, first_trouble, invalid
 from hypcheck.messages import counted
 from hypcheck.tables.chunk import CHUNK, Sink, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.streams import Reader, Writer
 
-WIDTH = len(COLUMNS)
+_SHAPES = f"(n, {len(COLUMNS)}): {', '.join(COLUMNS)}, or (n, {len(TILTED_COLUMNS)}): {', '.join(AXIS)} besides"
 _COPIED_AT_ONCE = 1 << 20
 _TOO_LONG = 1 << 63
 
@@ -34,7 +34,8 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 
     With `mark` a row that is no valid query is marked as refused.
     """
-    return Table(_chunks(reader, _layout(reader), mark=mark))
+    layout = _layout(reader)
+    return Table(_chunks(reader, layout, mark=mark), columns=TILTED_COLUMNS[: layout.width])
 
 
 @contextmanager
@@ -64,23 +65,24 @@ def _render(_chunk: TableChunk, answers: TableAnswers) -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class _NpyLayout:
-    """What a header says: the number of rows, their byte order, whether by columns, and where they begin."""
+    """What a header says: how many rows and columns, their byte order, whether by columns, and where they begin."""
 
     count: int
+    width: int
     type: np.dtype[np.float64]
     by_columns: bool
     begin: int
 
 
 def _layout(reader: Reader) -> _NpyLayout:
-    """The layout of a .npy file. Raises InputError unless it holds float64 (n, 7), and all of it."""
+    """The layout of a .npy file. Raises InputError unless it holds float64 (n, 7) or (n, 10), and all of it."""
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
     if max(map(abs, shape), default=0) >= _TOO_LONG:  # which could have more digits than Python writes
-        raise InputError(f"{reader.name} has a shape beyond 2^63; it must be (n, 7): {', '.join(COLUMNS)}")
-    if len(shape) != 2 or shape[1] != WIDTH or shape[0] < 0:
-        raise InputError(f"{reader.name} has shape {shape}; it must be (n, 7): {', '.join(COLUMNS)}")
+        raise InputError(f"{reader.name} has a shape beyond 2^63; it must be {_SHAPES}")
+    if len(shape) != 2 or shape[1] not in (len(COLUMNS), len(TILTED_COLUMNS)) or shape[0] < 0:
+        raise InputError(f"{reader.name} has shape {shape}; it must be {_SHAPES}")
     if shape[0] == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
     size = reader.size()
@@ -88,8 +90,8 @@ def _layout(reader: Reader) -> _NpyLayout:
         if by_columns:
             raise InputError(f"{reader.name} is stored by columns, which a stream cannot be read in; use a file")
     else:
-        _require_length(reader.name, size - reader.taken, shape[0])
-    return _NpyLayout(shape[0], cast("np.dtype[np.float64]", stored), by_columns, reader.taken)
+        _require_length(reader.name, size - reader.taken, shape[0], shape[1])
+    return _NpyLayout(shape[0], shape[1], cast("np.dtype[np.float64]", stored), by_columns, reader.taken)
 
 
 _HEADER_READERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
@@ -114,11 +116,11 @@ def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
 
 
-def _require_length(name: str, size: int, count: int) -> None:
-    """Raise InputError unless `size` bytes are `count` rows."""
-    needed = count * WIDTH * 8
+def _require_length(name: str, size: int, count: int, width: int) -> None:
+    """Raise InputError unless `size` bytes are `count` rows of `width` numbers."""
+    needed = count * width * 8
     if size < needed:
-        raise _cut_off(name, count, size // (WIDTH * 8))
+        raise _cut_off(name, count, size // (width * 8))
     if size > needed:
         more = f"for {counted(size - needed, 'byte')} after its {counted(count, 'row')}"
         raise InputError(f"{name} goes on {more}; it must hold one array")
@@ -146,13 +148,14 @@ def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> TableChunk:
 
 def _rows(reader: Reader, layout: _NpyLayout, start: int, count: int) -> Rows:
     """Rows `start` to `start + count`. Raises InputError if they end too early."""
+    width = layout.width
     if layout.by_columns:
-        places = [layout.begin + 8 * (column * layout.count + start) for column in range(WIDTH)]
+        places = [layout.begin + 8 * (column * layout.count + start) for column in range(width)]
         data = b"".join(reader.read_at(place, 8 * count) for place in places)
     else:
-        data = reader.read(8 * WIDTH * count)
-    if len(data) != 8 * WIDTH * count:
-        raise _cut_off(reader.name, layout.count, start + len(data) // (8 * WIDTH))
+        data = reader.read(8 * width * count)
+    if len(data) != 8 * width * count:
+        raise _cut_off(reader.name, layout.count, start + len(data) // (8 * width))
     values = np.frombuffer(data, dtype=layout.type)
-    rows = values.reshape(WIDTH, count).T if layout.by_columns else values.reshape(count, WIDTH)
+    rows = values.reshape(width, count).T if layout.by_columns else values.reshape(count, width)
     return np.ascontiguousarray(rows, dtype=np.float64)

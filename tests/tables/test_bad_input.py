@@ -150,6 +150,9 @@ def saved(array: object, tmp_path: Path) -> bytes:
 ROWS = np.array([[1, 2, 1, 1, 2.5, 0, 0]] * 9_000)
 
 
+SHAPES = "(n, 7): alpha, gamma, b, d, x, y, z, or (n, 10): axis_x, axis_y, axis_z besides"
+
+
 @pytest.mark.parametrize(
     ("array", "sentence"),
     [
@@ -158,9 +161,9 @@ ROWS = np.array([[1, 2, 1, 1, 2.5, 0, 0]] * 9_000)
         (ROWS.astype(object), " holds object; it must hold float64"),
         (ROWS.astype("U5"), " holds <U5; it must hold float64"),
         (ROWS.astype(complex), " holds complex128; it must hold float64"),
-        (ROWS[:, :6], " has shape (9000, 6); it must be (n, 7): alpha, gamma, b, d, x, y, z"),
-        (ROWS[0], " has shape (7,); it must be (n, 7): alpha, gamma, b, d, x, y, z"),
-        (ROWS[None], " has shape (1, 9000, 7); it must be (n, 7): alpha, gamma, b, d, x, y, z"),
+        (ROWS[:, :6], f" has shape (9000, 6); it must be {SHAPES}"),
+        (ROWS[0], f" has shape (7,); it must be {SHAPES}"),
+        (ROWS[None], f" has shape (1, 9000, 7); it must be {SHAPES}"),
         (ROWS[:0], " has no rows; nothing was asked"),
     ],
 )

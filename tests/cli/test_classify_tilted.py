@@ -1,0 +1,174 @@
+"""`hypcheck classify --axis`: the answer about a spheroid that leans, its proof checked from the printed numbers."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.answer import answer, answer_as_json, answer_as_text
+from hypcheck.cli.main import main
+from hypcheck.tables.numbers import exact_text
+from hypcheck.truth.tilted.pair import TiltedPair
+from tests.cli.test_classify import number
+from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
+from tests.tilted_fractions import combined, derivative, exact_position, interpolated, matrices, value
+
+
+def options(row):
+    alpha, gamma, b, d, *others = map(str, row)
+    return [
+        "classify",
+        "--alpha",
+        alpha,
+        "--gamma",
+        gamma,
+        "--b",
+        b,
+        "--d",
+        d,
+        "--center",
+        *others[:3],
+        "--axis",
+        *others[3:],
+    ]
+
+
+# By hand: a spheroid of semi-axes 1, 1, 1/2 lies on its side beside the unit circle, with its short axis along x.
+KNOWN = {
+    (1, 2, 1, 0.5, 2, 0, 0, 3, 0, 0): ("exterior", 1, False, 1.0),
+    (1, 2, 1, 0.5, 1.5, 0, 0, -1, 0, 0): ("contact", 0, True, 0.0),
+    (1, 2, 1, 0.5, 1.25, 0, 0, "1e-320", 0, 0): ("contact", 0, False, -0.5),
+    (1, 2, 1, 0.5, 1, 0, 0, 1, 2, 3): ("contact", 0, False, -1.0),
+    (4, 4, 2, 1, 0, 0, 0, 0, 1, 0): ("interior", -1, False, 1.0),
+    (1, 2, 1, 0.5, 2, 0, 0, 0, 0, "-1e308"): ("contact", 0, True, 0.0),
+}
+
+
+@pytest.mark.parametrize(("row", "known"), KNOWN.items())
+def test_answer_with_an_axis_is_what_a_hand_computes(row, known, capsys):
+    label, position, tangent, clearance = known
+    assert main([*options(row), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["label"], found["position"], found["tangent"], found["clearance"]) == (
+        label,
+        position,
+        tangent,
+        clearance,
+    )
+    assert main(options(row)) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == (f"{label}, tangent" if tangent else label)
+    assert lines[1].startswith(f"clearance  {clearance:g} spheroid radi")
+
+
+def check_printed_proof(row, printed):
+    """Everything that is claimed, from the definitions and the printed strings alone."""
+    S, H = matrices(row)
+    proof = printed["proof"]
+    if proof["by"] == "points":
+        sides = set()
+        for point in proof["points"]:
+            x, y, z, h, s = (number(point[name]) for name in "xyzhs")
+            at = [x, y, z, Fraction(1)]
+            spheroid, hyperboloid = (
+                sum(form[i][j] * at[i] * at[j] for i in range(4) for j in range(4)) for form in (S, H)
+            )
+            assert s == spheroid + 1 <= 1
+            assert h == hyperboloid
+            sides.add((h > 0) - (h < 0))
+        assert 0 in sides or sides == {-1, 1}
+        assert (printed["position"], printed["tangent"]) == (0, False)
+        return
+    at = number(proof["lambda"] if proof["by"] == "multiplier" else proof["m"])
+    rows = [line[: len(proof["pivots"])] for line in combined(S, H, at)]
+    for i, pivot in enumerate(map(number, proof["pivots"])):
+        assert pivot == rows[i][i]
+        assert pivot > 0 or not any(rows[i][i:])
+        for k in range(i + 1, len(proof["pivots"]) if pivot else i):
+            factor = rows[k][i] / pivot
+            rows[k] = [a - factor * b for a, b in zip(rows[k], rows[i], strict=True)]
+    if proof["by"] == "multiplier":
+        assert len(proof["pivots"]) == 4
+        assert "0" not in proof["pivots"]
+        assert at * printed["position"] > 0
+    else:
+        f, expected = list(map(number, proof["f"])), interpolated(S, H)
+        assert f == [each / -expected[0] for each in expected]
+        assert value(f, at) == value(derivative(f), at) == 0 != at
+        assert (printed["position"], printed["tangent"]) == (0, True)
+
+
+TOUCHING = [[4.0, 1.0, 2.0, 1.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0], [1.0, 2.0, 1.0, 0.5, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0]]
+
+
+@pytest.mark.parametrize("row", [*(list(row) for row, _ in RINGS), *TOUCHING, *small_rows(31, 60), *wide_rows(32, 4)])
+def test_every_proof_can_be_checked_from_what_is_printed(row):
+    found = answer(TiltedPair.from_row(row))
+    printed = json.loads(answer_as_json(found))
+    if max(map(abs, row)) < 1e9:
+        assert printed["position"] == exact_position(row)
+    check_printed_proof(row, printed)
+    assert printed["kind"] is None
+    text = answer_as_text(found)
+    assert text.startswith(printed["label"])
+    assert "kind" not in text
+    assert max(map(len, text.splitlines())) < 400
+
+
+@pytest.mark.parametrize("row", [TOUCHING[0], [1.0, 2.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 1.0, 0.0]])
+def test_a_changed_number_in_a_proof_is_noticed(row):
+    proof = json.loads(answer_as_json(answer(TiltedPair.from_row(row))))
+    check_printed_proof(row, proof)
+    for name in ("pivots", "f"):
+        for index in range(len(proof["proof"].get(name, ()))):
+            changed = list(proof["proof"][name])
+            changed[index] = exact_text(number(changed[index]) + 1)
+            with pytest.raises(AssertionError):
+                check_printed_proof(row, proof | {"proof": proof["proof"] | {name: changed}})
+
+
+@pytest.mark.parametrize("axis", [("0", "0", "1"), ("-0", "0", "-5e-324")])
+def test_an_axis_along_z_is_answered_as_without_it(axis, capsys):
+    without = [
+        "classify",
+        "--alpha",
+        "1",
+        "--gamma",
+        "2",
+        "--b",
+        "1",
+        "--d",
+        "0.5",
+        "--center",
+        "2.5",
+        "0",
+        "0",
+        "--json",
+    ]
+    assert main(without) == 0
+    upright = capsys.readouterr().out
+    assert main([*without, "--axis", *axis]) == 0
+    assert capsys.readouterr().out == upright
+
+
+@pytest.mark.parametrize(
+    ("axis", "sentence"),
+    [
+        (("0", "0", "-0"), "--axis: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"),
+        (("1", "inf", "0"), "--axis: axis_y is 'inf'; it must be finite"),
+        (("1", "0", "up"), "--axis: axis_z is 'up'; it must be a decimal number"),
+        (("1e999", "0", "0"), "--axis: axis_x is 1e999, which is too large for float64"),
+    ],
+)
+def test_what_is_no_axis_is_refused_in_one_sentence(axis, sentence, capsys):
+    assert main(options([1, 2, 1, 1, 2.5, 0, 0, *axis])) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_an_axis_is_for_one_pair(capsys):
+    assert main(["classify", "--axis", "1", "0", "0"]) == 2
+    assert "--alpha, --gamma, --b, --d, --center are missing" in capsys.readouterr().err
+    assert main(["classify", "--axis", "1", "0", "0", "--input", "a.csv", "--output", "-"]) == 2
+    assert "--axis is for one pair, and --input for a table" in capsys.readouterr().err
