@@ -98,7 +98,7 @@ def answer(pair: Pair | TiltedPair) -> Answer | TiltedAnswer:
 
 
 def _upright_answer(pair: Pair) -> Answer:
-    from hypcheck.truth.nearest import nearest  # noqa: PLC0415 - loads mpmath
+    from hypcheck.truth.nearest_exact import nearest  # noqa: PLC0415 - loads mpmath
 
     decision = exact.decide(pair.lengths)
     measured = nearest(pair)

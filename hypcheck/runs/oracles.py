@@ -65,7 +65,8 @@ def ask_exact(rows: Rows) -> list[Opinion]:
 
 def ask_nearest(rows: Rows) -> list[Opinion]:
     """The sign of the clearance to the nearest point, in floats with a bound, more digits where that cannot tell."""
-    from hypcheck.truth.nearest import STAGES, positions  # noqa: PLC0415
+    from hypcheck.truth.nearest import positions  # noqa: PLC0415
+    from hypcheck.truth.nearest_exact import STAGES  # noqa: PLC0415
 
     found = positions(np.ascontiguousarray(rows))
     return [

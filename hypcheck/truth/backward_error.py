@@ -1,20 +1,16 @@
-"""The backward error of an answer, exactly, and the distance of many rows to another position.
-
-How far an answer is from being right: the least relative change of the inputs that makes it right.
+"""The backward error of an answer: the least relative change of the inputs that makes it right; of pairs and rows.
 
 The exterior positions are an up-set: a pair stays exterior when α falls, γ grows, b or d falls, |x| or |y| grows, |z|
 falls; the interior ones likewise with α, γ, x, y, z the other way round (docs/mathematics.md, "Monotone in every
 input"). So among all relative changes of at most ε the best for a target is one known corner of the box, and the
 distance is found by bisection on exact decisions: nothing is linearised and nothing is sampled.
 
-How far many rows are from another position: the octave of each by exact decisions of changed float64 rows.
-
-flip.py decides at the corner of the box of relative changes 2^k, which floats do not hold. Here a corner a little
-inside of that box and one a little outside are asked instead: a flip at the inner one is a flip at 2^k, and no flip at
-the outer one is none at 2^k, since flips are monotone in every change (docs/mathematics.md, "Monotone in every input").
-The changes asked for are 2^k (1 ∓ 2⁻⁸); each product is rounded once, by 2⁻⁵³ of itself at most, so that for k ≥ LEAST
-every change comes out on its side of 2^k. What lies between the two, one row in a hundred, and what is nearer than
-2^LEAST, is left to flip.py.
+`distance_exponents` does this for many rows, by exact positions of changed float64 rows. Floats do not hold the corner
+of the box of relative changes 2^k. So a corner a little inside of that box and one a little outside are asked: a flip
+at the inner one is a flip at 2^k, and no flip at the outer one is none at 2^k, since flips are monotone in every
+change. The changes asked for are 2^k (1 ∓ 2⁻⁸); each product is rounded once, by 2⁻⁵³ of itself at most, so that for
+k ≥ LEAST every change comes out on its side of 2^k. What lies between the two, one row in a hundred, and what is nearer
+than 2^LEAST, is left to `backward_error_exponent`.
 """
 
 from __future__ import annotations
@@ -56,12 +52,7 @@ def makes_right(lengths: Lengths, truth: Position, answer: Position, change: Fra
         return exact.position(corner(lengths, change, answer)) is answer
     # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From exterior
     # the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
-    return exact.position(_away(lengths, change, truth)) is not truth
-
-
-def _away(lengths: Lengths, change: Fraction, truth: Position) -> Lengths:
-    """The corner farthest from `truth`: the box's other end, with every change reversed."""
-    return corner(lengths, -change, truth)
+    return exact.position(corner(lengths, -change, truth)) is not truth
 
 
 def backward_error(lengths: Lengths, truth: Decision, answer: Position, digits: int = 4) -> float:
@@ -70,10 +61,10 @@ def backward_error(lengths: Lengths, truth: Decision, answer: Position, digits: 
     0 when the answer is right, or the limit of right answers (`truth` is a tangency from that side); inf when no
     change up to 1 is enough, which only the answer "exterior" for a centre on the axis can be.
     """
-    octave = backward_error_exponent(lengths, truth, answer)
-    if not math.isfinite(octave):
-        return 0.0 if octave < 0 else math.inf
-    low, high = _power_of_two(int(octave)), _power_of_two(int(octave) + 1)
+    exponent = backward_error_exponent(lengths, truth, answer)
+    if not math.isfinite(exponent):
+        return 0.0 if exponent < 0 else math.inf
+    low, high = Fraction(2) ** int(exponent), Fraction(2) ** (int(exponent) + 1)
     for _ in range(math.ceil(digits * math.log2(10))):
         middle = (low + high) / 2
         if makes_right(lengths, truth.position, answer, middle):
@@ -95,7 +86,7 @@ def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position,
 
     def reached(exponent: int) -> bool:
         # At 2^0 the sizes vanish; every flip but the one excluded above happens before.
-        return exponent >= 0 or makes_right(lengths, truth.position, answer, _power_of_two(exponent))
+        return exponent >= 0 or makes_right(lengths, truth.position, answer, Fraction(2) ** exponent)
 
     step, low = 1, min(guess, -1)
     while reached(low):  # terminates: the distance is not 0
@@ -110,10 +101,6 @@ def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position,
     return low
 
 
-def _power_of_two(exponent: int) -> Fraction:
-    return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
-
-
 LEAST = -44
 INNER, OUTER = 1 - 2.0**-8, 1 + 2.0**-8
 SMALLEST, LARGEST = 2.0**-90, 2.0**90
@@ -125,9 +112,9 @@ TOWARD_INTERIOR = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
 
 
 def distance_exponents(rows: Rows, positions: Positions) -> Floats:
-    """floor(log2) of each row's distance to the nearest other position, (n,); NaN where flip.py has to be asked.
+    """floor(log2) of each row's distance to the nearest other position, (n,); NaN where floats cannot tell.
 
-    `positions` are the exact positions of the rows.
+    Such rows are for `backward_error_exponent`. `positions` are the exact positions of the rows.
     """
     lengths = np.abs(rows)
     within = ((lengths >= SMALLEST) & (lengths <= LARGEST) | (lengths == 0)).all(axis=1)

@@ -1,4 +1,4 @@
-"""What proves an answer, and the check of that proof, in rational arithmetic alone.
+"""The proof of an answer, and its check, in rational arithmetic alone.
 
 Three numbers or points are enough (docs/mathematics.md, "A certificate for every answer"):
 
@@ -6,7 +6,7 @@ Three numbers or points are enough (docs/mathematics.md, "A certificate for ever
 - contact: two points of the closed spheroid on opposite sides of the hyperboloid, or one that lies on it;
 - tangency: the double root m of g, in [−A, 0) or (0, B], but not m = B with the simple root below B (the ring).
 
-This module shares no code with what makes certificates: it starts from the seven floats and the definitions.
+This module shares no code with the one that makes certificates: it starts from the seven floats and the definitions.
 """
 
 from __future__ import annotations

@@ -1,6 +1,19 @@
 """Exact positions of many rows: floats with error bounds decide most of them, exact.py decides the rest.
 
-Proofs for many centres beside bodies of one size, each a few products and a comparison in x² + y² and z².
+The filter looks for the parts of a certificate (certificate.py): a λ with g(λ) > 0, or two points of the spheroid on
+opposite sides of the hyperboloid. How the witness was found does not matter; only its check decides, and each check
+compares two sums of positive terms.
+
+Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (1+δ)^k, |δ| ≤ u, with k ≤ 3; P = (x²+y²)/b²
+k ≤ 4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no
+side below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u leaves room to spare. Where a
+difference of such numbers is needed (B − λ, r − 1), it is formed from an operand first moved by the margin to the safe
+side, and one more rounding of the result is in k. The roots r and a√(1+Q/B) are right to 4u and 10u of themselves, so
+that their difference lacks no more than 64u of both. `_safe` keeps every square, quotient and sum away from overflow
+and underflow: with lengths in 2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference
+of such numbers is 0 or at least 2^-504, so that every quotient stays within 2^±960.
+
+Where all rows have the same sizes, lines come first: each costs a few products and a comparison in x² + y² and z².
 
 Clearance. For a fixed λ in (0, B), g(λ) > 0 says P/(A+λ) − Q/(B−λ) > 1 + 1/λ, and for μ in (0, A), g(−μ) > 0 says
 P/(A−μ) − Q/(B+μ) < 1 − 1/μ. With P = (x²+y²)/b² and Q = z²/d² these are the two sides of straight lines in x²+y², z²:
@@ -11,29 +24,14 @@ P/(A−μ) − Q/(B+μ) < 1 − 1/μ. With P = (x²+y²)/b² and Q = z²/d² the
 Contact. The point of the hyperboloid at the centre's own height and azimuth is at the distance ρ from the axis,
 ρ² = α² + (α/γ)² z², and lies inside the spheroid if |√(x²+y²) − ρ| < b.
 
-A, B, K and M are exact rationals here, rounded once. Bound, u = 2⁻⁵³: x² + y² collects 2 factors 1+δ, |δ| ≤ u, and
-K + M z² three, all of positive numbers, and rounding K or M one more; (1+u)^6/(1−u)^6 < 1 + 13u. K and M are moved by
-64u to the safe side. batch.py asks with lengths in 2^±100 or zero: b²A = α², b²λ ≤ αb, d²B = γ², and a difference of
-A or B and a float is 0 or not below 2^-160 of them, so that K and M lie in 2^±600: nothing over- or underflows.
-√(x²+y²) and ρ are right to 4u of themselves; their difference may lack 64u of both, and b another 64u.
+A, B, K and M are exact rationals here, rounded once. Bound: x² + y² collects 2 factors 1+δ, |δ| ≤ u, and K + M z²
+three, all of positive numbers, and rounding K or M one more; (1+u)^6/(1−u)^6 < 1 + 13u. K and M are moved by 64u to the
+safe side. Lengths lie in 2^±100 or are zero: b²A = α², b²λ ≤ αb, d²B = γ², and a difference of A or B and a float is 0
+or not below 2^-160 of them, so that K and M lie in 2^±600: nothing over- or underflows. √(x²+y²) and ρ are right to 4u
+of themselves; their difference may lack 64u of both, and b another 64u.
 
 Any multiplier proves; good ones are double roots of g at a tangency. At height ζ = γ h of the surface that is about
 a/√(1 + h²), exactly so at the waist, where c² > a or, inside, a > 1.
-
-Exact positions of many rows: a witness in floats where one is found, the integers of exact.py otherwise.
-
-The filter looks for what a certificate consists of (certificate.py): a λ with g(λ) > 0, or two points of the spheroid
-on opposite sides of the hyperboloid. How the witness was found does not matter; only its check decides, and each check
-compares two sums of positive terms.
-
-Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (1+δ)^k, |δ| ≤ u, with k ≤ 3; P = (x²+y²)/b²
-k ≤ 4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no
-side below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u leaves room to spare. Where a
-difference of such numbers is needed (B − λ, r − 1), it is formed from an operand first moved by the margin to the safe
-side, and one more rounding of the result is in k. The roots r and a√(1+Q/B) are right to 4u and 10u of themselves, so
-that their difference lacks no more than 64u of both. SAFE keeps every square, quotient and sum away from overflow and
-underflow: with lengths in 2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference of
-such numbers is 0 or at least 2^-504, so that every quotient stays within 2^±960.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The names of everything that can happen between the two surfaces: one Kind per row of the table of root patterns.
+"""Kinds: the names of everything that can happen between the two surfaces, one a row of the table of root patterns.
 
 Pure data, shared by the oracles that say more than a position. The table (docs/mathematics.md, "Root patterns and
 relative position") is after [10], re-derived; its text was not consulted. A = (α/b)², B = (γ/d)², a = √A, c = √B,
@@ -224,6 +224,6 @@ class Kind(Enum):
             "1 curve with a cusp",
             "c² < a",
             "triple above B",
-            "The surfaces cross in one curve that has a cusp: node and isolated point in the moment they come to be.",
+            "The surfaces cross in one curve that has a cusp: the border between a node and an isolated point.",
         ),
     )

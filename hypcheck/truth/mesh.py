@@ -1,19 +1,15 @@
-"""The mesh oracle: FCL and one-sided meshes of the surface that are fine enough by proof (docs/mesh-oracle.md).
-
-The one question asked of FCL (python-fcl): how far is C from a mesh.
-
-The wheel is not built for every platform, so it is imported inside the functions alone.
-
-The mesh oracle: FCL asked about one-sided meshes of the surface, fine enough by proof (docs/mesh-oracle.md).
+"""The mesh oracle: FCL asked about one-sided meshes of the surface, fine enough by proof (docs/mesh-oracle.md).
 
 It says clear, contact or undecided, and never a wrong word: bounds proved without FCL settle the pair, and FCL, asked
-about the very mesh that shows it, must say the same. FCL knows no sides; the side is the exact sign of F(C).
+about the very mesh that shows it, must say the same. The one question to FCL (python-fcl) is how far C is from a mesh.
+FCL knows no sides; the side is the exact sign of F(C).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,10 +25,17 @@ Triangles = NDArray[np.int64]
 _HALVES_OF_A_SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 
 
+def _fcl() -> Any:  # noqa: ANN401 - the wheel has no types
+    """The module of python-fcl. Raises ImportError where it is not installed: it has no wheel for some platforms."""
+    import fcl  # noqa: PLC0415
+
+    return fcl
+
+
 def availability() -> str | None:
     """None where FCL can be imported, else the sentence that says why not."""
     try:
-        import fcl  # noqa: F401, PLC0415
+        _fcl()
     except ImportError as error:
         return f"python-fcl cannot be imported ({error}); it has no wheels for musl Linux"
     return None
@@ -51,7 +54,7 @@ def ribbon(segments: Sequence[Segment]) -> tuple[Vertices, Triangles]:
     Each becomes a square of two triangles with the segment in its middle, so the point of it nearest to C, which is
     in that plane, is the segment's. Segments without length are left out, as FCL's distance to a triangle without area
     is 0 wherever it lies; one below about 1e-77, whose fourth power underflows, is to FCL without area too. Ends are of
-    the lattice of mesh_window.UNIT, so that none is so short.
+    the lattice of mesh_meridian.UNIT, so that none is so short.
     """
     ends: Floats = np.array(segments, dtype=np.float64).reshape(-1, 4)
     half = np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]) / 2
@@ -68,8 +71,7 @@ def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
     FCL checks nothing: an empty mesh or an index out of range ends the interpreter, and vertices that are not finite
     make every answer about it meaningless. The caller sees to these.
     """
-    import fcl  # noqa: PLC0415
-
+    fcl = _fcl()
     mesh = fcl.BVHModel()
     mesh.beginModel(len(triangles), len(vertices))
     mesh.addSubModel(vertices, triangles)
@@ -81,18 +83,14 @@ def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
 
 def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
     """FCL's distance from the origin to a mesh: inf where it has no triangles, nan where FCL refuses it."""
-    import fcl  # noqa: PLC0415
-
     if not len(triangles):
         return float("inf")
+    fcl = _fcl()
     mesh = mesh_object(vertices, triangles)
     if mesh is None:
         return float("nan")
     point = fcl.CollisionObject(fcl.Sphere(0.0))
     return float(fcl.distance(point, mesh, fcl.DistanceRequest(), fcl.DistanceResult()))
-
-
-__all__ = ["MeshVerdict", "availability", "verdict"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,4 @@
-"""The meridian for the mesh oracle: the part within reach of the spheroid, in cells with proved bounds.
-
-The part of the meridian that can come within reach of the spheroid, in exact integers (docs/mesh-oracle.md).
+"""The meridian for the mesh oracle: the part of it within reach of the spheroid, cut into cells with proved bounds.
 
 Space is scaled by 1/b, 1/b, 1/d (Theorem 1): the spheroid becomes the unit sphere about C, the surface gets the radii
 a = α/b, c = γ/d. By symmetry C is turned to azimuth 0 and lifted to height ζ ≥ 0, and the point of the surface nearest
@@ -9,14 +7,12 @@ to C is then found at azimuth 0 with z ≥ 0. That half branch of a hyperbola, t
     r = a (e + 1/e) / 2,    z = c (e − 1/e) / 2,    e ≥ 1.
 
 It has rational points for rational e, and its tangents at e and f meet in the rational point
-r = a (e f + 1) / (e + f), z = c (e f − 1) / (e + f). Both coordinates grow with e.
+r = a (e f + 1) / (e + f), z = c (e f − 1) / (e + f). Both coordinates grow with e. All this is done in exact integers.
 
-Cells of the meridian, each an arc shut in the triangle of its chord and its two end tangents, and their bounds.
-
-The meridian is convex, so the arc lies in that triangle, its chord on the outer side, its tangents on the inner.
-Corners are held as float64 relative to C, in spheroid radii (docs/mesh-oracle.md).
-
-Cutting the meridian into cells until bounds decide whether the surface comes within one radius of C.
+A cell is an arc of the meridian in the triangle of its chord and its two end tangents. The meridian is convex, so the
+arc lies in that triangle, its chord on the outer side, its tangents on the inner. Corners are held as float64 relative
+to C, in spheroid radii. Cells are cut until their bounds decide whether the surface comes within one radius of C
+(docs/mesh-oracle.md).
 """
 
 from __future__ import annotations

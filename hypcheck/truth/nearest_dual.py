@@ -1,15 +1,13 @@
 """The dual function of the nearest-point problem in integers, and a first approximation to its maximum.
 
-The dual function of the nearest-point problem at rational λ, in integers: nothing here is rounded.
-
 With T = K α² + b² L and Z = K γ² − d² L, λ = L/K lies in (−A, B) if T, Z > 0, and the dual function D and its
-derivative F (docs/mathematics.md, "Nearest point and clearance") are quotients of integers over T Z. D is concave and
-its supremum over (−A, B) is the squared distance from the spheroid's centre to the hyperboloid, in spheroid radii.
+derivative F (docs/mathematics.md, "Nearest point and clearance") are quotients of integers over T Z: nothing is
+rounded. D is concave and its supremum over (−A, B) is the squared distance from the spheroid's centre to the
+hyperboloid, in spheroid radii.
 
-A first approximation to the dual's maximum: nothing depends on it but the time the exact enclosures take.
-
-With p = a r, q = c |z|, W = A + B, τ = A + λ and σ = B − λ = W − τ, F(λ) = 0 reads τ √(1 + (q/σ)²) = p. The left side
-is convex and increasing in τ, so Newton's iteration falls steadily onto the root from any start above it.
+`start` approximates the maximum in floats; only the time of the exact enclosures depends on it. With p = a r,
+q = c |z|, W = A + B, τ = A + λ and σ = B − λ = W − τ, F(λ) = 0 reads τ √(1 + (q/σ)²) = p. The left side is convex and
+increasing in τ, so Newton's iteration falls steadily onto the root from any start above it.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""The nearest point for one pair, by exact enclosures of the squared distance: no rounding decides anything.
+"""The nearest-point oracle for one pair, by exact enclosures of the squared distance: no rounding decides anything.
 
-The dual function D is evaluated at rational λ in integers (nearest_dual). Where its derivative F is ≥ 0 at λ₁ and ≤ 0
-at λ₂ ≥ λ₁ its supremum, the squared distance, is at least D(λ₁) and, D being concave, at most D(λ₁) + F(λ₁)(λ₂ − λ₁).
-The precision of λ doubles until that interval leaves one float64 to round to. An interval never tells a tangency from
-its neighbourhood: the exact test of nearest_dual does. Where a tie of the rounding might be hidden in the interval, it
-is taken for one once the interval is narrower than 2⁻²⁵⁶ of the clearance.
+The dual function D is evaluated at rational λ in integers (nearest_dual.py). Where its derivative F is ≥ 0 at λ₁ and
+≤ 0 at λ₂ ≥ λ₁ its supremum, the squared distance, is at least D(λ₁) and, D being concave, at most
+D(λ₁) + F(λ₁)(λ₂ − λ₁). The precision of λ doubles until that interval leaves one float64 to round to. An interval never
+tells a tangency from its neighbourhood: the exact test of nearest_dual.py does. Where a tie of the rounding might be
+hidden in the interval, it is taken for one once the interval is narrower than 2⁻²⁵⁶ of the clearance.
 """
 
 from __future__ import annotations

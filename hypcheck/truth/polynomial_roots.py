@@ -1,15 +1,11 @@
-"""Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic.
-
-Real roots of integer polynomials, enclosed in rational intervals by exact arithmetic alone.
+"""Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic alone.
 
 A polynomial is a tuple of integers, the highest power first, the first not 0. Nothing here is approximated: signs are
 signs of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection. `prove` checks a finished
 enclosure from its definition (changes of sign, one discriminant) and shares only `value` with the code that found it.
 
-Roots of an integer polynomial between 0 and 1, enclosed exactly.
-
-Descartes' rule first: most polynomials that are asked have no root there, and their coefficients say so. Sturm's
-theorem counts where that rule is not sharp.
+For roots in [0, 1] Descartes' rule comes first: most polynomials that are asked about have no root there, and their
+coefficients show it. Sturm's theorem counts where that rule is not sharp.
 """
 
 from __future__ import annotations
@@ -133,13 +129,9 @@ def _root_bounds(f: Polynomial) -> Interval:
     """
     largest = max(coefficient.bit_length() for coefficient in f)
     return (
-        _power_of_two(-(largest - f[-1].bit_length() + 2)),
-        _power_of_two(largest - f[0].bit_length() + 2),
+        Fraction(1, 2) ** (largest - f[-1].bit_length() + 2),
+        Fraction(2) ** (largest - f[0].bit_length() + 2),
     )
-
-
-def _power_of_two(exponent: int) -> Fraction:
-    return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
 
 
 def _exponent(x: Fraction) -> int:
@@ -159,10 +151,10 @@ def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
         return
     low, high = _exponent(lower), _exponent(upper)
     if high - low >= 3:
-        start = _power_of_two((low + high) // 2)
+        start = Fraction(2) ** ((low + high) // 2)
         unit = start / 4
     else:
-        unit = _power_of_two(_exponent(upper - lower) - 4)
+        unit = Fraction(2) ** (_exponent(upper - lower) - 4)
         start = (lower + upper) // (2 * unit) * unit
     yield start
     for step in range(1, 4):

@@ -1,4 +1,4 @@
-"""Finding the witness that certificate.py checks, rational and as short as the case allows.
+"""The search for the witness that certificate.py checks, rational and as short as the case allows.
 
 A witness always exists (docs/mathematics.md, "A certificate for every answer"), and every search below doubles its
 precision until the claim holds exactly, so each one ends.
@@ -159,7 +159,8 @@ def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
 
 def _odds(exponent: int) -> Fraction:
     """The share whose odds are 2^exponent to 1."""
-    return Fraction(1 << exponent, (1 << exponent) + 1) if exponent >= 0 else Fraction(1, (1 << -exponent) + 1)
+    odds = Fraction(2) ** exponent
+    return odds / (odds + 1)
 
 
 def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, steps: int) -> Fraction:
@@ -186,5 +187,5 @@ def _root(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
 def _round(value: Fraction, bits: int) -> Fraction:
     """`value` to `bits` significant bits."""
     exponent = abs(value.numerator).bit_length() - value.denominator.bit_length() - bits
-    unit = Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
+    unit = Fraction(2) ** exponent
     return round(value / unit) * unit

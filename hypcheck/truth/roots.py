@@ -1,17 +1,12 @@
 """The roots oracle: the places of the roots of g beside −A, 0 and B, and the table that gives their meaning.
 
-The table of root patterns: from the places and multiplicities of the roots of g to what they mean.
-
-After [10], re-derived; its text was not consulted (docs/mathematics.md, "Root patterns and relative position"). With
-the roots' signs and multiplicities alone the table can be read too, literally, but then some patterns fall together.
-
-The oracle by roots: where the roots of g stand to −A, 0 and B says how the surfaces stand to each other.
-
 After [10], re-derived; its text was not consulted. The pencil of the two quadrics' matrices, det(λH + S), is
 (A + λ) g(λ) / (A² B) with the cubic g of equation (12) (docs/mathematics.md, "Root patterns and relative position").
 Everything is exact: coefficients and comparisons are rational, multiplicities come from gcd(g, g′), roots at −A and B
 are recognised and divided out, the others are enclosed in intervals, and the finished enclosures are proved by changes
-of sign before they are believed. A pattern that the table does not list is an error of ours, never an answer.
+of sign before they are believed. A pattern that the table does not list is a fault of this program, never an answer.
+
+The table can also be read literally, by the roots' signs and multiplicities alone; some patterns then fall together.
 """
 
 from __future__ import annotations
@@ -202,7 +197,7 @@ class Invariants:
 def classify_by_roots(pair: Pair) -> RootReport:
     """The position and kind of a pair, by the roots of g.
 
-    Raises AssertionError, naming the pair, where a proof fails or the pattern is not in the table: an error of ours.
+    Raises AssertionError, naming the pair, where a proof fails or the pattern is not in the table.
     """
     try:
         return classify_invariants(Invariants.of(pair))

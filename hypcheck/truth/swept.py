@@ -4,9 +4,9 @@ The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1. In t, x² + y² and z² 
 is one of degree 8 at most, with rational coefficients. Its roots are all that matters (docs/motion.md):
 
 - the position changes only through a tangency, and a tangency has Δ = 0. So between two neighbouring roots of Δ the
-  position is constant, and one exact decision between them tells it;
+  position is constant, and one exact decision between them finds it;
 - at a root with the same clear position on both sides there is a tangency (the spheroid grazes the surface), unless the
-  double root of g is the ring's. That one asks for z = 0: where z varies it is zero at one rational t, which is decided
+  double root of g is the ring's. That one needs z = 0: where z varies it is zero at one rational t, which is decided
   exactly; where z = 0 all along, the position depends on x² + y² alone, monotonically, so the spheroid can graze only
   where x² + y² is least: at one rational t again;
 - Δ is not 0 for every t unless nothing moves.

@@ -21,7 +21,7 @@ from hypcheck.tables.numbers import decimal_of
 from hypcheck.truth import backward_error, exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.nearest import nearest
+from hypcheck.truth.nearest_exact import nearest
 from hypcheck.truth.prove import prove
 from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors.family import Offset, Row, StoredCertificate, Vector, VectorFile

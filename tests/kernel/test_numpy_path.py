@@ -16,7 +16,7 @@ from tests.support.pairs import WITNESSES, pairs
 
 
 @pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
-def test_witnesses(row, position, clearance, why):
+def test_the_numpy_kernel_is_right_on_known_witnesses(row, position, clearance, why):
     rows = np.array([row], dtype=float)
     assert numpy_kernel.positions(rows).tolist() == [position], why
     assert integers.position(Pair.from_row(row).lengths) is position, why

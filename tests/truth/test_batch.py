@@ -14,14 +14,14 @@ from tests.support.pairs import pairs
 
 
 @given(st.lists(pairs, min_size=1, max_size=40))
-def test_batch_equals_one_by_one(some):
+def test_positions_of_many_rows_equal_those_of_single_pairs(some):
     rows = np.array([pair.row for pair in some])
     expected = [exact.position(pair.lengths) for pair in some]
     assert float_filter.positions(rows).tolist() == expected
 
 
 @pytest.mark.parametrize("spread", [1, 4, 9, 25])
-def test_the_filter_decides_most_rows_and_none_wrongly(spread):
+def test_the_float_filter_decides_most_rows_and_none_wrongly(spread):
     rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (3000, 7))
     proved = float_filter.filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
@@ -32,7 +32,7 @@ def test_the_filter_decides_most_rows_and_none_wrongly(spread):
 
 @pytest.mark.parametrize("exponent", [-52, -51, -50, -45, -40, -30])
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_next_to_a_tangency_the_filter_is_silent_or_right(exponent, sign):
+def test_next_to_a_tangency_the_float_filter_is_undecided_or_right(exponent, sign):
     """r − a = 1 + sign 2^exponent at the waist, for many a: contact below, exterior above."""
     a = np.arange(1.0, 400.0)
     x = a + 1 + sign * 2.0**exponent

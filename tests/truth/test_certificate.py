@@ -65,7 +65,7 @@ def test_a_flawed_proof_is_refused(pair, certificate, flaw):
     assert not check_certificate(pair, certificate), flaw
 
 
-def test_what_rounding_makes_positive_is_no_proof():
+def test_a_value_that_is_positive_only_by_rounding_is_no_proof():
     """At the double root −4/7 of a tangency g is 0, and above 0 in floats: a float must not spoil the arithmetic."""
     tangent = Pair(14.0, 0.109375, 7.0, 0.109375, -18.0, -12.0, -0.2578125)
     root = Fraction(-4, 7)

@@ -17,19 +17,19 @@ from tests.support.pairs import KINDS, WITNESSES, pairs
 
 
 @pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
-def test_witnesses(row, position, clearance, why):
+def test_exact_decisions_of_known_witnesses_are_right(row, position, clearance, why):
     decision = exact.decide(Pair.from_row(row).lengths)
     assert decision.position is position, why
     assert decision.tangent == (clearance == 0), why
 
 
 @pytest.mark.parametrize(("row", "kind"), KINDS)
-def test_kinds_of_witnesses(row, kind):
+def test_kinds_of_known_witnesses_are_right(row, kind):
     assert exact.decide(Pair.from_row(row).lengths).kind is kind
 
 
 @given(pairs)
-def test_every_answer_is_proved(pair):
+def test_every_exact_answer_gets_a_certificate(pair):
     decision = exact.decide(pair.lengths)
     certificate = prove(pair, decision)
     assert certificate.position is decision.position
@@ -45,12 +45,12 @@ def test_the_kind_belongs_to_the_position(pair):
 
 
 @given(pairs)
-def test_position_alone_is_the_decision_s(pair):
+def test_position_and_decide_give_the_same_position(pair):
     assert exact.position(pair.lengths) is exact.decide(pair.lengths).position
 
 
 @given(pairs, st.integers(-3, 3), st.integers(-3, 3))
-def test_each_group_of_lengths_has_its_own_unit(pair, radial, axial):
+def test_scaling_radial_or_axial_lengths_changes_no_decision(pair, radial, axial):
     lengths = pair.lengths
     scaled = type(lengths)(
         *(value * 2 ** (3 + radial) for value in (lengths.alpha, lengths.b, lengths.x, lengths.y)),
@@ -60,14 +60,14 @@ def test_each_group_of_lengths_has_its_own_unit(pair, radial, axial):
 
 
 @given(pairs)
-def test_mirrored_and_turned_pairs_stand_alike(pair):
+def test_mirrored_and_turned_pairs_have_the_same_decision(pair):
     row = pair.row
     mirrored = Pair(*row[:4], -pair.y, pair.x, -pair.z)
     assert exact.decide(mirrored.lengths) == exact.decide(pair.lengths)
 
 
 @given(pairs)
-def test_the_cubic_is_the_pencil_s_determinant(pair):
+def test_the_exact_cubic_is_the_determinant_of_the_pencil(pair):
     """g at the poles and at 0, from the definition of the two quadrics, over N = b² d²."""
     g = cubic(pair.lengths)
     alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
@@ -82,7 +82,7 @@ def test_the_cubic_is_the_pencil_s_determinant(pair):
 
 
 @pytest.mark.parametrize("ulps", [-1, 0, 1])
-def test_one_ulp_from_tangency_is_told_apart(ulps):
+def test_pairs_one_ulp_from_a_tangency_are_decided_rightly(ulps):
     """r − a = 1 is a tangency from outside; one ulp of x to either side is contact, or clear."""
     x = 3.0 + ulps * 2.0**-51
     decision = exact.decide(Pair(2.0, 5.0, 1.0, 1.0, x, 0.0, 0.0).lengths)

@@ -35,7 +35,7 @@ def error(row: tuple[float, ...], answer: Position) -> float:
         ((2, 1, 1, 1, 0, 0, 3), Position.EXTERIOR, math.inf, "on the axis nothing is outside"),
     ],
 )
-def test_distances_worked_out_by_hand(row, answer, expected, why):
+def test_backward_errors_are_those_worked_out_by_hand(row, answer, expected, why):
     assert error(row, answer) == pytest.approx(expected, rel=2e-4), why
 
 
@@ -50,7 +50,7 @@ def test_an_answer_flips_at_its_backward_error(pair, answer):
 
 
 @given(grid_pairs, POSITIONS, st.integers(-300, 5))
-def test_the_octave_does_not_depend_on_the_guess(pair, answer, guess):
+def test_the_exponent_does_not_depend_on_the_guess(pair, answer, guess):
     lengths = pair.lengths
     truth = exact.decide(lengths)
     octave = backward_error_exponent(lengths, truth, answer, guess)

@@ -24,19 +24,19 @@ def one_by_one(rows):
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_octaves_are_those_of_exact_changes(name):
+def test_distance_exponents_are_those_of_exact_changes(name):
     rows = FAMILIES[name].rows(11, 24)
     assert judge.flip_exponents(rows).tolist() == one_by_one(rows)
 
 
-def test_most_rows_of_everyday_need_no_exact_change():
+def test_few_everyday_rows_need_an_exact_change():
     for name in ("tower-body", "uniform", "forest-type-2"):
         rows = FAMILIES[name].rows(12, 1000)
         assert np.isnan(backward_error.distance_exponents(rows, float_filter.positions(rows))).mean() < 0.05
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_next_to_a_power_of_two_floats_are_silent_or_right(sign):
+def test_next_to_a_power_of_two_distance_exponents_are_nan_or_right(sign):
     """x = α + b + δ at the waist: the distance is about δ/(α + b + x), here about a power of two."""
     steps = np.concatenate([2.0 ** np.arange(-12, -6), -(2.0 ** np.arange(-12, -6)), [0.0]])
     rows = np.zeros((40 * len(steps), 7))
@@ -49,6 +49,6 @@ def test_next_to_a_power_of_two_floats_are_silent_or_right(sign):
     assert found[told].tolist() == np.array(one_by_one(rows))[told].tolist()
 
 
-def test_a_tangency_is_at_no_distance():
+def test_a_tangency_has_no_distance_exponent():
     rows = np.array([[2.0, 1000.0, 1.0, 1.0, 3.0, 0.0, 0.0]])
     assert judge.flip_exponents(rows).tolist() == [-math.inf]

@@ -42,12 +42,12 @@ def assert_right(rows):
 
 
 @given(sizes, st.floats(0, 4))
-def test_beside_a_line_nothing_wrong_is_proved(some, share):
+def test_no_wrong_position_is_proved_beside_a_line(some, share):
     assert_right(beside_lines(some, share * some[1]))
 
 
 @given(sizes, st.integers(-60, -1), st.floats(0, 2))
-def test_near_the_waist_nothing_wrong_is_proved(some, exponent, share):
+def test_no_wrong_position_is_proved_near_the_waist(some, exponent, share):
     """r = α ± b, moved by a little: tangencies wherever the throat and the groove are wide enough."""
     alpha, gamma, b, _ = some
     x = np.array([alpha + b, abs(alpha - b)])[:, None] * (1 + np.array([-1, 0, 1]) * 2.0**exponent)
@@ -55,7 +55,7 @@ def test_near_the_waist_nothing_wrong_is_proved(some, exponent, share):
 
 
 @given(sizes, st.integers(-2, 5))
-def test_the_numbers_of_a_line_are_on_its_safe_side(some, reach):
+def test_constants_of_a_line_are_rounded_to_its_safe_side(some, reach):
     """By more than the rounding of both sides of a comparison can come to, which is 12 of these units."""
     alpha, gamma, b, d = map(Fraction, some)
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
@@ -70,7 +70,7 @@ def test_the_numbers_of_a_line_are_on_its_safe_side(some, reach):
 
 
 @given(sizes, st.floats(-4, 4), st.sampled_from([-1, 1]))
-def test_beside_the_rim_of_the_level_disc_nothing_wrong_is_proved(some, share, side):
+def test_no_wrong_position_is_proved_beside_the_rim_of_the_level_disc(some, share, side):
     """Centres b off the surface, level, by some ulps more or less."""
     alpha, gamma, b, _ = some
     z = share * gamma
@@ -87,7 +87,7 @@ def test_most_of_a_tower_is_decided_by_lines():
 
 
 @given(st.tuples(*[st.floats(2.0**-100, 2.0**100)] * 4), st.integers(-2, 20))
-def test_no_number_of_a_line_is_out_of_range(some, reach):
+def test_constants_of_a_line_stay_in_range(some, reach):
     found = lines_for_sizes(*some, reach)
     numbers = [number for line in (*found.exterior, *found.interior) for number in line]
     assert all(2.0**-600 < number < 2.0**600 for number in numbers)

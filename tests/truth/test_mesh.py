@@ -114,13 +114,13 @@ def check_against_exact(row):
 
 @settings(max_examples=400)
 @given(rows_of(*everyday()))
-def test_everyday_rows(row):
+def test_the_mesh_oracle_is_right_on_everyday_rows(row):
     check_against_exact(row)
 
 
 @settings(max_examples=300)
 @given(rows_of(*everyday(-1, 1)))
-def test_rows_of_like_sizes(row):
+def test_the_mesh_oracle_is_right_on_rows_of_like_sizes(row):
     check_against_exact(row)
 
 
@@ -131,17 +131,17 @@ def test_rows_of_like_sizes(row):
         st.floats(allow_infinity=False, allow_nan=False),
     )
 )
-def test_any_valid_row(row):
+def test_the_mesh_oracle_is_right_or_undecided_on_any_valid_row(row):
     check_against_exact(row)
 
 
 @pytest.mark.parametrize("sizes", [(5e-324, 1.7e308, 1.7e308, 5e-324), (1.7e308, 5e-324, 5e-324, 1.7e308)])
 @pytest.mark.parametrize("center", [(1.7e308, 0, 0), (5e-324, 0, 5e-324), (0, 0, 1.7e308), (1, 1, 1)])
-def test_the_most_extreme_rows(sizes, center):
+def test_the_mesh_oracle_is_right_or_undecided_on_the_most_extreme_rows(sizes, center):
     check_against_exact((*sizes, *center))
 
 
-def test_near_contact_is_decided_and_right():
+def test_the_mesh_oracle_decides_rows_near_contact_rightly():
     rows = near_contact_rows(500)
     assert [verdict(Pair(*row)).position for row, _ in rows] == [position for _, position in rows]
     assert {position for _, position in rows} == {-1, 0, 1}
@@ -151,7 +151,7 @@ def test_near_contact_is_decided_and_right():
     ("row", "said"),
     [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
 )
-def test_where_fcl_says_otherwise_the_verdict_is_undecided(monkeypatch, row, said):
+def test_a_contradiction_by_fcl_makes_the_verdict_undecided(monkeypatch, row, said):
     assert verdict(Pair(*row)).outcome is not MeshOutcome.UNDECIDED
     monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: said)
     found = verdict(Pair(*row))
@@ -160,19 +160,19 @@ def test_where_fcl_says_otherwise_the_verdict_is_undecided(monkeypatch, row, sai
     assert found.triangles > 0
 
 
-def test_too_many_open_cells_are_a_reason_not_an_endless_search(monkeypatch):
+def test_too_many_open_cells_end_the_search_undecided(monkeypatch):
     monkeypatch.setattr(mesh_meridian, "MOST_CELLS", 100)
     found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
     assert found.outcome is MeshOutcome.UNDECIDED
     assert "too many cells" in found.reason
 
 
-def test_surface_out_of_reach_needs_no_mesh():
+def test_a_surface_out_of_reach_is_clear_without_a_mesh():
     found = verdict(Pair(1, 1, 1, 1, 100, 0, 0))
     assert (found.position, found.levels, found.triangles, found.lower, found.upper) == (1, 0, 0, 1.25, math.inf)
 
 
-def test_without_fcl_the_oracle_says_why(monkeypatch):
+def test_without_fcl_the_mesh_oracle_raises_an_error_that_says_why(monkeypatch):
     assert availability() is None
     monkeypatch.setitem(sys.modules, "fcl", None)
     assert "python-fcl cannot be imported" in availability()

@@ -90,7 +90,7 @@ def test_fcl_measures_a_ribbon_as_exact_arithmetic_does(points, scale):
     )
 
 
-def test_segments_without_length_reach_fcl_as_nothing():
+def test_segments_without_length_are_left_out_of_the_ribbon():
     vertices, triangles = ribbon([((0.5, 0.5), (0.5, 0.5))])
     assert len(vertices) == len(triangles) == 0
     assert distance_to_mesh(vertices, triangles) == math.inf

@@ -174,7 +174,7 @@ RINGS = [((1, 2, 1, 1), Fraction(5, 2)), ((7, 7, 1, 1), Fraction(10)), ((14, 21,
 
 @pytest.mark.parametrize(("sizes", "radius"), RINGS)
 @pytest.mark.parametrize("way", [(1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 1), (3, 4, 2), (1, 0, 0.1)])
-def test_the_ring_is_no_contact(sizes, radius, way):
+def test_passing_the_ring_is_no_contact(sizes, radius, way):
     """The discriminant is 0 there and the spheroid far away, whichever way it comes through."""
     center = (radius, Fraction(0), Fraction(0))
     start, end = (tuple(c + n * Fraction(w) / 8 for c, w in zip(center, way, strict=True)) for n in (-1, 2))
@@ -203,7 +203,7 @@ def test_the_ring_is_no_contact(sizes, radius, way):
         ),  # a = 1 on the axis: the waist is touched all round
     ],
 )
-def test_known_times(sizes, start, end, first):
+def test_times_of_first_contact_are_those_worked_out_by_hand(sizes, start, end, first):
     found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
     assert not found.clear
     if isinstance(first, Fraction):
@@ -229,7 +229,7 @@ def test_grazing_is_contact_for_an_instant(sizes, start, end, grazes):
     assert passage(sizes, start, end).grazes is grazes
 
 
-def test_who_does_not_move_stays_where_it_is():
+def test_a_spheroid_that_does_not_move_keeps_its_position():
     for x, position in ((5, EXTERIOR), (2, CONTACT), (0, INTERIOR)):
         found = passage((2, 3, 1, 1), (x, 0, 0), (x, 0, 0))
         assert found.start is found.end is position
@@ -244,14 +244,14 @@ def test_a_clear_way_has_no_time_of_contact():
 
 @settings(max_examples=25)
 @given(*[st.tuples(*[st.floats(0.01, 100)] * 4), *[st.tuples(*[st.floats(-100, 100)] * 3)] * 2])
-def test_any_floats_are_decided(sizes, start, end):
+def test_every_way_between_floats_is_decided(sizes, start, end):
     found = passage(sizes, start, end)
     assert all(truth(sizes, at(start, end, Fraction(n, 8))) == found.start or not found.clear for n in range(9))
     assert passage(sizes, end, start).clear == found.clear
 
 
 @given(st.sampled_from([2.0**-1000, 2.0**-99, 2.0**1000]), st.sampled_from([2.0**-600, 1.0, 2.0**600]))
-def test_any_magnitude_is_decided(wide, tall):
+def test_ways_of_any_magnitude_are_decided(wide, tall):
     start, end = (-4 * wide, 3 * wide, 0.0), (4 * wide, 3 * wide, tall * 2.0**-200)
     found = passage((2 * wide, 3 * tall, wide, tall), start, end)
     assert found.start is found.end is EXTERIOR
@@ -283,7 +283,7 @@ def test_any_magnitude_is_decided(wide, tall):
         ((2.0, 3.0, 1.0, 1.0), "123", (1.0,) * 3, "a centre: '123' is no sequence of numbers; there must be 3"),
     ],
 )
-def test_what_is_no_length_is_refused(sizes, start, end, message):
+def test_passage_raises_an_error_for_an_invalid_length(sizes, start, end, message):
     with pytest.raises(InputError, match=message):
         passage(sizes, start, end)
 

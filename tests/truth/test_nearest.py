@@ -16,9 +16,9 @@ from mpmath import mp, mpf
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
-from hypcheck.truth.nearest import STAGES, clearances, nearest, positions
+from hypcheck.truth.nearest import clearances, positions
 from hypcheck.truth.nearest_dual import SquaredLengths, tangency
-from hypcheck.truth.nearest_exact import NearestStage
+from hypcheck.truth.nearest_exact import STAGES, NearestStage, nearest
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference, ulps
 
 
@@ -147,7 +147,7 @@ def test_halfway_cases_go_to_the_even_neighbour(odd, even, sign):
         ((1, 1, 1, 1, 1, 0, 0), -1.0, {(1, 0, 0)}),
     ],
 )
-def test_witnesses_with_known_clearance(row, clearance, points):
+def test_clearances_of_known_witnesses_are_right(row, clearance, points):
     found = check(tuple(map(float, row)))
     assert (found.clearance, set(found.points)) == (clearance, points)
 
@@ -185,7 +185,7 @@ def test_two_points_of_tangency():
     assert (found.clearance, found.position, found.stage, len(found.points)) == (0.0, Position.CONTACT, "exact", 2)
 
 
-def test_a_clearance_of_0_is_not_claimed_beside_the_maximum():
+def test_tangency_is_not_claimed_for_a_multiplier_beside_the_maximum():
     """Here g has three roots, the middle one halfway, at λ = −1: D = 1 there, but it rises further towards −A."""
     pair = Pair(3, 1, 2, 2, 0, 0, 0)
     assert tangency(SquaredLengths.of(pair)) is None
@@ -226,7 +226,7 @@ def tangent_pair(triple, k, v, sign, distance):
     st.sampled_from((-1, 1)),
     st.builds(lambda order, up: Fraction(up, 2**order), st.integers(0, 30), st.sampled_from((-1, 0, 1))),
 )
-def test_rational_tangents_and_steps_off_them(triple, k, v, sign, step):
+def test_clearances_at_rational_tangents_and_beside_them_are_right(triple, k, v, sign, step):
     built = tangent_pair(triple, k, v, sign, 1 + step)
     if built is None:
         return
@@ -288,7 +288,7 @@ def test_an_answer_does_not_depend_on_its_neighbours():
     assert (forward.stage == backward.stage[::-1]).all()
 
 
-def test_no_rows_and_invalid_rows():
+def test_arrays_without_rows_give_nothing_and_invalid_rows_raise_an_error():
     assert len(clearances(np.empty((0, 7))).clearance) == 0
     rows = mixed_rows(3, seed=4)
     rows[1, 2] = 0.0
@@ -300,7 +300,7 @@ def test_no_rows_and_invalid_rows():
 
 def test_one_pair_loads_no_numpy():
     script = (
-        "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest import nearest;"
+        "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest_exact import nearest;"
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

@@ -34,7 +34,7 @@ def steps(squares, monkeypatch):
     return len(taken) - 2
 
 
-def test_a_few_steps_lead_to_the_root_however_far_the_lengths_are_apart(monkeypatch):
+def test_newton_reaches_the_root_in_few_steps_for_any_ratio_of_lengths(monkeypatch):
     dice = random.Random(5)  # noqa: S311 - dice, not secrets
     asked = [APART, *rows(200, 1, dice), *rows(100, 6, dice), *rows(100, 100, dice), *rows(60, 300, dice)]
     assert steps(SquaredLengths.of(Pair.from_row(APART)), monkeypatch) <= 2

@@ -45,7 +45,7 @@ WITNESSES = [
 
 
 @pytest.mark.parametrize(("row", "kind"), WITNESSES)
-def test_witness(row, kind):
+def test_the_roots_oracle_is_right_on_each_known_witness(row, kind):
     report = classify_by_roots(Pair.from_row(row))
     assert report.kind is kind
     assert report.position is kind.position
@@ -57,7 +57,7 @@ def test_every_kind_has_a_witness():
 
 
 @pytest.mark.parametrize(("row", "kind"), WITNESSES)
-def test_units_do_not_matter(row, kind):
+def test_the_roots_report_does_not_depend_on_units(row, kind):
     """Each group of lengths has its own unit (Theorem 1): also one that makes squares underflow or overflow."""
     alpha, gamma, b, d, x, y, z = row
     for radial, axial in ((2.0**-1060, 2.0**1000), (2.0**1000, 2.0**-1060)):
@@ -131,7 +131,7 @@ nonzero = integers.filter(bool)
 
 
 @given(st.one_of(st.tuples(nonzero, integers, nonzero), st.tuples(nonzero, integers, integers, nonzero)))
-def test_isolation_of_any_polynomial(f):
+def test_isolate_finds_the_roots_of_random_polynomials(f):
     """Also of those that are no g: the enclosures are proved, and as many as another algebra counts roots."""
     polynomial = sympy.Poly(f, sympy.Symbol("x"))
     assert polynomial_roots.discriminant(f) == polynomial.discriminant()
@@ -156,7 +156,7 @@ def test_isolation_of_any_polynomial(f):
         ((1, -4, 5, -2), [(0, 3)]),  # 1, 1, 2
     ],
 )
-def test_what_is_not_proved_is_refused(f, intervals):
+def test_prove_raises_an_error_for_a_wrong_enclosure(f, intervals):
     with pytest.raises(AssertionError, match="enclosure"):
         polynomial_roots.prove(f, [(Fraction(lower), Fraction(upper)) for lower, upper in intervals])
 
@@ -166,7 +166,7 @@ def test_a_triple_root_is_exact():
     assert (root.lower, root.upper, root.multiplicity) == (4, 4, 3)
 
 
-def test_a_hair_from_tangency():
+def test_roots_beside_a_tangency_are_told_apart():
     """(1,1,3,1) at x = 4 touches; y = 1e-160 lifts it off, and the two roots are about 1e-160 apart."""
     assert classify_by_roots(Pair(1, 1, 3, 1, 4, 0, 0)).kind is Kind.EXTERIOR_TANGENT_POINT
     for y in (1e-160, 5e-324):
@@ -191,7 +191,7 @@ def test_a_hair_from_tangency():
         ((3, 3, 1, 1, 2, 0, 0), Position.CONTACT, {Kind.INTERIOR_TANGENT_POINT}),
     ],
 )
-def test_literal_reading(row, literal, kinds):
+def test_the_literal_reading_gives_the_expected_kinds(row, literal, kinds):
     """Signs and multiplicities alone: ambiguous for a < 1, for c² < a, and for a double positive root when c² > a."""
     report = classify_by_roots(Pair.from_row(row))
     assert report.literal is literal
@@ -227,7 +227,7 @@ def _beyond_its_place(f, cuts):
 
 @pytest.mark.parametrize("row", [ROW, EXTREME])
 @pytest.mark.parametrize("sabotage", [_shifted, _one_missing, _merged, _one_twice])
-def test_wrong_enclosures_are_never_believed(monkeypatch, row, sabotage):
+def test_wrong_enclosures_raise_an_error(monkeypatch, row, sabotage):
     monkeypatch.setattr(oracle, "isolate", sabotage)
     with pytest.raises(AssertionError, match=r"enclosure.* for Pair\(alpha="):
         classify_by_roots(Pair.from_row(row))
@@ -240,7 +240,7 @@ def test_an_enclosure_must_have_one_place(monkeypatch):
 
 
 @pytest.mark.parametrize("row", [row for row, kind in WITNESSES if kind.tangent or "node" in kind.value])
-def test_a_repeated_root_overlooked_is_never_believed(monkeypatch, row):
+def test_an_overlooked_repeated_root_raises_an_error(monkeypatch, row):
     """Unless −A or B, tried anyway, is that root: then the answer is right without the gcd."""
     expected = classify_by_roots(Pair.from_row(row))
     monkeypatch.setattr(oracle, "_repeated_root", lambda g: [])
@@ -251,7 +251,7 @@ def test_a_repeated_root_overlooked_is_never_believed(monkeypatch, row):
             classify_by_roots(Pair.from_row(row))
 
 
-def test_a_wrong_multiplicity_is_never_believed(monkeypatch):
+def test_a_wrong_multiplicity_raises_an_error(monkeypatch):
     right = oracle._divided_by_known_roots
 
     def wrong(g, candidates):

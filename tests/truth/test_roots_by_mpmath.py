@@ -34,7 +34,7 @@ def real_roots(pair: Pair) -> list[Fraction] | None:
 
 
 @given(ordinary_pairs)
-def test_mpmath_s_roots_lie_in_the_enclosures(pair):
+def test_roots_by_mpmath_lie_in_the_enclosures(pair):
     found = real_roots(pair)
     if found is None:
         return

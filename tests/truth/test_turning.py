@@ -98,14 +98,14 @@ QUARTER = math.pi / 2
         (0.0, (0, 1), 3.0, INTERIOR),
     ],
 )
-def test_known_turns(x, direction, angle, position):
+def test_turns_worked_out_by_hand_are_decided_rightly(x, direction, angle, position):
     for cosine, sine in ((1, 0), (Fraction(3, 5), Fraction(4, 5))):
         center = (cosine * Fraction(x), sine * Fraction(x), 0)
         ahead = (cosine * direction[0] - sine * direction[1], sine * direction[0] + cosine * direction[1])
         assert turning(SIZES, center, 0.5, ahead, angle) is position
 
 
-def test_without_an_arm_nothing_moves():
+def test_a_turn_without_an_arm_changes_no_position():
     for x, position in ((1.4, INTERIOR), (1.5, CONTACT), (2.5, CONTACT), (2.6, EXTERIOR)):
         assert turning(SIZES, (x, 0, 0), 0, (0, 1), 3.0) is position
 
@@ -124,7 +124,7 @@ def test_without_an_arm_nothing_moves():
         (1, (0, 1), "1", "angle is '1'; it must be a number"),
     ],
 )
-def test_what_is_no_turn_is_refused(arm, direction, angle, message):
+def test_turning_raises_an_error_for_an_invalid_turn(arm, direction, angle, message):
     with pytest.raises(InputError, match=message):
         turning(SIZES, (0, 0, 0), arm, direction, angle)
     with pytest.raises(InputError, match="gamma is 0"):

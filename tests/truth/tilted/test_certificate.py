@@ -32,7 +32,7 @@ def proofs():
     return [(pair, prove(pair)) for pair in pairs]
 
 
-def test_every_answer_is_proved(proofs):
+def test_every_exact_answer_gets_a_certificate(proofs):
     proved = set()
     for pair, certificate in proofs:
         decision = exact.decide(pair.lengths)

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import nearest as upright
+from hypcheck.truth import nearest_exact as upright
 from hypcheck.truth.tilted import exact, nearest
 from hypcheck.truth.tilted.pair import TiltedPair
 from tests.tools.tilted_agreement import FAMILIES, rows
