@@ -12,16 +12,16 @@ from fractions import Fraction
 from itertools import pairwise
 
 
-def exact_position(row):
-    """+1, 0 or −1 for alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z."""
-    S, H = matrices(row)
+def exact_position(row, hyperboloid=(0, 0, 1)):
+    """+1, 0 or −1 for alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, beside a hyperboloid with that axis."""
+    S, H = matrices(row, hyperboloid)
     samples = between_roots(interpolated(S, H))
     sides = {1 if at > 0 else -1 for at in samples if at and positive_definite(combined(S, H, at))}
     assert len(sides) <= 1
     return sides.pop() if sides else 0
 
 
-def matrices(row):
+def matrices(row, hyperboloid=(0, 0, 1)):
     """S of the spheroid, with (X−C)ᵀM(X−C) − 1, and H of the hyperboloid."""
     alpha, gamma, b, d, x, y, z, *axis = map(Fraction, row)
     size = sum(each * each for each in axis)
@@ -31,8 +31,11 @@ def matrices(row):
     MC = [sum(M[i][j] * centre[j] for j in range(3)) for i in range(3)]
     S = [[*M[i], -MC[i]] for i in range(3)]
     S.append([*(-each for each in MC), sum(MC[i] * centre[i] for i in range(3)) - 1])
-    diagonal = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2, Fraction(-1))
-    H = [[diagonal[i] if i == j else Fraction(0) for j in range(4)] for i in range(4)]
+    w = [Fraction(each) for each in hyperboloid]
+    waist, whole = 1 / alpha**2, sum(each * each for each in w)
+    less = (waist + 1 / gamma**2) / whole
+    H = [[*((waist if i == j else 0) - less * w[i] * w[j] for j in range(3)), Fraction(0)] for i in range(3)]
+    H.append([Fraction(0), Fraction(0), Fraction(0), Fraction(-1)])
     return S, H
 
 

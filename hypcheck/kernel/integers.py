@@ -12,8 +12,18 @@ from hypcheck.geometry.pair import Lengths, Position
 
 def position(lengths: Lengths) -> Position:
     """The exact position; lengths as in pairs.Lengths."""
-    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
-    radius, height = lengths.x**2 + lengths.y**2, lengths.z**2
+    return position_of_squares(
+        lengths.alpha**2,
+        lengths.b**2,
+        lengths.gamma**2,
+        lengths.d**2,
+        lengths.x**2 + lengths.y**2,
+        lengths.z**2,
+    )
+
+
+def position_of_squares(p: int, q: int, s: int, t: int, radius: int, height: int) -> Position:
+    """The same from the squares of α, b, γ, d, of the centre's distance from the axis, and of its height."""
     N = q * t
     C2 = (p + q - radius) * t - (s + height) * q  # N c2
     C1 = p * (t - s - height) + s * (radius - q)  # N c1

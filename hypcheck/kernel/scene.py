@@ -17,6 +17,8 @@ A scene that is asked again and again: prepared once, then exact answers about t
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
 hyperboloid beyond whose modelled height the centre lies says nothing, and where all say nothing, so does the scene.
 Parts of the mover are asked where the mover itself is in contact: what all parts say alike is then the answer.
+
+Where something leans, scene_leaning.py says what each hyperboloid says.
 """
 
 from __future__ import annotations
@@ -35,8 +37,8 @@ from numpy.typing import ArrayLike
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import CENTER, Lengths, to_integers, trouble_with
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows, as_columns, as_numbers
+from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, Lengths, to_integers, trouble_with, trouble_with_axis
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows, as_columns, as_numbers
 from hypcheck.kernel import integers
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
@@ -50,7 +52,8 @@ from hypcheck.kernel.scene_index import (
     levels_of,
     reaches,
 )
-from hypcheck.scene.model import SceneModel
+from hypcheck.kernel.scene_leaning import is_within_height, position_leaning, positions_leaning, within_height
+from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
 
@@ -143,6 +146,8 @@ class Scene:
     def __post_init__(self) -> None:
         if not self.model.hyperboloids:
             raise InputError("the scene has no hyperboloid; it must have one at least")
+        if self.model.mover.parts and leans(self.model.mover.axis):
+            raise InputError("the mover leans and has parts, whose places are known only where it is upright")
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
@@ -154,37 +159,53 @@ class Scene:
         """The scene that a TOML text describes. Raises InputError naming key and line."""
         return cls(parse_scene(text))
 
-    def classify(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, heading: ArrayLike = 0.0) -> Positions:
+    def classify(
+        self,
+        x: ArrayLike,
+        y: ArrayLike,
+        z: ArrayLike,
+        heading: ArrayLike = 0.0,
+        *,
+        axis: ArrayLike | None = None,
+    ) -> Positions:
         """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,).
 
         `x`, `y`, `z` are (n,) each or single numbers, `heading` the mover's direction in degrees, which places its
-        parts. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no; 2 is said beyond every modelled
-        height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded centre is.
-        Raises InputError for numbers that are not finite.
+        parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that it is free, any vector ≠ 0 along its
+        axis of revolution. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no; 2 is said beyond
+        every modelled height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded
+        centre is. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
-        columns = as_columns(_ASKED, (x, y, z, heading))
+        axes = self._axes(axis) if axis is not None or self._leaning else ()
+        asked = (*_ASKED, *AXIS[: len(axes)])
+        columns = as_columns(asked, (x, y, z, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
-        for name, values in zip(_ASKED, columns, strict=True):
+        for name, values in zip(asked, columns, strict=True):
             if not np.isfinite(values).all():
                 index = int(np.argmin(np.isfinite(values)))
                 raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
         query, body = self._pairs(centres)
-        said = self._said(query, body, centres, columns[3])
+        movers = _directions(columns[4:]) if axes else None
+        said = self._said(query, body, centres, columns[3], movers)
         found = _combined(said, query, len(centres))
-        silent = found == NOTHING_SAID
-        found[silent] = np.where(self._levels.hold_each(centres[silent, 2]), EXTERIOR, NOTHING_SAID)
+        silent = np.flatnonzero(found == NOTHING_SAID)
+        found[silent] = np.where(self._modelled(centres[silent]), EXTERIOR, NOTHING_SAID)
         return self._answers(found)
 
-    def position(self, x: float, y: float, z: float, heading: float = 0.0) -> int:
+    def position(
+        self, x: float, y: float, z: float, heading: float = 0.0, *, axis: Sequence[float] | None = None
+    ) -> int:
         """The exact answer to the scene's question for one centre: as classify, at the price of a step.
 
-        Raises InputError for numbers that are not finite.
+        Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         if not (
             type(x) is type(y) is type(z) is type(heading) is float
             and (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading))
         ):
             x, y, z, heading = map(_number, _ASKED, (x, y, z, heading))
+        if axis is not None or self._leaning:
+            return self._position_leaning((x, y, z), heading, axis)
         mover, found = self.model.mover, 0
         for index in self._near(x, y, z):
             body = self._body(index)
@@ -196,11 +217,72 @@ class Scene:
                     found = _RANK[CONTACT]
                     break
                 found = max(found, _RANK[said])
-        answer = _OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR
+        return self._answer(_OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR)
+
+    def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
+        """The same where something leans."""
+        given = self._axes(axis)
+        if np.ndim(given[0]):
+            raise InputError(
+                f"axis is of shape {(*np.shape(given[0]), 3)}; it must be three numbers (classify takes arrays)"
+            )
+        mover_axis = [float(each) for each in given]
+        trouble = trouble_with_axis(mover_axis)
+        if trouble is not None:
+            raise InputError(trouble)
+        said = [self._said_leaning(index, centre, heading, mover_axis) for index in self._near(*centre)]
+        found = max((_RANK[each] for each in said if each != NOTHING_SAID), default=0)
+        return self._answer(_OF_RANK[found] if found or not self._modelled(np.array([centre]))[0] else EXTERIOR)
+
+    def _said_leaning(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
+        """What a hyperboloid says about one centre."""
+        body, mover = self.model.hyperboloids[index], self.model.mover
+        _, _, _, _, _, low, high = self._body(index)
+        height = body.height
+        if leans(body.axis):
+            inside = height is None or is_within_height((height.low, height.high), centre, body.center, body.axis)
+        else:
+            inside = low <= centre[2] <= high
+        if not inside:
+            return NOTHING_SAID
+        said = position_leaning((body.alpha, body.gamma, mover.b, mover.d), centre, body.center, axis, body.axis)
+        return self._of_parts(index, centre, heading) if said == CONTACT and mover.parts else said
+
+    def _answer(self, position: int) -> int:
         question = self.model.question
         if question == "position":
-            return answer
-        return CANNOT_SAY if answer == NOTHING_SAID else int(answer == YES[question])
+            return position
+        return CANNOT_SAY if position == NOTHING_SAID else int(position == YES[question])
+
+    def _axes(self, axis: ArrayLike | None) -> tuple[float, float, float] | tuple[Floats, Floats, Floats]:
+        """The three numbers of the mover's axis: the scene's, or the query's where the scene leaves it free."""
+        fixed = self.model.mover.axis
+        if fixed != FREE:
+            if axis is not None:
+                raise InputError(
+                    f"axis is given, and the scene fixes the mover's: {list(fixed)}; only where [mover] has "
+                    'axis = "free" does a query name it'
+                )
+            return fixed
+        wanted = "it must be three numbers, or an array (n, 3) of them"
+        if axis is None:
+            raise InputError(f"no axis is given, and the scene leaves the mover's free; {wanted}")
+        given = as_numbers("axis is", axis, wanted)
+        if given.ndim not in (1, 2) or given.shape[-1] != 3:
+            raise InputError(f"axis is of shape {given.shape}; {wanted}")
+        return given[..., 0], given[..., 1], given[..., 2]
+
+    def _modelled(self, centres: Floats) -> Mask:
+        """Whether each centre is within the modelled height of some hyperboloid."""
+        bodies = self._bodies
+        found = self._levels.hold_each(centres[:, 2])
+        for body in np.flatnonzero(bodies.leaning).tolist():
+            some = np.flatnonzero(~found)
+            span, origin, axis = (
+                np.tile(each[body], (len(some), 1)) for each in (bodies.spans, bodies.origins, bodies.axes)
+            )
+            found[some] = within_height(span, centres[some], origin, axis)
+        return found
 
     def _near(self, x: float, y: float, z: float) -> Sequence[int]:
         height = self.model.region.z
@@ -218,25 +300,39 @@ class Scene:
         counts = [len(each) for each in near]
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
-    def _said(self, query: Indices, body: Indices, centres: Floats, heading: Floats) -> Positions:
-        """What each hyperboloid says about its centre."""
-        shapes, origins, heights = self._bodies.shapes, self._bodies.origins, self._bodies.heights
-        mover = self.model.mover
-        result = _positions(shapes[body], (mover.b, mover.d), centres[query], origins[body])
-        for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
+    def _said(
+        self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
+    ) -> Positions:
+        """What each hyperboloid says about its centre; `movers` are the mover's axes where something leans."""
+        bodies, mover = self._bodies, self.model.mover
+        sizes = np.concatenate([bodies.shapes[body], np.broadcast_to((mover.b, mover.d), (len(body), 2))], axis=1)
+        pairs = centres[query], bodies.origins[body]
+        level = centres[query, 2]
+        silent = (level < bodies.heights[body, 0]) | (level > bodies.heights[body, 1])
+        if movers is None:
+            result = positions_beside(sizes, *pairs)
+        else:
+            result = positions_leaning(sizes, *pairs, movers[query], bodies.axes[body])
+            lean = np.flatnonzero(bodies.leaning[body])
+            those = body[lean]
+            silent[lean] = ~within_height(bodies.spans[those], pairs[0][lean], pairs[1][lean], bodies.axes[those])
+        for pair in np.flatnonzero((result == CONTACT) & ~silent).tolist() if mover.parts else ():
             x, y, z = centres[query[pair]].tolist()
             result[pair] = self._of_parts(int(body[pair]), (x, y, z), float(heading[query[pair]]))
-        level = centres[query, 2]
-        result[(level < heights[body, 0]) | (level > heights[body, 1])] = NOTHING_SAID
+        result[silent] = NOTHING_SAID
         return result
 
     def _of_parts(self, index: int, centre: tuple[float, float, float], heading: float) -> int:
         """The position that all parts have in common beside a hyperboloid, else contact."""
-        found = CONTACT
+        found, body, axis = CONTACT, self._body(index), self.model.hyperboloids[index].axis
         for number, part in enumerate(self.model.mover.parts):
             turn = radians(heading + part.angle)
             x, y = centre[0] + part.arm * cos(turn), centre[1] + part.arm * sin(turn)
-            said = position_beside(self._body(index), part.b, part.d, x, y, centre[2])
+            if leans(axis):
+                sizes = (body[0], body[1], part.b, part.d)
+                said = position_leaning(sizes, (x, y, centre[2]), body[2:5], UPRIGHT, axis)
+            else:
+                said = position_beside(body, part.b, part.d, x, y, centre[2])
             if said == CONTACT or (number and said != found):
                 return CONTACT
             found = said
@@ -259,6 +355,10 @@ class Scene:
         return found
 
     @cached_property
+    def _leaning(self) -> bool:
+        return self.model.leaning
+
+    @cached_property
     def _asked(self) -> dict[int, Body]:
         return {}
 
@@ -270,11 +370,20 @@ class Scene:
 
     @cached_property
     def _levels(self) -> Levels:
-        return levels_of(self._bodies.heights)
+        return levels_of(self._bodies.heights[~self._bodies.leaning])
 
     @cached_property
     def _bodies(self) -> Bodies:
         return bodies_of(self.model.hyperboloids)
+
+
+def _directions(columns: Sequence[Floats]) -> Floats:
+    """The axes as (n, 3). Raises InputError about the first that is 0, 0, 0."""
+    axes = np.stack(columns, axis=1)
+    nowhere = np.flatnonzero(~(axes != 0).any(axis=1))
+    if len(nowhere):
+        raise InputError(f"row {int(nowhere[0])}: {NO_DIRECTION}")
+    return axes
 
 
 def _number(name: str, value: object) -> float:
@@ -288,11 +397,6 @@ def _number(name: str, value: object) -> float:
     if trouble is not None:
         raise InputError(trouble)
     return float(value)
-
-
-def _positions(shapes: Floats, spheroid: tuple[float, float], centres: Floats, origins: Floats) -> Positions:
-    sizes = np.concatenate([shapes, np.broadcast_to(spheroid, (len(shapes), 2))], axis=1)
-    return positions_beside(sizes, centres, origins)
 
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:

@@ -9,6 +9,10 @@ that range than ρ = α √(1 + ((|z| + d)/γ)²), so a centre farther than ρ +
 outside. That is formed in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers
 them, and the rounding of a distance that is compared with it; LEAST covers what underflows.
 
+A spheroid that leans lies in the ball of its longer semi-axis r, which takes the place of b and d. Beside a hyperboloid
+that leans, its centre is asked about only within the modelled height h along that axis; there it is at most ρ + r from
+the axis, with ρ = α √(1 + ((h + r)/γ)²), and so at most √(h² + (ρ + r)²) from the hyperboloid's centre.
+
 A grid over the plane, each cell with the hyperboloids that can be touched from within it.
 
 Cells share the places of a table by a hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"):
@@ -22,6 +26,7 @@ from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import floor, inf
 
 import numpy as np
@@ -29,36 +34,48 @@ from numpy.typing import NDArray
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Indices, Mask
-from hypcheck.scene.model import Hyperboloid, Mover, Span
+from hypcheck.scene.model import Hyperboloid, Mover, Span, leans
 
 
 @dataclass(frozen=True)
 class Bodies:
     """α and γ (m, 2), centres (m, 3), and how far from its centre each is modelled, up or down, (m,).
 
-    `heights` (m, 2) are the lowest and the highest float z of the scene that is within the modelled height, exactly.
+    `heights` (m, 2) are the lowest and the highest float z of the scene that is within the modelled height, exactly; of
+    those that lean, without end. `spans` (m, 2) are the modelled heights along the axes (m, 3), from the centres.
     """
 
     shapes: Floats
     origins: Floats
     tall: Floats
     heights: Floats
+    spans: Floats
+    axes: Floats
+
+    @cached_property
+    def leaning(self) -> Mask:
+        """Which hyperboloids lean, (m,)."""
+        return np.asarray((self.axes[:, :2] != 0).any(axis=1))
 
 
 def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
     """The columns of these hyperboloids."""
-    table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 7)
-    origins, relative = table[:, 2:5], table[:, 5:]
+    table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 10)
+    origins, relative, axes = table[:, 2:5], table[:, 5:7], table[:, 7:]
+    down = (axes[:, 2] < 0) & (axes[:, :2] == 0).all(axis=1)
+    relative[down] = -relative[down, ::-1]
     with np.errstate(all="ignore"):
         ends, lost = two_sum(origins[:, 2:], relative)
     low = np.where(lost[:, 0] > 0, np.nextafter(ends[:, 0], inf), ends[:, 0])
     high = np.where(lost[:, 1] < 0, np.nextafter(ends[:, 1], -inf), ends[:, 1])
-    return Bodies(table[:, :2], origins, np.abs(relative).max(axis=1), np.stack([low, high], axis=1))
+    heights = np.stack([low, high], axis=1)
+    heights[(axes[:, :2] != 0).any(axis=1)] = -inf, inf
+    return Bodies(table[:, :2], origins, np.abs(relative).max(axis=1), heights, relative, axes)
 
 
 def _numbers(body: Hyperboloid) -> tuple[float, ...]:
     low, high = (-inf, inf) if body.height is None else (body.height.low, body.height.high)
-    return (body.alpha, body.gamma, *body.center, low, high)
+    return (body.alpha, body.gamma, *body.center, low, high, *body.axis)
 
 
 @dataclass(frozen=True)
@@ -96,12 +113,23 @@ LEAST = 2.0**-1000
 def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
     """The reach of each hyperboloid for centres in this span of the scene's z, (m,); inf where they have no end."""
     level = bodies.origins[:, 2]
+    longest = max(mover.b, mover.d)
+    b, d = (longest, longest) if leans(mover.axis) else (mover.b, mover.d)
     with np.errstate(all="ignore"):
         most = np.full(len(level), np.inf)
         if height is not None:
             most = np.maximum(np.abs(height.low - level), np.abs(height.high - level)) * OUTWARD
-        share = (np.minimum(most, bodies.tall * OUTWARD) + mover.d) / bodies.shapes[:, 1]
-        return np.asarray((bodies.shapes[:, 0] * np.sqrt(1 + share * share) + mover.b) * OUTWARD + LEAST)
+        far = _farthest(bodies, np.minimum(most, bodies.tall * OUTWARD), b, d)
+        if bodies.leaning.any():
+            tall = bodies.tall * OUTWARD
+            far[bodies.leaning] = np.hypot(tall, _farthest(bodies, tall, longest, longest))[bodies.leaning]
+        return np.asarray(far * OUTWARD + LEAST)
+
+
+def _farthest(bodies: Bodies, height: Floats, b: float, d: float) -> Floats:
+    """How far from each axis a spheroid so far up or down can be in contact."""
+    share = (height + d) / bodies.shapes[:, 1]
+    return np.asarray(bodies.shapes[:, 0] * np.sqrt(1 + share * share) + b)
 
 
 def in_reach(bodies: Bodies, mover: Mover, centre: tuple[float, float, float]) -> NDArray[np.int64]:

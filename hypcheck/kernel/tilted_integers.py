@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 
 from hypcheck.geometry.pair import COLUMNS, Pair, Position, to_integers
@@ -39,20 +40,75 @@ class Quartic:
     k: tuple[int, int, int]
 
 
-def quartic(row: Sequence[float]) -> Quartic:
-    """The quartic of a row of ten, in units that make all of its numbers whole; the axis leans, and it is no sphere."""
+@dataclass(frozen=True, slots=True)
+class Squares:
+    """What a pair's position depends on: integers, all lengths in one unit and both axes in another.
+
+    p, q, s, t are α², b², γ², d². Along the hyperboloid's axis (`upward`, `height`) and across it (`level`, `radius`)
+    stand the squares of the parts of the spheroid's axis v and of the centre C. `cross` and `along` are the squares of
+    the part of v × C along the hyperboloid's axis, and of v·C.
+    """
+
+    p: int
+    q: int
+    s: int
+    t: int
+    level: int
+    upward: int
+    radius: int
+    height: int
+    cross: int
+    along: int
+
+    @property
+    def upright(self) -> bool:
+        """Whether the axes are parallel, or the spheroid is a sphere."""
+        return self.level == 0 or self.q == self.t
+
+
+def squares(row: Sequence[float]) -> Squares:
+    """The squares of a row of ten, in units that make all of its numbers whole."""
     alpha, gamma, b, d, x, y, z = to_integers(row[:7])
     vx, vy, vz = to_integers(row[7:])
-    p, q, s, t = alpha * alpha, b * b, gamma * gamma, d * d
-    level, upward = vx * vx + vy * vy, vz * vz
-    w = level + upward
-    radius, height = x * x + y * y, z * z
     cross, along = vx * y - vy * x, vx * x + vy * y + vz * z
-    E = (t - q) * (s + p) * cross * cross
-    G = w * (s * radius - p * height)
-    m = t * w * (radius + height) + (q - t) * along * along
+    return Squares(
+        alpha * alpha, b * b, gamma * gamma, d * d, vx * vx + vy * vy, vz * vz,
+        x * x + y * y, z * z, cross * cross, along * along,
+    )  # fmt: skip
+
+
+def squares_between_axes(
+    sizes: Sequence[float], centre: Sequence[Fraction | float], axis: Sequence[float], other: Sequence[float]
+) -> Squares:
+    """The same where the hyperboloid leans too: `centre` is the spheroid's, from the hyperboloid's, `other` its axis w.
+
+    Nothing is rotated: with W = w·w, C·w and v·w the parts along w are (C·w)²/W and (v·w)²/W, and those across are what
+    is left of C·C and v·v; the part of v × C along w is det(v, C, w)²/W. All are multiplied by as many W as they need.
+    """
+    alpha, gamma, b, d, x, y, z = to_integers((*sizes, *centre))
+    v, w, C = to_integers(axis), to_integers(other), (x, y, z)
+    W, upward, height = _dot(w, w), _dot(v, w), _dot(C, w)
+    across = (C[1] * w[2] - C[2] * w[1], C[2] * w[0] - C[0] * w[2], C[0] * w[1] - C[1] * w[0])
+    p, q, s, t = (W * each * each for each in (alpha, b, gamma, d))
+    return Squares(
+        p, q, s, t, W * _dot(v, v) - upward * upward, upward * upward,
+        W * _dot(C, C) - height * height, height * height, W * _dot(v, across) ** 2, (W * _dot(v, C)) ** 2,
+    )  # fmt: skip
+
+
+def _dot(a: Sequence[int], b: Sequence[int]) -> int:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def quartic(of: Squares) -> Quartic:
+    """The quartic of a pair whose axes are not parallel, and whose spheroid is no sphere."""
+    p, q, s, t = of.p, of.q, of.s, of.t
+    w = of.level + of.upward
+    E = (t - q) * (s + p) * of.cross
+    G = w * (s * of.radius - p * of.height)
+    m = t * w * (of.radius + of.height) + (q - t) * of.along
     k0, k2 = p * s * w, q * t * w
-    k1 = s * (t * level + q * upward) - p * (t * upward + q * level)
+    k1 = s * (t * of.level + q * of.upward) - p * (t * of.upward + q * of.level)
     f = (
         -p * k0,
         p * (G - k1) - (p + q) * k0,
@@ -60,14 +116,21 @@ def quartic(row: Sequence[float]) -> Quartic:
         q * (-m - k1) + (p + q) * k2,
         q * k2,
     )
-    return Quartic(f, p, q, b > d, (k0, k1, k2))
+    return Quartic(f, p, q, q > t, (k0, k1, k2))
 
 
 def position(row: Sequence[float]) -> Position:
     """The exact position of a valid row of ten."""
     if row[7] == row[8] == 0 or row[2] == row[3]:
         return integers.position(Pair.from_row(row[: len(COLUMNS)]).lengths)
-    pair = quartic(row)
+    return position_of_squares(squares(row))
+
+
+def position_of_squares(of: Squares) -> Position:
+    """The exact position of the pair that has these squares."""
+    if of.upright:
+        return integers.position_of_squares(of.p, of.q, of.s, of.t, of.radius, of.height)
+    pair = quartic(of)
     delta = discriminant(pair.f)
     if delta < 0:
         return Position.CONTACT

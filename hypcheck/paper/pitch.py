@@ -6,7 +6,7 @@ place it is upright. The sines and the rotors' places are rounded once, as those
 numbers that come of it are decided exactly.
 
 A spheroid lies within the ball of its longer semi-axis. Where that ball is interior, so is the spheroid, however it
-leans; only the others are decided one by one.
+leans; only the others are asked with their axes.
 """
 
 from __future__ import annotations
@@ -20,11 +20,10 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask, Positions
-from hypcheck.kernel.classify import classify_scene
+from hypcheck.kernel.classify import classify, classify_scene
 from hypcheck.messages import counted
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, any_angle
-from hypcheck.truth.tilted import batch
 from hypcheck.vectors.draw import Draw
 
 CENTRES = 20_000
@@ -47,7 +46,7 @@ def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
 
 
 def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
-    return batch.positions(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+    return classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
 
 
 def _of(point: Columns, those: Indices) -> Columns:

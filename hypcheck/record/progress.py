@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from msgspec import UNSET, Meta, UnsetType
+from msgspec import Meta
 
 from hypcheck.record.fields import (
-    Axis,
     Count,
-    InvalidAxis,
     InvalidRow,
     LinePart,
     Mistake,
@@ -62,7 +60,6 @@ class SavedAnswer(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: Row
-    axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: Annotated[int, Meta(ge=-128, le=127)]
     mistake: Mistake
@@ -76,7 +73,6 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: InvalidRow
-    axis: InvalidAxis | UnsetType = UNSET
     status: str
     reason: str
 

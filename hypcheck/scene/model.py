@@ -1,16 +1,28 @@
 """A scene: what stands, what moves, where, and what is asked. Plain values; reading.py makes them and refuses others.
 
-Lengths are in one unit of the caller's choice (metres in the scenes that are shipped), angles in degrees. A hyperboloid
-stands upright: `alpha`, `gamma` and `height` describe it in its own frame, and `center` puts it into the scene.
+Lengths are in one unit of the caller's choice (metres in the scenes that are shipped), angles in degrees. `alpha`,
+`gamma` and `height` describe a hyperboloid in its own frame; `center` and `axis` put it into the scene.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 QUESTIONS = ("position", "exterior", "interior", "contact")
 
 Point = tuple[float, float, float]
+
+UPRIGHT: Point = (0.0, 0.0, 1.0)
+"""The axis of what does not lean."""
+
+FREE: Literal["free"] = "free"
+"""The axis of a mover that each query names."""
+
+
+def leans(axis: Point | Literal["free"]) -> bool:
+    """Whether an axis is not vertical, or may not be."""
+    return axis == FREE or axis[0] != 0 or axis[1] != 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +47,7 @@ class Hyperboloid:
     """x²/α² + y²/α² − z²/γ² = 1 about `center` (equation (1) of the paper), of its own `name`.
 
     `height` is the range of z, from the centre's level, in which the surface stands in the world; None: everywhere.
+    `axis` points along the z of these, not 0 and of any length.
     """
 
     name: str
@@ -42,6 +55,7 @@ class Hyperboloid:
     gamma: float
     center: Point = (0.0, 0.0, 0.0)
     height: Span | None = None
+    axis: Point = UPRIGHT
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,11 +73,15 @@ class MoverPart:
 
 @dataclass(frozen=True, slots=True)
 class Mover:
-    """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself."""
+    """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself.
+
+    `axis` is any vector ≠ 0 along its axis of revolution, or FREE. A mover with parts is upright.
+    """
 
     b: float
     d: float
     parts: tuple[MoverPart, ...] = ()
+    axis: Point | Literal["free"] = UPRIGHT
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,3 +159,8 @@ class SceneModel:
     region: Region = Region()
     flight: Flight | None = None
     walk: Walk | None = None
+
+    @property
+    def leaning(self) -> bool:
+        """Whether anything in it leans, or may."""
+        return leans(self.mover.axis) or any(leans(body.axis) for body in self.hyperboloids)

@@ -4,7 +4,7 @@ The tables of a scene file that say how `hypcheck simulate` moves the mover: [fl
 
 Reading a scene file: TOML, complete and strict. What is not known or cannot be is refused in one sentence.
 
-docs/scenes.md explains the keys; schemas/scene-1.0.0.json has them for editors and other programs.
+docs/scenes.md explains the keys; schemas/scene-1.1.0.json has them for editors and other programs.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from hypcheck.scene import tables
 from hypcheck.scene.model import (
     QUESTIONS,
     TURNS,
+    UPRIGHT,
     Flight,
     Hyperboloid,
     Mover,
@@ -28,6 +29,7 @@ from hypcheck.scene.model import (
     SceneModel,
     Start,
     Walk,
+    leans,
 )
 from hypcheck.scene.tables import TomlSource, TomlTable
 
@@ -95,8 +97,8 @@ MOST_PARTS = 100
 """Of a file. A scene that is made in Python (hypcheck.scene.model) may have more hyperboloids."""
 
 _SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
-_HYPERBOLOID = ("name", "alpha", "gamma", "center", "height")
-_MOVER = ("b", "d", "part")
+_HYPERBOLOID = ("name", "alpha", "gamma", "center", "height", "axis")
+_MOVER = ("b", "d", "part", "axis")
 _PART = ("b", "d", "arm", "angle")
 _REGION = ("x", "y", "z")
 
@@ -129,7 +131,16 @@ def _scene(top: TomlTable) -> SceneModel:
     name = top.required("name", tables.text)
     question = top.optional("question", tables.one_of(*QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
-    return SceneModel(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
+    scene = SceneModel(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
+    if scene.leaning:
+        for key, moving in (("flight", scene.flight), ("walk", scene.walk)):
+            if moving is not None:
+                top.refuse(
+                    f"[{key}] is of a scene in which something leans; simulations fly and walk upright among what is "
+                    "upright: leave out axis (simulate tower --pitch leans)",
+                    key,
+                )
+    return scene
 
 
 def _file(name: str) -> tuple[str, str]:
@@ -153,6 +164,7 @@ def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
             gamma=table.required("gamma", tables.positive),
             center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
             height=table.optional("height", tables.span, None),
+            axis=table.optional("axis", tables.axis, UPRIGHT),
         )
         first = found.setdefault(body.name, number)
         if first != number:
@@ -169,7 +181,14 @@ def _mover(top: TomlTable) -> Mover:
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
     b, d = (table.required(name, tables.positive) for name in ("b", "d"))
-    return Mover(b, d, tuple(_parts(table, b, d)))
+    mover = Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, UPRIGHT))
+    if mover.parts and leans(mover.axis):
+        table.refuse(
+            f"[mover]: axis is {tables.shown(mover.axis)}, and the mover has parts, whose places are known only where "
+            "it is upright; leave out axis or the parts",
+            "axis",
+        )
+    return mover
 
 
 def _parts(mover: TomlTable, b: float, d: float) -> Iterable[MoverPart]:

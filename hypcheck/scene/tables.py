@@ -7,11 +7,11 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NoReturn, TypeVar
+from typing import Any, Literal, NoReturn, TypeVar
 
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
-from hypcheck.scene.model import Point, Span
+from hypcheck.scene.model import FREE, Point, Span
 from hypcheck.scene.positions import Path, lines_of, nearest_line
 
 Value = TypeVar("Value")
@@ -185,6 +185,27 @@ def point(value: object) -> Point:
         raise ValueError(wanted)
     x, y, z = (_number(each, wanted) for each in value)
     return x, y, z
+
+
+def axis(value: object) -> Point:
+    """A direction, of any length."""
+    wanted = "three finite numbers, [x, y, z], not all 0"
+    if not isinstance(value, list) or len(value) != 3:
+        raise ValueError(wanted)
+    x, y, z = (_number(each, wanted) for each in value)
+    if x == y == z == 0:
+        raise ValueError(wanted)
+    return x, y, z
+
+
+def axis_or_free(value: object) -> Point | Literal["free"]:
+    """A direction, or that each query names one."""
+    if value == FREE:
+        return FREE
+    try:
+        return axis(value)
+    except ValueError as error:
+        raise ValueError(f'{error}, or "{FREE}"') from None
 
 
 def span(value: object) -> Span:

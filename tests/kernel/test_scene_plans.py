@@ -12,7 +12,7 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.kernel.specialise.settings import settings_of
-from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.support.scenes import scene
 
@@ -23,6 +23,27 @@ def test_pairs_of_the_same_sizes_share_a_setting():
     assert body.sizes == (2.0, 17.8, 0.25, 0.15)
     assert rotors.sizes == (2.0, 17.8, 0.1, 0.05)
     assert rotors.uses == tuple(f"part {number} and tower" for number in (1, 2, 3, 4))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            {"mover": Mover(0.5, 0.25, axis=FREE)},
+            "no kernel is made: the mover's axis is free, and kernels are made for",
+        ),
+        ({"mover": Mover(0.5, 0.25, axis=(1.0, 0.0, 2.0))}, r"the mover has the axis \[1.0, 0.0, 2.0\], and kernels"),
+        (
+            {"hyperboloids": (Hyperboloid("oak", 1.0, 2.0, axis=(1.0, 0.0, 0.0)),)},
+            r"the hyperboloid 'oak' has the axis \[1.0, 0.0, 0.0\], and kernels are made for upright",
+        ),
+    ],
+)
+def test_a_scene_in_which_something_leans_has_no_plan(changes, message):
+    upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.25))
+    assert len(settings_of(upright)) == 1
+    with pytest.raises(InputError, match=message):
+        plan_of(replace(upright, **changes))
 
 
 def test_the_region_is_seen_from_each_hyperboloid_and_wider_by_an_arm():

@@ -55,7 +55,7 @@ def test_quartic_is_the_determinant_of_the_pencil_times_a_positive_number(row):
     minus_f0, *others, p, q, s, t, w = (found[name] for name in names)
     factor = p * p * q * q * s * t * w
     assert [-minus_f0, *others] == [factor * each for each in interpolated(*matrices(row))]
-    written = tilted_integers.quartic(row).f
+    written = tilted_integers.quartic(tilted_integers.squares(row)).f
     assert [each * written[4] for each in (-minus_f0, *others)] == [each * others[3] for each in written]
 
 
@@ -84,7 +84,7 @@ RINGS = (  # a pole is a double root of the quartic, and the pair is clear; the 
 
 @pytest.mark.parametrize(("row", "position"), RINGS)
 def test_double_root_at_a_pole_decides_nothing_by_itself(row, position):
-    assert tilted_integers.discriminant(tilted_integers.quartic(row).f) == 0
+    assert tilted_integers.discriminant(tilted_integers.quartic(tilted_integers.squares(row)).f) == 0
     assert exact_position(row) == position
     assert tilted_integers.position(row) == position
 

@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.scene import reading
-from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import parse_scene, read_scene, shipped_scenes, shipped_text
 
 WHOLE = """\
@@ -44,6 +44,12 @@ z = -0.0
 """
 
 LEAST = 'name = "a"\nhyperboloid = [{ alpha = 1, gamma = 2 }]\nmover = { b = 1, d = 1 }\n'
+LEANING = (
+    'name = "a"\n'
+    "hyperboloid = [{ alpha = 1, gamma = 2, axis = [0, -1, 3] }, { alpha = 1, gamma = 2 }]\n"
+    "mover = { b = 1, d = 1, axis = [0.5, 0, 2] }\n"
+)
+WALK = "[walk]\nstart = [0, 0, 0]\nheading = 0\nsteps = 1\nstep = 1\nlargest_turn = 1\nrefused_turn = 1\n"
 
 
 def refusal(text, source="s.toml"):
@@ -71,6 +77,21 @@ def test_everything_that_a_scene_can_have():
 def test_what_is_not_said_has_a_default():
     scene = parse_scene(LEAST)
     assert scene == SceneModel("a", "position", (Hyperboloid("hyperboloid 1", 1.0, 2.0),), Mover(1.0, 1.0), Region())
+
+
+def test_axes_are_read_as_they_stand():
+    scene = parse_scene(LEANING)
+    assert [body.axis for body in scene.hyperboloids] == [(0.0, -1.0, 3.0), UPRIGHT]
+    assert scene.mover.axis == (0.5, 0.0, 2.0)
+    assert scene.leaning
+    assert parse_scene(LEANING.replace("[0.5, 0, 2]", '"free"')).mover.axis == FREE
+
+
+def test_a_vertical_axis_is_upright_whatever_its_length_and_sense():
+    text = LEANING.replace("[0, -1, 3]", "[0, 0, -3]").replace("[0.5, 0, 2]", "[0, 0, 1e300]")
+    assert not parse_scene(text).leaning
+    parted = WHOLE.replace("d = 0.15", "d = 0.15\naxis = [0, 0, -2]")
+    assert len(parse_scene(parted).mover.parts) == 1
 
 
 def test_a_span_is_fixed_where_it_is_one_number():
@@ -105,7 +126,24 @@ def changed(old, new):
         (changed("alpha = 0.5", ""), "line 4: hyperboloid 1 has no alpha; it must be a finite number above 0"),
         (changed("alpha = 0.5", "aplha = 1"), 'line 6: hyperboloid 1 has the key "aplha", which is not known; did'),
         (changed("alpha = 0.5", "Alpha = 1"), "did you mean alpha?"),
-        (changed("alpha = 0.5", "radius = 1"), "it may have name, alpha, gamma, center, height"),
+        (changed("alpha = 0.5", "thick = 1"), "it may have name, alpha, gamma, center, height, axis"),
+        (
+            changed("alpha = 0.5", "alpha = 0.5\naxis = [0, 0, 0]"),
+            "line 7: hyperboloid 1: axis is [0, 0, 0]; it must be three finite numbers, [x, y, z], not all 0",
+        ),
+        (changed("alpha = 0.5", "alpha = 0.5\naxis = [1, nan, 0]"), "line 7: hyperboloid 1: axis is [1, nan, 0]; "),
+        (changed("alpha = 0.5", 'alpha = 0.5\naxis = "free"'), 'line 7: hyperboloid 1: axis is "free"; '),
+        (
+            LEANING.replace("[0.5, 0, 2]", "[0, 0, -0.0]"),
+            'line 3: [mover]: axis is [0, 0, -0.0]; it must be three finite numbers, [x, y, z], not all 0, or "free"',
+        ),
+        (LEANING.replace("[0.5, 0, 2]", '"any"'), 'line 3: [mover]: axis is "any"; '),
+        (
+            changed("d = 0.15", "d = 0.15\naxis = [1, 0, 4]"),
+            "line 18: [mover]: axis is [1.0, 0.0, 4.0], and the mover has parts, whose places are known only where",
+        ),
+        (changed("d = 0.15", 'd = 0.15\naxis = "free"'), 'line 18: [mover]: axis is "free", and the mover has parts'),
+        (LEANING + WALK, "line 4: [walk] is of a scene in which something leans; simulations fly and walk upright"),
         (changed("[-1, 6.25]", "[6, -1]"), "line 9: hyperboloid 1: height is [6, -1]; it must be two finite numbers"),
         (changed("[-1, 6.25]", "[2, 2.0]"), "line 9: hyperboloid 1: height is [2, 2.0]; "),
         (changed("[-1, 6.25]", "[2]"), "line 9: hyperboloid 1: height is [2]; "),

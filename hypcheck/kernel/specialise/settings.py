@@ -23,7 +23,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats
 from hypcheck.kernel import integers
-from hypcheck.scene.model import Hyperboloid, MoverPart, SceneModel, Span
+from hypcheck.scene.model import FREE, Hyperboloid, MoverPart, SceneModel, Span, leans
 
 SWING = 1 + Fraction(1, 2**40)
 """What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
@@ -60,13 +60,32 @@ class Setting:
 def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
-    A pair whose heights never meet the region is left out: nothing there is ever asked of it.
+    A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
+    something leans.
     """
+    _require_upright(scene)
     found: dict[Sizes, Setting] = {}
     for setting in _pairs(scene):
         known = found.get(setting.sizes)
         found[setting.sizes] = setting if known is None else _joined(known, setting)
     return tuple(found.values())
+
+
+def _require_upright(scene: SceneModel) -> None:
+    """Raise InputError about what leans, or may."""
+    lean = [
+        f"the hyperboloid {body.name!r} has the axis {list(body.axis)}"
+        for body in scene.hyperboloids
+        if leans(body.axis)
+    ]
+    if leans(scene.mover.axis):
+        free = scene.mover.axis == FREE
+        lean.insert(0, "the mover's axis is free" if free else f"the mover has the axis {list(scene.mover.axis)}")
+    if lean:
+        raise InputError(
+            f"no kernel is made: {lean[0]}, and kernels are made for upright spheroids and hyperboloids alone "
+            "(hypcheck.Scene asks what leans)"
+        )
 
 
 def position_of_box(setting: Setting) -> Position | None:

@@ -1,0 +1,156 @@
+"""A mover beside hyperboloids, where one of them leans or both do: exact positions from the scene's coordinates.
+
+Beside a hyperboloid that stands upright the question is one of ten numbers. The difference of two centres is no float64
+as a rule; with its rounding error e a spheroid whose semi-axes are ε = |e|/min(b, d) longer contains the true one, and
+one with semi-axes that much shorter lies in it. The larger clear is clear, the smaller in contact is contact; what is
+left is decided in integers from the exact difference.
+
+Beside a hyperboloid that leans, along w, nothing is rotated: squares and products of its axis, the spheroid's and the
+centre's difference are rational, and the position is decided from them (tilted_integers.squares_between_axes). Most
+movers are nowhere near: with h and ϱ, the centre's height along w and its distance from the axis, the spheroid lies in
+the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
+surface's radius. In floats h and ϱ are formed from w/|w| and the centres with six roundings to a term, all on sums of
+at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from hypcheck.derivation.float_arithmetic import two_sum
+from hypcheck.geometry.pair import Position, to_integers
+from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
+from hypcheck.kernel.classify import classify
+from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
+
+ERROR = 64 * 2.0**-53
+"""Of h and ϱ, in units of the sum of all coordinates."""
+
+MARGIN = 2.0**-40
+"""Of ρ and of |e|/min(b, d), relative; far more than they need."""
+
+ROUNDED = 2.0**-50
+"""More than the roundings of a semi-axis made longer or shorter, relative."""
+
+LEAST, GREATEST = 2.0**-200, 2.0**200
+"""Lengths, and coordinates that are not 0, whose squares and quotients neither overflow nor underflow."""
+
+
+def positions_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
+    """The exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
+    lean = (axes[:, :2] != 0).any(axis=1)
+    result = np.empty(len(sizes), np.int8)
+    for those, decide in ((np.flatnonzero(~lean), _beside_upright), (np.flatnonzero(lean), _beside_leaning)):
+        if len(those):
+            result[those] = decide(sizes[those], centres[those], origins[those], movers[those], axes[those])
+    return result
+
+
+def position_leaning(
+    sizes: Sequence[float],
+    centre: Sequence[float],
+    origin: Sequence[float],
+    mover: Sequence[float],
+    axis: Sequence[float],
+) -> int:
+    """The same of one pair, in integers from the exact difference of the centres."""
+    difference = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]
+    return int(position_of_squares(squares_between_axes(sizes, difference, mover, axis)))
+
+
+def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
+    """Decide some rows in integers."""
+    for index in those.tolist():
+        result[index] = position_leaning(*(column[index].tolist() for column in columns))
+
+
+def _beside_upright(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
+    with np.errstate(all="ignore"):
+        offset, error = two_sum(centres, -origins)
+        inexact = ~(error == 0).all(axis=1)
+        beyond = ~np.isfinite(offset).all(axis=1)
+        stretch = np.abs(error).sum(axis=1) / sizes[:, 2:].min(axis=1) * (1 + MARGIN) + ROUNDED
+        larger, smaller = sizes.copy(), sizes.copy()
+        larger[:, 2:] *= (1 + stretch)[:, None]
+        smaller[:, 2:] *= (1 - stretch)[:, None]
+    offset[beyond] = 0.0
+    result = classify(np.concatenate([sizes, offset, movers], axis=1))
+    fits = np.isfinite(larger).all(axis=1) & (smaller > LEAST).all(axis=1) & ~beyond
+    some = np.flatnonzero(inexact & fits)
+    unsettled = inexact | beyond
+    if len(some):
+        rest = np.concatenate([offset, movers], axis=1)[some]
+        outer = classify(np.concatenate([larger[some], rest], axis=1))
+        inner = classify(np.concatenate([smaller[some], rest], axis=1))
+        result[some] = outer
+        unsettled[some] = (outer == Position.CONTACT) & (inner != Position.CONTACT)
+    _exactly(np.flatnonzero(unsettled), result, sizes, centres, origins, movers, axes)
+    return result
+
+
+def _beside_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
+    result = np.zeros(len(sizes), np.int8)
+    with np.errstate(all="ignore"):
+        height, distance, error = _along_and_across(centres, origins, axes)
+        alpha, gamma = sizes[:, 0], sizes[:, 1]
+        longest = sizes[:, 2:].max(axis=1) * (1 + MARGIN) + error
+        ordinary = (sizes > LEAST).all(axis=1) & (sizes < GREATEST).all(axis=1)
+        above = (np.abs(height) + longest) / gamma
+        below = np.maximum(np.abs(height) - longest, 0.0) / gamma
+        outside = distance - longest > alpha * np.sqrt(1 + above * above) * (1 + MARGIN)
+        inside = distance + longest < alpha * np.sqrt(1 + below * below) * (1 - MARGIN)
+    result[outside & ordinary], result[inside & ordinary] = Position.EXTERIOR, Position.INTERIOR
+    left = np.flatnonzero(~ordinary | ~(outside | inside))
+    _exactly(left, result, sizes, centres, origins, movers, axes)
+    return result
+
+
+def _along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, Floats, Floats]:
+    """The centres' heights along the axes and distances from them, and a bound of the error of both; nan: not known."""
+    largest = np.abs(axes).max(axis=1, keepdims=True)
+    unit = axes / largest
+    unit /= np.sqrt((unit * unit).sum(axis=1, keepdims=True))
+    way = centres - origins
+    size = (np.abs(centres) + np.abs(origins)).sum(axis=1)
+    ordinary = (largest[:, 0] > LEAST) & (largest[:, 0] < GREATEST) & (size < GREATEST)
+    along = (unit * way).sum(axis=1)
+    across = np.cross(unit, way)
+    error = np.where(ordinary, ERROR * size + LEAST, np.nan)
+    return along, np.sqrt((across * across).sum(axis=1)), error
+
+
+def within_height(spans: Rows, centres: Rows, origins: Rows, axes: Rows) -> Mask:
+    """Whether each centre lies within a modelled height (n, 2) along an axis (n, 3), exactly; (n,)."""
+    low, high = spans[:, 0], spans[:, 1]
+    with np.errstate(all="ignore"):
+        height, _, error = _along_and_across(centres, origins, axes)
+        inside = (height - error >= low) & (height + error <= high)
+        outside = (height + error < low) | (height - error > high)
+    inside |= (low == -np.inf) & (high == np.inf)
+    for index in np.flatnonzero(~(inside | outside)).tolist():
+        columns = (spans, centres, origins, axes)
+        inside[index] = is_within_height(*(column[index].tolist() for column in columns))
+    return np.asarray(inside)
+
+
+def is_within_height(
+    span: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
+) -> bool:
+    """The same of one: low ≤ w·(X − c)/|w| ≤ high, squares compared."""
+    if span[0] == -np.inf and span[1] == np.inf:
+        return True
+    w = to_integers(axis)
+    along = sum(
+        ((Fraction(there) - Fraction(here)) * each for there, here, each in zip(centre, origin, w, strict=True)),
+        Fraction(0),
+    )
+    square = sum(each * each for each in w)
+    low, high = (_signed_square(Fraction(each)) * square for each in span)
+    return low <= _signed_square(along) <= high
+
+
+def _signed_square(value: Fraction) -> Fraction:
+    return value * abs(value)

@@ -1,0 +1,298 @@
+"""Scenes in which something leans: exact answers against fractions, heights along an axis, and who may name an axis."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.kernel.scene import Scene
+from hypcheck.kernel.scene_index import bodies_of, reaches
+from hypcheck.kernel.scene_leaning import is_within_height, position_leaning, within_height
+from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
+from tests.tilted_fractions import exact_position
+
+CONTACT, EXTERIOR, INTERIOR, SILENT = 0, 1, -1, 2
+
+
+def truth_beside(body, mover, axis, centre):
+    """What a hyperboloid says, in fractions: with its own axis, and its height along that."""
+    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
+    if body.height is not None:
+        along = sum(a * Fraction(b) for a, b in zip(offset, body.axis, strict=True))
+        square = sum(Fraction(each) ** 2 for each in body.axis)
+        low, high = Fraction(body.height.low), Fraction(body.height.high)
+        if not (low * abs(low) * square <= along * abs(along) <= high * abs(high) * square):
+            return SILENT
+    return exact_position((body.alpha, body.gamma, mover.b, mover.d, *offset, *axis), body.axis)
+
+
+def truth(scene, centre, axis):
+    said = {truth_beside(body, scene.mover, axis, centre) for body in scene.hyperboloids}
+    return next((each for each in (CONTACT, INTERIOR, EXTERIOR) if each in said), SILENT)
+
+
+def direction(draw, most=3):
+    while True:
+        axis = tuple(float(draw.randint(-most, most)) for _ in range(3))
+        if any(axis):
+            return axis
+
+
+def leaning_forest(count, seed, heights=True):
+    """Hyperboloids of which two in three lean, with sizes and places of few bits."""
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    trees = []
+    for number in range(count):
+        place = tuple(draw.randint(-24, 24) / 4 for _ in range(3))
+        height = Span(-draw.randint(1, 9) / 2, draw.randint(1, 9) / 2) if heights and draw.random() < 0.7 else None
+        axis = UPRIGHT if number % 3 == 0 else direction(draw)
+        trees.append(
+            Hyperboloid(f"tree {number}", draw.randint(1, 8) / 8, draw.randint(2, 16) / 4, place, height, axis)
+        )
+    mover = Mover(draw.randint(1, 6) / 8, draw.randint(1, 6) / 8, axis=draw.choice([UPRIGHT, (1.0, -2.0, 3.0), FREE]))
+    return SceneModel("forest", "position", tuple(trees), mover, Region(z=Span(-8.0, 8.0)))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_leaning_forest_is_answered_as_if_each_tree_were_asked_in_fractions(seed):
+    scene = leaning_forest(6, seed)
+    draw = random.Random(seed + 100)  # noqa: S311 - nothing is secret
+    centres = [tuple(draw.randint(-64, 64) / 8 for _ in range(3)) for _ in range(25)]
+    axes = [direction(draw) if scene.mover.axis == FREE else scene.mover.axis for _ in centres]
+    given = {"axis": np.array(axes)} if scene.mover.axis == FREE else {}
+    asked = Scene(scene)
+    found = asked.classify(*np.array(centres).T, **given)
+    expected = [truth(scene, centre, axis) for centre, axis in zip(centres, axes, strict=True)]
+    assert found.tolist() == expected
+    alone = [
+        asked.position(*centre, **({"axis": axis} if given else {})) for centre, axis in zip(centres, axes, strict=True)
+    ]
+    assert alone == expected
+
+
+def test_forests_reach_every_answer():
+    said = set()
+    for seed in range(6):
+        scene = leaning_forest(3, seed)
+        axis = (1.0, 0.0, 1.0)
+        scene = replace(scene, mover=replace(scene.mover, axis=axis))
+        grid = np.array(list(itertools.product(np.linspace(-9, 9, 12), repeat=3)))
+        said |= set(Scene(scene).classify(*grid.T).tolist())
+    assert said == {CONTACT, EXTERIOR, INTERIOR, SILENT}
+
+
+def test_a_hyperboloid_turned_with_its_mover_says_the_same():
+    """Quarter turns about y take z to x exactly: no rounding, and a position that must not change."""
+    draw = random.Random(7)  # noqa: S311 - nothing is secret
+    for _ in range(60):
+        sizes = [draw.randint(1, 12) / 4 for _ in range(4)]
+        x, y, z = (draw.randint(-16, 16) / 4 for _ in range(3))
+        v = direction(draw)
+        upright = position_leaning(sizes, (x, y, z), (0, 0, 0), v, UPRIGHT)
+        turned = position_leaning(sizes, (z, y, -x), (0, 0, 0), (v[2], v[1], -v[0]), (5.0, 0.0, 0.0))
+        assert upright == turned == exact_position((*sizes, x, y, z, *v))
+
+
+def test_length_and_sense_of_both_axes_do_not_matter():
+    draw = random.Random(8)  # noqa: S311 - nothing is secret
+    for _ in range(40):
+        sizes = [draw.randint(1, 12) / 4 for _ in range(4)]
+        centre = [draw.randint(-16, 16) / 4 for _ in range(3)]
+        v, w = direction(draw), direction(draw)
+        first = position_leaning(sizes, centre, (0, 0, 0), v, w)
+        scaled = [-each * 1e150 for each in v], [each * 2.0**-1000 for each in w]
+        assert position_leaning(sizes, centre, (0, 0, 0), *scaled) == first
+
+
+def test_parallel_axes_and_spheres_are_upright_pairs():
+    draw = random.Random(9)  # noqa: S311 - nothing is secret
+    for _ in range(40):
+        alpha, gamma, b, d = (draw.randint(1, 12) / 4 for _ in range(4))
+        centre = [draw.randint(-16, 16) / 4 for _ in range(3)]
+        w = direction(draw)
+        doubled = [-2 * each for each in w]
+        expected = exact_position((alpha, gamma, b, d, *centre, *w), w)
+        assert position_leaning((alpha, gamma, b, d), centre, (0, 0, 0), doubled, w) == expected
+        expected = exact_position((alpha, gamma, b, b, *centre, *UPRIGHT), w)
+        assert position_leaning((alpha, gamma, b, b), centre, (0, 0, 0), direction(draw), w) == expected
+
+
+def test_centres_whose_difference_is_rounded_are_decided_exactly():
+    """At 2^52 a difference is wrong by halves: more than any clearance here."""
+    far = 2.0**52
+    draw = random.Random(3)  # noqa: S311 - nothing is secret
+    for axis in (UPRIGHT, (1.0, 2.0, 2.0)):
+        body = Hyperboloid("far", 2.0, 3.0, (far, 0.25, -far), None, axis)
+        scene = SceneModel("s", "position", (body,), Mover(1.0, 0.5, axis=(1.0, 1.0, 3.0)))
+        for _ in range(30):
+            centre = (far + draw.randint(-5, 5), draw.randint(-20, 20) / 8, -far + draw.randint(-5, 5))
+            assert Scene(scene).position(*centre) == truth(scene, centre, scene.mover.axis)
+        near = (1 / 3, -1e-17, 2.0**-60)
+        moved = replace(scene, hyperboloids=(replace(body, center=(3.0, 0.1, -1e-3)),))
+        assert Scene(moved).position(*near) == truth(moved, near, scene.mover.axis)
+
+
+def test_tangent_positions_are_contact_and_the_next_float_is_not():
+    """Upright hyperboloid: α = γ = 1, a ball of radius 1 at (2, 0, 0) touches it however its axis points."""
+    body = Hyperboloid("waist", 1.0, 4.0, (10.0, 0.0, 0.0), None, (0.0, 3.0, 0.0))
+    scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 1.0, axis=(1.0, 2.0, 3.0))))
+    assert scene.position(12.0, 0.0, 0.0) == CONTACT
+    assert scene.position(float(np.nextafter(12.0, 13.0)), 0.0, 0.0) == EXTERIOR
+    assert scene.position(8.0, 0.0, 0.0) == CONTACT
+    assert scene.position(float(np.nextafter(8.0, 7.0)), 0.0, 0.0) == EXTERIOR
+
+
+def test_height_counts_along_the_axis_the_way_it_points():
+    low, high = -1.0, 2.0
+    for axis, sense in (((0.0, 0.0, 5.0), 1), ((0.0, 0.0, -5.0), -1)):
+        body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 3.0), Span(low, high), axis)
+        scene = Scene(SceneModel("s", "position", (body,), Mover(0.25, 0.25)))
+        assert scene.position(9.0, 0.0, 3.0 + sense * high) == EXTERIOR
+        assert scene.position(9.0, 0.0, 3.0 + sense * low) == EXTERIOR
+        assert scene.position(9.0, 0.0, 3.0 + sense * high + sense * 1e-9) == SILENT
+        assert scene.position(9.0, 0.0, 3.0 + sense * low - sense * 1e-9) == SILENT
+
+
+def test_height_along_a_leaning_axis_is_exact_at_its_end():
+    """Axis (3, 0, 4): 5 along it is 25/5, no rounding; the next float is beyond."""
+    span, axis = (-5.0, 5.0), (3.0, 0.0, 4.0)
+    for x, inside in ((3.0, True), (float(np.nextafter(3.0, 4.0)), False), (float(np.nextafter(3.0, 2.0)), True)):
+        columns = (np.array([each]) for each in (span, (x, 7.0, 4.0), (0.0, 0.0, 0.0), axis))
+        assert within_height(*columns).tolist() == [inside]
+        assert is_within_height(span, (x, 7.0, 4.0), (0.0, 0.0, 0.0), axis) is inside
+    assert not is_within_height((1.0, 2.0), (0.0, 0.0, -1.5), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    root = (1.0, 1.0, 1.0)  # |w| = √3 is irrational: 3/√3 < 1.7320508075688774, and > the float before it
+    above, below = 1.7320508075688774, 1.7320508075688772
+    assert is_within_height((0.0, above), root, (0.0, 0.0, 0.0), root)
+    assert not is_within_height((0.0, below), root, (0.0, 0.0, 0.0), root)
+
+
+def test_height_of_many_is_that_of_fractions():
+    random_ = np.random.default_rng(2)
+    axes = random_.integers(-3, 4, (400, 3)).astype(float)
+    axes[(axes == 0).all(axis=1)] = 1.0
+    centres, origins = random_.integers(-8, 9, (400, 3)) / 2, random_.integers(-8, 9, (400, 3)) / 2
+    spans = np.sort(random_.integers(-6, 7, (400, 2)) / 2, axis=1)
+    found = within_height(spans, centres, origins, axes)
+    expected = [
+        is_within_height(*(each.tolist() for each in row)) for row in zip(spans, centres, origins, axes, strict=True)
+    ]
+    assert found.tolist() == expected
+    assert 0 < sum(expected) < 400
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_centre_beyond_a_reach_is_touched_by_what_leans(seed):
+    scene = leaning_forest(8, seed, heights=True)
+    scene = replace(scene, mover=replace(scene.mover, axis=(1.0, 0.0, 1.0)))
+    bodies = bodies_of(scene.hyperboloids)
+    far = reaches(bodies, scene.mover, scene.region.z)
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    beyond = 0
+    for body, reach in zip(scene.hyperboloids, far.tolist(), strict=True):
+        assert (reach == np.inf) == (body.height is None and leans(body.axis))
+        for _ in range(20 if reach < np.inf else 0):
+            angle = draw.uniform(0, 2 * np.pi)
+            x, y = body.center[0] + 1.001 * reach * np.cos(angle), body.center[1] + 1.001 * reach * np.sin(angle)
+            centre = (round(x * 64) / 64, round(y * 64) / 64, draw.randint(-8, 8) * 1.0)
+            beyond += np.hypot(centre[0] - body.center[0], centre[1] - body.center[1]) > reach
+            assert truth_beside(body, scene.mover, scene.mover.axis, centre) in (EXTERIOR, SILENT)
+    assert beyond > 40
+
+
+def test_a_tower_that_leans_far_is_asked_where_its_top_is():
+    """Its foot is 10 m away from where a mover meets it."""
+    tower = Hyperboloid("tower", 1.0, 20.0, (0.0, 0.0, 0.0), Span(0.0, 20.0), (3.0, 0.0, 4.0))
+    trees = tuple(Hyperboloid(f"tree {k}", 0.25, 4.0, (3.0 * k, 30.0, 0.0)) for k in range(12))
+    scene = Scene(SceneModel("s", "position", (tower, *trees), Mover(0.25, 0.5), Region(z=Span(0.0, 20.0))))
+    assert scene.position(12.0, 0.0, 16.0) == INTERIOR
+    assert scene.position(0.0, 0.0, 16.0) == EXTERIOR
+    wall = 1.0 * np.hypot(1, 1.0) / 0.8
+    assert scene.position(12.0 - wall, 0.0, 16.0) == CONTACT
+
+
+def test_an_upright_mover_asks_its_parts_beside_what_leans():
+    body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), None, (0.0, 1.0, 0.0))
+    part = MoverPart(0.125, 0.125, 0.5)
+    mover = Mover(1.0, 0.25, (part,))
+    scene = Scene(SceneModel("s", "position", (body,), mover))
+    assert Scene(SceneModel("s", "position", (body,), replace(mover, parts=()))).position(3.5, 0.0, 0.0) == CONTACT
+    assert scene.position(3.5, 0.0, 0.0, heading=180.0) == INTERIOR
+    assert scene.position(3.5, 0.0, 0.0, heading=0.0) == CONTACT
+
+
+def test_questions_are_answered_of_what_leans():
+    body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), Span(-2.0, 2.0), (0.0, 1.0, 0.0))
+    scene = SceneModel("s", "interior", (body,), Mover(0.5, 0.25, axis=(1.0, 1.0, 0.0)))
+    found = Scene(scene).classify([0.0, 4.0, 0.0], [0.0, 0.0, 3.0], 0.0)
+    assert found.tolist() == [1, 0, 2]
+
+
+FREELY = SceneModel("s", "position", (Hyperboloid("h", 1.0, 1.0),), Mover(0.5, 0.25, axis=FREE))
+FIXED = replace(FREELY, mover=Mover(0.5, 0.25, axis=(1.0, 0.0, 2.0)))
+UPSTANDING = replace(FREELY, mover=Mover(0.5, 0.25))
+
+
+@pytest.mark.parametrize(
+    ("scene", "axis", "message"),
+    [
+        (
+            FREELY,
+            None,
+            "no axis is given, and the scene leaves the mover's free; it must be three numbers, or an array",
+        ),
+        (FREELY, (0.0, 0.0, 0.0), "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"),
+        (FREELY, (0.0, np.nan, 1.0), "axis_y is nan; it must be finite"),
+        (FREELY, (0.0, 1.0), r"axis is of shape \(2,\); it must be three numbers, or an array"),
+        (FREELY, "up", "axis is 'up'; it must be three numbers"),
+        (FIXED, (1.0, 0.0, 2.0), r"axis is given, and the scene fixes the mover's: \[1.0, 0.0, 2.0\]; only where"),
+        (
+            UPSTANDING,
+            (0.0, 0.0, 1.0),
+            r"the scene fixes the mover's: \[0.0, 0.0, 1.0\]; only where \[mover\] has axis = ",
+        ),
+    ],
+)
+def test_an_axis_that_cannot_be_is_refused(scene, axis, message):
+    for ask in (Scene(scene).position, Scene(scene).classify):
+        with pytest.raises(InputError, match=message):
+            ask(1.0, 2.0, 3.0, axis=axis)
+
+
+def test_an_axis_for_each_centre_or_one_for_all():
+    axes = [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1.0)]
+    scene = Scene(FREELY)
+    each = scene.classify([1.4, 1.4, 1.4], 0.0, 0.0, axis=axes).tolist()
+    assert each == [scene.position(1.4, 0.0, 0.0, axis=axis) for axis in axes]
+    assert scene.classify([1.4, 1.4], 0.0, 0.0, axis=axes[1]).tolist() == [each[1]] * 2
+    assert len(set(each)) > 1
+
+
+def test_position_takes_one_axis_alone():
+    with pytest.raises(
+        InputError, match=r"axis is of shape \(1, 3\); it must be three numbers \(classify takes arrays\)"
+    ):
+        Scene(FREELY).position(1.0, 2.0, 3.0, axis=[(0.0, 0.0, 1.0)])
+
+
+def test_classify_names_the_row_of_an_axis_that_cannot_be():
+    for bad, message in (
+        ((0.0, -0.0, 0.0), "row 1: axis_x, axis_y, axis_z are 0, 0, 0"),
+        ((0, np.inf, 1), "row 1: axis_y is inf"),
+    ):
+        with pytest.raises(InputError, match=message):
+            Scene(FREELY).classify(1.0, 2.0, 3.0, axis=[(0.0, 0.0, 1.0), bad])
+
+
+def test_a_mover_with_parts_that_leans_is_refused():
+    mover = Mover(1.0, 1.0, (MoverPart(0.1, 0.1, 0.1),), (1.0, 0.0, 1.0))
+    with pytest.raises(
+        InputError, match="the mover leans and has parts, whose places are known only where it is upright"
+    ):
+        Scene(replace(FREELY, mover=mover))
