@@ -57,6 +57,12 @@ SLOW = {
 """Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers():
+    """One more than there are processors: many tests wait for processes that they started."""
+    return (os.cpu_count() or 1) + 1
+
+
 def pytest_collection_modifyitems(items):
     """Mark the tests of slow modules."""
     slow = {module_of(folder, name) for folder, names in SLOW.items() for name in names.split()}

@@ -110,12 +110,12 @@ def build(variant: Variant, home: Path) -> None:
     quietly(*build, *forms, tree, env=variant.environment)
 
 
-def make_environment(folder: Path) -> Path:
+def make_environment(folder: Path, *, with_pip: bool) -> Path:
     """Make an environment of the declared dependencies, linked from ours, and return its interpreter.
 
     They are linked by name, not seen through --system-site-packages: what is not declared cannot be imported.
     """
-    venv.create(folder, with_pip=True, symlinks=True)
+    venv.create(folder, with_pip=with_pip, symlinks=True)
     python = folder / "bin/python"
     site = Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
     link(dependencies(""), site)
@@ -124,10 +124,10 @@ def make_environment(folder: Path) -> Path:
 
 def install(home: Path) -> None:
     """Install the wheel into an environment that has its dependencies alone, and lay the extra's beside it."""
-    python = make_environment(home / "environment")
+    pip = (sys.executable, "-m", "pip", "--python", make_environment(home / "environment", with_pip=False))
     (wheel,) = (home / "dist").glob("*.whl")
-    quietly(python, "-m", "pip", "install", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
-    quietly(python, "-m", "pip", "check", "--disable-pip-version-check")
+    quietly(*pip, "install", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
+    quietly(*pip, "check", "--disable-pip-version-check")
     (home / "report-extra").mkdir()
     link(dependencies(REPORT) - dependencies(""), home / "report-extra")
 
@@ -274,7 +274,7 @@ def test_the_workflow_of_init_runs_as_written_in_a_fresh_clone_and_gates_two_lan
     settings = repository / "hypcheck.toml"
     settings.write_text(settings.read_text() + 'families = ["forest-type-1"]\ncount = 10\n')
     commit(repository, clone)
-    python = make_environment(environment)
+    python = make_environment(environment, with_pip=True)
     variables = installed.variant.environment | {
         "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}",
         "CI": "true",
