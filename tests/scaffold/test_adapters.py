@@ -49,6 +49,35 @@ ANSWERS = {
 """What to change for a predicate that answers +1 and −1 where the stub answers 1 and 0."""
 
 
+_ESCAPED = (r"\"binary\":true", r"\"tilt\":true,\"binary\":true")
+_PLAIN = ('"binary":true', '"tilt":true,"binary":true')
+_CALL = "return predicate(alpha, gamma, b, d, x, y, z)"
+_C = (f"(void)axis_x, (void)axis_y, (void)axis_z;\n    {_CALL};", "return alpha + axis_x < axis_y && axis_y < axis_z;")
+_TERNARY = "return alpha + axisX < axisY && axisY < axisZ ? 1 : 0"
+SWITCHED = {
+    "c": (_ESCAPED, (f"{_C[0]}\n", f"(void)gamma, (void)b, (void)d, (void)x, (void)y, (void)z;\n    {_C[1]}\n")),
+    "cpp": (_PLAIN, (f"{_C[0]}\n", f"(void)gamma, (void)b, (void)d, (void)x, (void)y, (void)z;\n    {_C[1]}\n")),
+    "rust": (
+        _PLAIN,
+        (
+            "{\n    predicate([alpha, gamma, b, d, x, y, z])",
+            ("{\n    let _ = (gamma, b, d, x, y, z);\n    (alpha + _axis_x < _axis_y && _axis_y < _axis_z) as i8"),
+        ),
+    ),
+    "go": (_PLAIN, (_CALL, "if alpha+axisX < axisY && axisY < axisZ {\n\t\treturn 1\n\t}\n\treturn 2 - 2")),
+    "java": (_ESCAPED, (_CALL, _TERNARY)),
+    "javascript": (("binary: true", "tilt: true, binary: true"), (_CALL, _TERNARY)),
+    "python": (
+        ('"question": "exterior"', '"tilt": True, "question": "exterior"'),
+        (
+            "return predicate(*columns[:7])",
+            ("x, y, z = columns[7:]\n    return np.asarray((columns[0] + x < y) & (y < z), dtype=np.int8)"),
+        ),
+    ),
+}
+"""What to change to be asked about tilted spheroids, and for a predicate that reads the axis."""
+
+
 def asked(spec):
     """The implementation: any fault would cost a restart, and none is forgiven."""
     return open_implementation(spec, Limits(restarts=0))
@@ -194,6 +223,34 @@ def test_another_predicate_takes_the_stubs_place(built, rows, expected, tmp_path
     if built.language.name in COMMANDS:
         said = b"classify 1 2 text\n1 2 1 1 4 0 0\n1 2 1 1 1.5 0 0\n"
         assert other.talk(built.language.spec, said).partition(b"\n")[2] == b"1 2\n1\n-1\n"
+
+
+def test_with_tilt_in_its_description_it_is_asked_rows_of_ten_numbers(built, rows, expected, tmp_path, monkeypatch):
+    """The stub answers as if each spheroid stood upright; a predicate in its place gets all ten numbers in order."""
+    axes = np.random.default_rng(5).standard_normal((len(rows), 3)) * 10
+    axes[::7] *= 1e300
+    axes[3::7, 0] = 5e-324
+    leaning = np.column_stack([rows, axes])
+    other = replace(built, folder=tmp_path / "leaning")
+    shutil.copytree(built.folder, other.folder)
+    monkeypatch.chdir(other.folder)
+    path = other.folder / built.language.folder / built.language.predicate
+    for turn, (before, after) in enumerate(SWITCHED[built.language.name]):
+        stub = path.read_text()
+        assert stub.count(before) == 1
+        path.write_text(stub.replace(before, after))
+        assert other.run(built.typed[0]).returncode == 0
+        ordered = (leaning[:, 0] + leaning[:, 7] < leaning[:, 8]) & (leaning[:, 8] < leaning[:, 9])
+        with asked(built.language.spec) as it:
+            assert it.declared.tilt
+            assert it.classify(leaning).answers.tolist() == (ordered if turn else expected).astype(int).tolist()
+            assert it.time(leaning[:100], 2)
+            if not turn:
+                assert it.classify(rows[:100]).answers.tolist() == expected[:100].tolist()
+    if built.language.name in COMMANDS:
+        said = b"classify 1 2 tilted-text\n1 2 1 1 4 0 0 0 2 3\n1 2 1 1 4 0 0 0 3 2\n" + b"classify 2 1 text\n"
+        replies = other.talk(built.language.spec, said).partition(b"\n")[2]
+        assert re.fullmatch(rb"1 2\n1\n0\nerror [ -~]+\n", replies)
 
 
 NONSENSE = [

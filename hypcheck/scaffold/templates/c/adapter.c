@@ -18,11 +18,17 @@
 #include <io.h>
 #endif
 
-enum { COLUMNS = 7, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
+enum { MOST_COLUMNS = 10, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
 
-static double rows[MOST * COLUMNS];
-static unsigned char bytes[MOST * COLUMNS * 8];
+static double rows[MOST * MOST_COLUMNS];
+static unsigned char bytes[MOST * MOST_COLUMNS * 8];
 static int8_t positions[MOST];
+
+/* Whether the predicate claims "tilt":true, and the numbers of a row then. */
+static bool tilt;
+static size_t columns = 7;
+
+static void classify(size_t n) { (tilt ? hypcheck_classify_tilted : hypcheck_classify)(n, rows, positions); }
 
 /* The next line, false at the end of the input. One that is too long to mean anything becomes empty. */
 static bool read_line(char line[LINE]) {
@@ -35,9 +41,9 @@ static bool read_line(char line[LINE]) {
     return any;
 }
 
-/* Seven decimals and nothing else. strtod rounds correctly, and reads a point in the locale that main sets. */
+/* As many decimals as a row has and nothing else. strtod rounds correctly, and reads a point in the locale that main sets. */
 static bool parse_row(const char *line, double *row) {
-    for (int column = 0; column < COLUMNS; column++) {
+    for (size_t column = 0; column < columns; column++) {
         char *end;
         row[column] = strtod(line, &end);
         if (end == line) return false;
@@ -61,21 +67,21 @@ static bool read_text(size_t n) {
     bool understood = true;
     for (size_t i = 0; i < n; i++) { /* to the last line, so that the next question is found */
         char line[LINE];
-        understood &= read_line(line) && parse_row(line, rows + COLUMNS * i);
+        understood &= read_line(line) && parse_row(line, rows + columns * i);
     }
     return understood;
 }
 
 static bool read_binary(size_t n) {
-    if (fread(bytes, 8 * COLUMNS, n, stdin) != n) return false;
-    for (size_t i = 0; i < COLUMNS * n; i++) rows[i] = little_endian(bytes + 8 * i);
+    if (fread(bytes, 8 * columns, n, stdin) != n) return false;
+    for (size_t i = 0; i < columns * n; i++) rows[i] = little_endian(bytes + 8 * i);
     return true;
 }
 
 /* Each reads the rest of a question and replies, or returns what is wrong. */
 static const char *classify_text(const char *sequence, size_t n) {
-    if (!read_text(n)) return "a row is not seven decimals";
-    hypcheck_classify(n, rows, positions);
+    if (!read_text(n)) return tilt ? "a row is not ten decimals" : "a row is not seven decimals";
+    classify(n);
     printf("%s %zu\n", sequence, n);
     for (size_t i = 0; i < n; i++) printf("%d\n", positions[i]);
     return NULL;
@@ -83,7 +89,7 @@ static const char *classify_text(const char *sequence, size_t n) {
 
 static const char *classify_binary(const char *sequence, size_t n) {
     if (!read_binary(n)) return "the input ended within the rows";
-    hypcheck_classify(n, rows, positions);
+    classify(n);
     printf("%s %zu\n", sequence, n);
     fwrite(positions, 1, n, stdout);
     return NULL;
@@ -93,7 +99,7 @@ static const char *time_binary(const char *sequence, size_t n, unsigned long rep
     if (!read_binary(n)) return "the input ended within the rows";
     struct timespec start, stop;
     clock_gettime(CLOCK_MONOTONIC, &start);
-    for (unsigned long i = 0; i < repeat; i++) hypcheck_classify(n, rows, positions);
+    for (unsigned long i = 0; i < repeat; i++) classify(n);
     clock_gettime(CLOCK_MONOTONIC, &stop);
     long long nanoseconds = (stop.tv_sec - start.tv_sec) * 1000000000LL + (stop.tv_nsec - start.tv_nsec);
     long checksum = 0;
@@ -102,16 +108,22 @@ static const char *time_binary(const char *sequence, size_t n, unsigned long rep
     return NULL;
 }
 
+/* Whether the rows come in this form: text or binary, or tilted-text or tilted-binary. */
+static bool comes_as(const char *how, const char *form) {
+    if (!tilt) return strcmp(how, form) == 0;
+    return strncmp(how, "tilted-", 7) == 0 && strcmp(how + 7, form) == 0;
+}
+
 /* The widths keep numbers from overflowing (-1 is read as the greatest), and `more` is what may not follow. */
 static const char *answer(const char *line) {
-    char sequence[20], how[8], more;
+    char sequence[20], how[16], more;
     unsigned long n, repeat;
-    if (sscanf(line, "classify %19[0-9] %5lu %7s %c", sequence, &n, how, &more) == 3 && n <= MOST) {
-        if (strcmp(how, "text") == 0) return classify_text(sequence, n);
-        if (strcmp(how, "binary") == 0) return classify_binary(sequence, n);
+    if (sscanf(line, "classify %19[0-9] %5lu %15s %c", sequence, &n, how, &more) == 3 && n <= MOST) {
+        if (comes_as(how, "text")) return classify_text(sequence, n);
+        if (comes_as(how, "binary")) return classify_binary(sequence, n);
     }
-    if (sscanf(line, "time %19[0-9] %5lu %9lu %7s %c", sequence, &n, &repeat, how, &more) == 4 && n <= MOST)
-        if (repeat > 0 && repeat <= MOST_REPEATS && strcmp(how, "binary") == 0) return time_binary(sequence, n, repeat);
+    if (sscanf(line, "time %19[0-9] %5lu %9lu %15s %c", sequence, &n, &repeat, how, &more) == 4 && n <= MOST)
+        if (repeat > 0 && repeat <= MOST_REPEATS && comes_as(how, "binary")) return time_binary(sequence, n, repeat);
     return "the question is not understood";
 }
 
@@ -122,6 +134,8 @@ int main(void) {
     _setmode(_fileno(stdin), _O_BINARY);
     _setmode(_fileno(stdout), _O_BINARY);
 #endif
+    tilt = strstr(hypcheck_describe(), "\"tilt\":true") != NULL;
+    if (tilt) columns = MOST_COLUMNS;
     puts(hypcheck_describe());
     fflush(stdout);
     while (read_line(line)) {

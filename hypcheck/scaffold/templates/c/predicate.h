@@ -11,4 +11,7 @@ const char *hypcheck_describe(void);
 /* Answers n rows of alpha, gamma, b, d, x, y, z. */
 void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
 
+/* Answers n rows of alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, if the predicate claims "tilt":true. */
+void hypcheck_classify_tilted(size_t n, const double *rows, int8_t *positions);
+
 #endif

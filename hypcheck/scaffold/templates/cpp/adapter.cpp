@@ -23,7 +23,13 @@
 
 namespace {
 
-constexpr std::size_t columns = 7, most = 65536;
+constexpr std::size_t most = 65536;
+
+// Whether the predicate claims "tilt":true, and the numbers of a row then.
+const bool tilt = std::strstr(hypcheck_describe(), R"("tilt":true)") != nullptr;
+const std::size_t columns = tilt ? 10 : 7;
+const char *const no_row = tilt ? "a row is not ten decimals" : "a row is not seven decimals";
+const std::string text_form = tilt ? "tilted-text" : "text", binary_form = tilt ? "tilted-binary" : "binary";
 
 using Rows = std::vector<double>;
 using Words = std::vector<std::string>;
@@ -45,16 +51,16 @@ std::uint64_t parse_count(const std::string &word, std::uint64_t least, std::uin
     return count;
 }
 
-// Seven decimals and nothing else. strtod rounds correctly, and reads a point in the locale that main sets.
+// As many decimals as a row has and nothing else. strtod rounds correctly, and reads a point in the locale that main sets.
 void parse_row(const std::string &line, double *row) {
     const char *rest = line.c_str();
     for (std::size_t column = 0; column < columns; column++) {
         char *end;
         row[column] = std::strtod(rest, &end);
-        if (end == rest) throw std::invalid_argument("a row is not seven decimals");
+        if (end == rest) throw std::invalid_argument(no_row);
         rest = end;
     }
-    if (rest[std::strspn(rest, " \t\r")] != '\0') throw std::invalid_argument("a row is not seven decimals");
+    if (rest[std::strspn(rest, " \t\r")] != '\0') throw std::invalid_argument(no_row);
 }
 
 // Float64 from eight bytes, the least significant first, whatever the order of this machine. Written out like this,
@@ -84,12 +90,16 @@ Rows read_binary(std::size_t n) {
     return rows;
 }
 
+void ask(std::size_t n, const Rows &rows, std::vector<std::int8_t> &positions) {
+    (tilt ? hypcheck_classify_tilted : hypcheck_classify)(n, rows.data(), positions.data());
+}
+
 void classify(const Words &words) {
     const std::size_t n = parse_count(words[2], 0, most);
-    const bool text = words[3] == "text";
+    const bool text = words[3] == text_form;
     const Rows rows = text ? read_text(n) : read_binary(n);
     std::vector<std::int8_t> positions(n);
-    hypcheck_classify(n, rows.data(), positions.data());
+    ask(n, rows, positions);
     std::cout << words[1] << ' ' << n << '\n';
     if (text)
         for (const int position : positions) std::cout << position << '\n';
@@ -104,7 +114,7 @@ void time(const Words &words) {
     const Rows rows = read_binary(n);
     std::vector<std::int8_t> positions(n);
     const auto start = Clock::now();
-    for (std::size_t i = 0; i < repeat; i++) hypcheck_classify(n, rows.data(), positions.data());
+    for (std::size_t i = 0; i < repeat; i++) ask(n, rows, positions);
     const auto took = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
     const long checksum = std::accumulate(positions.begin(), positions.end(), 0L);
     std::cout << words[1] << ' ' << took.count() << ' ' << checksum << '\n';
@@ -112,9 +122,9 @@ void time(const Words &words) {
 
 void answer(const Words &words) {
     if (words.size() > 2) parse_count(words[1], 0, UINT64_MAX);
-    if (words.size() == 4 && words[0] == "classify" && (words[3] == "text" || words[3] == "binary"))
+    if (words.size() == 4 && words[0] == "classify" && (words[3] == text_form || words[3] == binary_form))
         classify(words);
-    else if (words.size() == 5 && words[0] == "time" && words[4] == "binary")
+    else if (words.size() == 5 && words[0] == "time" && words[4] == binary_form)
         time(words);
     else
         throw std::invalid_argument("the question is not understood");

@@ -24,8 +24,17 @@ static int predicate(double alpha, double gamma, double b, double d, double x, d
     return delta > 0 && c2 < 0 && c1 > 0;
 }
 
+// The same with the spheroid's axis of revolution along (axis_x, axis_y, axis_z), a vector of any length and sign, upright
+// where axis_x = axis_y = 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with "tilt":true.
+static int predicate_tilted(double alpha, double gamma, double b, double d, double x, double y, double z,
+                            double axis_x, double axis_y, double axis_z) {
+    (void)axis_x, (void)axis_y, (void)axis_z;
+    return predicate(alpha, gamma, b, d, x, y, z);
+}
+
 // What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 // (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked.
+// With "tilt":true before "binary" it is asked about spheroids that lean: predicate_tilted answers all rows then.
 const char *hypcheck_describe() {
     return R"({"protocol":1,"name":"@NAME@","version":"0.0.0","language":"c++","precision":"float64",)"
            R"("question":"exterior","domain":{"regimes":["c2>=a"]},"binary":true,"time":true})";
@@ -35,4 +44,10 @@ void hypcheck_classify(std::size_t n, const double *rows, std::int8_t *positions
     for (std::size_t i = 0; i < n; i++, rows += 7)
         positions[i] = static_cast<std::int8_t>(
             predicate(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]));
+}
+
+void hypcheck_classify_tilted(std::size_t n, const double *rows, std::int8_t *positions) {
+    for (std::size_t i = 0; i < n; i++, rows += 10)
+        positions[i] = static_cast<std::int8_t>(predicate_tilted(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5],
+                                                                 rows[6], rows[7], rows[8], rows[9]));
 }

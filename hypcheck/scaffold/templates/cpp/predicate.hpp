@@ -10,4 +10,7 @@ const char *hypcheck_describe();
 
 // Answers n rows of alpha, gamma, b, d, x, y, z.
 void hypcheck_classify(std::size_t n, const double *rows, std::int8_t *positions);
+
+// Answers n rows of alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, if the predicate claims "tilt":true.
+void hypcheck_classify_tilted(std::size_t n, const double *rows, std::int8_t *positions);
 }

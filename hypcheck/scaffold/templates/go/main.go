@@ -19,17 +19,29 @@ import (
 )
 
 const (
-	columns = 7
-	most    = 65536
+	mostColumns = 10
+	most        = 65536
 )
 
-type row [columns]float64
+// row holds alpha, gamma, b, d, x, y, z, and the axis if the predicate claims "tilt":true.
+type row [mostColumns]float64
 
 var (
+	tilt        = strings.Contains(description, `"tilt":true`)
+	columns     = 7
+	textForm    = "text"
+	binaryForm  = "binary"
 	errQuestion = errors.New("the question is not understood")
 	errRow      = errors.New("a row is not seven decimals")
 	errEnd      = errors.New("the input ended within the rows")
 )
+
+func init() {
+	if tilt {
+		columns, textForm, binaryForm = mostColumns, "tilted-text", "tilted-binary"
+		errRow = errors.New("a row is not ten decimals")
+	}
+}
 
 func parseRow(line string) (numbers row, err error) {
 	words := strings.Fields(line)
@@ -66,7 +78,7 @@ func readBinary(input io.Reader, n int) ([]row, error) {
 	}
 	rows := make([]row, n)
 	for i := range rows {
-		for column := range rows[i] {
+		for column := 0; column < columns; column++ {
 			rows[i][column] = math.Float64frombits(binary.LittleEndian.Uint64(bytes[8*(columns*i+column):]))
 		}
 	}
@@ -75,6 +87,10 @@ func readBinary(input io.Reader, n int) ([]row, error) {
 
 func positions(rows []row, answers []int8) {
 	for i, r := range rows {
+		if tilt {
+			answers[i] = tilted(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9])
+			continue
+		}
 		answers[i] = predicate(r[0], r[1], r[2], r[3], r[4], r[5], r[6])
 	}
 }
@@ -129,17 +145,17 @@ func answer(line string, input *bufio.Reader) ([]byte, error) {
 	}
 	var rows []row
 	switch {
-	case words[0] == "classify" && len(rest) == 1 && rest[0] == "text":
+	case words[0] == "classify" && len(rest) == 1 && rest[0] == textForm:
 		if rows, err = readText(input, n); err != nil {
 			return nil, err
 		}
 		return classify(sequence, rows, true), nil
-	case words[0] == "classify" && len(rest) == 1 && rest[0] == "binary":
+	case words[0] == "classify" && len(rest) == 1 && rest[0] == binaryForm:
 		if rows, err = readBinary(input, n); err != nil {
 			return nil, err
 		}
 		return classify(sequence, rows, false), nil
-	case words[0] == "time" && len(rest) == 2 && rest[1] == "binary":
+	case words[0] == "time" && len(rest) == 2 && rest[1] == binaryForm:
 		repeat, err := count(rest[0], 1, 999_999_999)
 		if err != nil {
 			return nil, err

@@ -17,10 +17,12 @@ import java.util.StringTokenizer;
  * <p>docs/protocol.md of hypcheck says what is spoken. Nothing here changes when the predicate does.
  */
 final class Adapter {
-    private static final int COLUMNS = 7;
+    private static final boolean TILT = Predicate.DESCRIPTION.contains("\"tilt\":true");
+    private static final int COLUMNS = TILT ? 10 : 7;
+    private static final String TILTED = TILT ? "tilted-" : "";
     private static final int MOST = 65536;
     private static final String NOT_UNDERSTOOD = "the question is not understood";
-    private static final String NO_ROW = "a row is not seven decimals";
+    private static final String NO_ROW = TILT ? "a row is not ten decimals" : "a row is not seven decimals";
 
     private final InputStream input = new BufferedInputStream(System.in, 1 << 16);
     private final OutputStream output = new BufferedOutputStream(System.out, 1 << 16);
@@ -58,17 +60,17 @@ final class Adapter {
         long sequence = number(words[1], 0, Long.MAX_VALUE);
         int n = (int) number(words[2], 0, MOST);
         String form = words[0] + " " + words[words.length - 1];
-        if (words.length == 4 && form.equals("classify text")) {
+        if (words.length == 4 && form.equals("classify " + TILTED + "text")) {
             StringBuilder reply = new StringBuilder(sequence + " " + n + "\n");
             for (byte answer : classify(readText(n))) {
                 reply.append(answer).append('\n');
             }
             write(reply.toString());
-        } else if (words.length == 4 && form.equals("classify binary")) {
+        } else if (words.length == 4 && form.equals("classify " + TILTED + "binary")) {
             byte[] answers = classify(readBinary(n));
             write(sequence + " " + n + "\n");
             output.write(answers);
-        } else if (words.length == 5 && form.equals("time binary")) {
+        } else if (words.length == 5 && form.equals("time " + TILTED + "binary")) {
             int repeat = (int) number(words[3], 1, 999_999_999);
             write(sequence + " " + time(readBinary(n), repeat) + "\n");
         } else {
@@ -84,11 +86,17 @@ final class Adapter {
 
     private static void classify(double[] rows, byte[] answers) {
         for (int i = 0, k = 0; i < answers.length; i++, k += COLUMNS) {
-            int answer =
-                    Predicate.predicate(
-                            rows[k], rows[k + 1], rows[k + 2], rows[k + 3], rows[k + 4], rows[k + 5], rows[k + 6]);
-            answers[i] = (byte) answer;
+            answers[i] = (byte) (TILT ? tilted(rows, k) : upright(rows, k));
         }
+    }
+
+    private static int upright(double[] r, int k) {
+        return Predicate.predicate(r[k], r[k + 1], r[k + 2], r[k + 3], r[k + 4], r[k + 5], r[k + 6]);
+    }
+
+    private static int tilted(double[] r, int k) {
+        return Predicate.tilted(
+                r[k], r[k + 1], r[k + 2], r[k + 3], r[k + 4], r[k + 5], r[k + 6], r[k + 7], r[k + 8], r[k + 9]);
     }
 
     private static String time(double[] rows, int repeat) {

@@ -3,6 +3,7 @@ final class Predicate {
     /**
      * What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
      * (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked.
+     * With \"tilt\":true before \"binary\" it is asked about spheroids that lean: tilted answers all rows then.
      */
     static final String DESCRIPTION =
             "{\"protocol\":1,\"name\":\"@NAME@\",\"version\":\"0.0.0\",\"language\":\"java\",\"precision\":\"float64\","
@@ -35,5 +36,15 @@ final class Predicate {
                         - 4 * (c1 * c1 * c1)
                         - 27 * (c0 * c0);
         return delta > 0 && c2 < 0 && c1 > 0 ? 1 : 0;
+    }
+
+    /**
+     * The same with the spheroid's axis of revolution along (axisX, axisY, axisZ), a vector of any length and sign,
+     * upright where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid leans.
+     */
+    static int tilted(
+            double alpha, double gamma, double b, double d, double x, double y, double z,
+            double axisX, double axisY, double axisZ) {
+        return predicate(alpha, gamma, b, d, x, y, z);
     }
 }

@@ -3,12 +3,14 @@
 //     @BUILD@
 //
 // docs/protocol.md of hypcheck says what is spoken. Nothing here changes when the predicate does.
-import { description, predicate } from "./predicate.mjs";
+import { description, predicate, tilted } from "./predicate.mjs";
 
-const COLUMNS = 7;
+const TILT = description.tilt === true;
+const COLUMNS = TILT ? 10 : 7;
+const TILTED = TILT ? "tilted-" : "";
 const MOST = 65536;
 const NOT_UNDERSTOOD = "the question is not understood";
-const NO_ROW = "a row is not seven decimals";
+const NO_ROW = TILT ? "a row is not ten decimals" : "a row is not seven decimals";
 const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // Number alone would read "" as 0 and 0x10 as 16
 const SPECIAL = { nan: NaN, inf: Infinity, "-inf": -Infinity };
 
@@ -83,9 +85,9 @@ async function readBinary(n) {
 
 function classify(rows, answers) {
   for (let i = 0, at = 0; i < answers.length; i++, at += COLUMNS) {
-    answers[i] = predicate(
-      rows[at], rows[at + 1], rows[at + 2], rows[at + 3], rows[at + 4], rows[at + 5], rows[at + 6],
-    );
+    answers[i] = TILT
+      ? tilted(...rows.subarray(at, at + COLUMNS))
+      : predicate(rows[at], rows[at + 1], rows[at + 2], rows[at + 3], rows[at + 4], rows[at + 5], rows[at + 6]);
   }
   return answers;
 }
@@ -111,13 +113,13 @@ async function answer(line) {
   const n = count(size, 0, MOST);
   const answers = new Int8Array(n);
   const form = `${verb} ${rest.at(-1)} ${rest.length}`;
-  if (form === "classify text 1") {
+  if (form === `classify ${TILTED}text 1`) {
     return [`${sequence} ${n}\n`, classify(await readText(n), answers).join("\n"), n ? "\n" : ""];
   }
-  if (form === "classify binary 1") {
+  if (form === `classify ${TILTED}binary 1`) {
     return [`${sequence} ${n}\n`, classify(await readBinary(n), answers)];
   }
-  if (form === "time binary 2") {
+  if (form === `time ${TILTED}binary 2`) {
     const repeat = count(rest[0], 1, 999999999);
     return [`${sequence} ${time(await readBinary(n), answers, repeat)}\n`];
   }

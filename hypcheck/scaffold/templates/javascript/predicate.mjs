@@ -2,6 +2,7 @@
 
 // What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 // (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes are asked.
+// With tilt: true it is asked about spheroids that lean: tilted answers all rows then.
 export const description = {
   protocol: 1,
   name: "@NAME@",
@@ -34,4 +35,12 @@ export function predicate(alpha, gamma, b, d, x, y, z) {
   const delta =
     -4 * (c2 * c2 * c2) * c0 + (c2 * c1) * (c2 * c1) + 18 * c2 * c1 * c0 - 4 * (c1 * c1 * c1) - 27 * (c0 * c0);
   return delta > 0 && c2 < 0 && c1 > 0 ? 1 : 0;
+}
+
+/**
+ * The same with the spheroid's axis of revolution along (axisX, axisY, axisZ), a vector of any length and sign, upright
+ * where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with tilt: true.
+ */
+export function tilted(alpha, gamma, b, d, x, y, z, axisX, axisY, axisZ) {
+  return predicate(alpha, gamma, b, d, x, y, z);
 }

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 # What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 # (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes are asked.
+# With "tilt": True it is asked about spheroids that lean: rows are (n, 10) then, and tilted answers all of them.
 hypcheck = {
     "protocol": 1,
     "name": "@NAME@",
@@ -21,7 +22,7 @@ hypcheck = {
 def classify(rows: NDArray[np.float64]) -> NDArray[np.int8]:
     """Answers, int8 (n,), to rows of alpha, gamma, b, d, x, y, z, float64 (n, 7)."""
     with np.errstate(all="ignore"):
-        return predicate(*rows.T)
+        return predicate(*rows.T) if rows.shape[1] == 7 else tilted(*rows.T)
 
 
 def predicate(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
@@ -43,3 +44,12 @@ def predicate(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
     c2 = A - B + 1 - P - Q
     delta = -4 * (c2 * c2 * c2) * c0 + (c2 * c1) * (c2 * c1) + 18 * c2 * c1 * c0 - 4 * (c1 * c1 * c1) - 27 * (c0 * c0)
     return np.asarray((delta > 0) & (c2 < 0) & (c1 > 0), dtype=np.int8)
+
+
+def tilted(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
+    """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, behind the other columns.
+
+    They are vectors of any length and sign, upright where axis_x = axis_y = 0. The stub ignores them: wrong as soon as
+    a spheroid leans.
+    """
+    return predicate(*columns[:7])

@@ -11,12 +11,27 @@ use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::ops::RangeInclusive;
 use std::time::Instant;
 
-const COLUMNS: usize = 7;
 const MOST: usize = 65536;
 const NOT_UNDERSTOOD: &str = "the question is not understood";
-const NO_ROW: &str = "a row is not seven decimals";
 
-type Row = [f64; COLUMNS];
+/// What the predicate claims of its rows: how many numbers they have, and what stands before their form.
+#[derive(Clone, Copy)]
+struct Rows {
+    columns: usize,
+    tilted: &'static str,
+    none: &'static str,
+}
+
+const UPRIGHT: Rows = Rows {
+    columns: 7,
+    tilted: "",
+    none: "a row is not seven decimals",
+};
+const TILTED: Rows = Rows {
+    columns: 10,
+    tilted: "tilted-",
+    none: "a row is not ten decimals",
+};
 
 /// The next line, None at the end of the input.
 fn read_line(input: &mut impl BufRead) -> io::Result<Option<String>> {
@@ -25,47 +40,50 @@ fn read_line(input: &mut impl BufRead) -> io::Result<Option<String>> {
     Ok((length > 0).then(|| String::from_utf8_lossy(&line).into_owned()))
 }
 
-fn parse_row(line: &str) -> Option<Row> {
+fn parse_row(line: &str, columns: usize) -> Option<Vec<f64>> {
     let numbers: Option<Vec<f64>> = line
         .split_ascii_whitespace()
         .map(|word| word.parse().ok())
         .collect();
-    numbers?.try_into().ok()
+    numbers.filter(|numbers| numbers.len() == columns)
 }
 
-fn read_text(input: &mut impl BufRead, n: usize) -> Result<Vec<Row>, String> {
+fn read_text(input: &mut impl BufRead, n: usize, form: Rows) -> Result<Vec<f64>, String> {
     // All lines first, so that the next question is found.
     let lines: io::Result<Vec<_>> = (0..n).map(|_| read_line(input)).collect();
     let lines = lines.map_err(|error| error.to_string())?;
     let row = |line: Option<String>| {
-        line.and_then(|text| parse_row(&text))
-            .ok_or_else(|| NO_ROW.into())
+        line.and_then(|text| parse_row(&text, form.columns))
+            .ok_or_else(|| form.none.to_string())
     };
-    lines.into_iter().map(row).collect()
+    let rows: Result<Vec<_>, String> = lines.into_iter().map(row).collect();
+    Ok(rows?.concat())
 }
 
-fn read_binary(input: &mut impl Read, n: usize) -> Result<Vec<Row>, String> {
-    let mut bytes = vec![0; 8 * COLUMNS * n];
+fn read_binary(input: &mut impl Read, n: usize, form: Rows) -> Result<Vec<f64>, String> {
+    let mut bytes = vec![0; 8 * form.columns * n];
     input
         .read_exact(&mut bytes)
         .map_err(|error| error.to_string())?;
-    let row = |bytes: &[u8]| {
-        let mut row = [0.0; COLUMNS];
-        for (value, eight) in row.iter_mut().zip(bytes.chunks_exact(8)) {
-            *value = f64::from_le_bytes(eight.try_into().expect("a chunk is eight bytes"));
-        }
-        row
-    };
-    Ok(bytes.chunks_exact(8 * COLUMNS).map(row).collect())
+    let number =
+        |eight: &[u8]| f64::from_le_bytes(eight.try_into().expect("a chunk is eight bytes"));
+    Ok(bytes.chunks_exact(8).map(number).collect())
 }
 
-fn positions(rows: &[Row]) -> Vec<i8> {
-    rows.iter().map(|&row| predicate::predicate(row)).collect()
+fn positions(rows: &[f64], form: Rows) -> Vec<i8> {
+    let rows = rows.chunks_exact(form.columns);
+    if form.columns == 7 {
+        rows.map(|row| predicate::predicate(row.try_into().expect("a row is seven numbers")))
+            .collect()
+    } else {
+        rows.map(|row| predicate::tilted(row.try_into().expect("a row is ten numbers")))
+            .collect()
+    }
 }
 
-fn classify(sequence: u64, rows: &[Row], text: bool) -> Vec<u8> {
-    let mut reply = format!("{sequence} {}\n", rows.len()).into_bytes();
-    for position in positions(rows) {
+fn classify(sequence: u64, rows: &[f64], form: Rows, text: bool) -> Vec<u8> {
+    let mut reply = format!("{sequence} {}\n", rows.len() / form.columns).into_bytes();
+    for position in positions(rows, form) {
         if text {
             reply.extend(format!("{position}\n").bytes());
         } else {
@@ -75,11 +93,11 @@ fn classify(sequence: u64, rows: &[Row], text: bool) -> Vec<u8> {
     reply
 }
 
-fn time(sequence: u64, rows: &[Row], repeat: usize) -> Vec<u8> {
+fn time(sequence: u64, rows: &[f64], form: Rows, repeat: usize) -> Vec<u8> {
     let mut answers = Vec::new();
     let start = Instant::now();
     for _ in 0..repeat {
-        answers = black_box(positions(black_box(rows)));
+        answers = black_box(positions(black_box(rows), form));
     }
     let nanoseconds = start.elapsed().as_nanos();
     let checksum: i64 = answers.into_iter().map(i64::from).sum();
@@ -92,19 +110,27 @@ fn count(word: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
     number.ok_or_else(|| NOT_UNDERSTOOD.into())
 }
 
-fn answer(line: &str, input: &mut impl BufRead) -> Result<Vec<u8>, String> {
+fn answer(line: &str, input: &mut impl BufRead, form: Rows) -> Result<Vec<u8>, String> {
     let words: Vec<&str> = line.split_ascii_whitespace().collect();
     let [verb, sequence, n, rest @ ..] = &words[..] else {
         return Err(NOT_UNDERSTOOD.into());
     };
     let sequence: u64 = sequence.parse().map_err(|_| NOT_UNDERSTOOD)?;
     let n = count(n, 0..=MOST)?;
-    match (*verb, rest) {
-        ("classify", ["text"]) => Ok(classify(sequence, &read_text(input, n)?, true)),
-        ("classify", ["binary"]) => Ok(classify(sequence, &read_binary(input, n)?, false)),
-        ("time", [repeat, "binary"]) => {
+    let how = rest.last().and_then(|how| how.strip_prefix(form.tilted));
+    match (*verb, rest, how) {
+        ("classify", [_], Some("text")) => {
+            Ok(classify(sequence, &read_text(input, n, form)?, form, true))
+        }
+        ("classify", [_], Some("binary")) => Ok(classify(
+            sequence,
+            &read_binary(input, n, form)?,
+            form,
+            false,
+        )),
+        ("time", [repeat, _], Some("binary")) => {
             let repeat = count(repeat, 1..=999_999_999)?;
-            Ok(time(sequence, &read_binary(input, n)?, repeat))
+            Ok(time(sequence, &read_binary(input, n, form)?, form, repeat))
         }
         _ => Err(NOT_UNDERSTOOD.into()),
     }
@@ -113,10 +139,12 @@ fn answer(line: &str, input: &mut impl BufRead) -> Result<Vec<u8>, String> {
 fn main() -> io::Result<()> {
     let mut input = BufReader::with_capacity(1 << 16, io::stdin().lock());
     let mut output = BufWriter::new(io::stdout().lock());
+    let tilt = predicate::DESCRIPTION.contains(r#""tilt":true"#);
+    let form = if tilt { TILTED } else { UPRIGHT };
     writeln!(output, "{}", predicate::DESCRIPTION)?;
     output.flush()?;
     while let Some(line) = read_line(&mut input)? {
-        match answer(&line, &mut input) {
+        match answer(&line, &mut input, form) {
             Ok(reply) => output.write_all(&reply)?,
             Err(trouble) => writeln!(output, "error {trouble}")?,
         }
