@@ -13,7 +13,7 @@ from hypcheck.cli.options import OutputPath
 from hypcheck.cli.progress import summary_options
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import counted, escaped, printable
-from hypcheck.report.write import REPORTS, kept_formats, write_reports
+from hypcheck.report.formats import REPORTS, kept_formats
 from hypcheck.tables.streams import STREAM, same_file, writing
 
 if TYPE_CHECKING:
@@ -93,22 +93,24 @@ def _read(path: Path, subject: Path) -> Record:
 
 
 def _print(record: Record, name: str, against: Record | None) -> None:
+    from hypcheck.report.drawings import ReportContext
     from hypcheck.report.terminal import summary_lines
-    from hypcheck.report.write import ReportContext
+    from hypcheck.report.write import render
 
     if name == "terminal":
         for line in summary_lines(record, (), against=against, **summary_options()):
             click.echo(line)
         return
-    content = REPORTS[name].render(record, ReportContext(against=against))
+    content = render(name, record, ReportContext(against=against))
     with writing("-") as file:
         file.write(content)
 
 
 def _into_file(record: Record, source: Path, out: Path, name: str, against: Record | None) -> None:
-    from hypcheck.report.write import ReportContext
+    from hypcheck.report.drawings import ReportContext
+    from hypcheck.report.write import render
 
-    content = REPORTS[name].render(record, ReportContext(_beside(source, out), against))
+    content = render(name, record, ReportContext(_beside(source, out), against))
     with writing(str(out)) as file:
         file.write(content)
     click.echo(f"{name}: {printable(out)}")
@@ -123,6 +125,8 @@ def _beside(source: Path, out: Path) -> list[str]:
 
 
 def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Record | None) -> None:
+    from hypcheck.report.write import write_reports
+
     for each in write_reports(record, out, wanted, against):
         click.echo(printable(each.path if each.skipped is None else f"no {each.path.name}: {each.skipped}"))
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from msgspec.structs import asdict
 
@@ -33,17 +33,13 @@ from hypcheck.record.measurements import (
     StabilityLine,
 )
 
-if TYPE_CHECKING:
-    from hypcheck.report.write import ReportContext
-
-
 HEAD = ("kind", "method", "workload", "detail", "quantity", "value", "low", "high")
 
 Measurement = tuple[str, str, str, str, Any, Any, Any]
 """Everything behind the kind."""
 
 
-def render(record: Record, _around: ReportContext | None = None) -> bytes:
+def render(record: Record) -> bytes:
     """The measurements as CSV (RFC 4180) in UTF-8, in the order of the record."""
     stream = io.StringIO()
     writer = csv.writer(stream)

@@ -12,7 +12,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import jinja2
+import markupsafe
 
 from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
@@ -34,23 +37,15 @@ from hypcheck.report.document import (
     bounded,
     plain,
 )
-from hypcheck.report.plots.pictures import Drawings, drawn_plots
+from hypcheck.report.drawings import Drawings, ReportContext, drawn_plots
+from hypcheck.report.plots.colours import colour_rules
 from hypcheck.version import VERSION
-
-if TYPE_CHECKING:
-    import jinja2
-    import markupsafe
-
-    from hypcheck.report.write import ReportContext
-
 
 _TAGS = {Strong: "strong", Emphasis: "em"}
 
 
 def html_text(words: Text) -> markupsafe.Markup:
     """Running text as an element's content: foreign text is escaped, made visible, and cut where it is endless."""
-    import markupsafe  # noqa: PLC0415
-
     if isinstance(words, str):
         edges = (" " * words[:1].isspace(), " " * words[-1:].isspace())
         return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
@@ -77,17 +72,15 @@ class _TemplateBlock:
     missing: str = ""
 
 
-def render(record: Record, around: ReportContext | None = None) -> bytes:
-    """The page in UTF-8. Raises UnavailableError where jinja2 is missing; without matplotlib it has no plots."""
+def render(record: Record, context: ReportContext | None = None) -> bytes:
+    """The page in UTF-8. Without matplotlib it has no plots."""
     environment = _environment()
-    from hypcheck.report.plots.svg import css  # noqa: PLC0415
-
-    whole = content(record, around.against if around else None)
-    style, script = css() + _template("style.css"), _template("script.js")
+    whole = content(record, context.against if context else None)
+    style, script = colour_rules() + _template("style.css"), _template("script.js")
     page: str = environment.get_template("page.html").render(
         title=whole.title,
         verdict=whole.verdict,
-        sections=list(_sections(whole.sections, record, around.drawings if around else {})),
+        sections=list(_sections(whole.sections, record, context.drawings if context else {})),
         version=VERSION,
         style=_trusted(style),
         script=_trusted(script),
@@ -106,19 +99,12 @@ def _hash(text: str) -> str:
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
 
 
-def _trusted(text: str) -> Any:  # noqa: ANN401 - Markup, whose module is an extra
-    """Our own text, or what svg.py made of foreign text, which needs no escaping."""
-    from markupsafe import Markup  # noqa: PLC0415
-
-    return Markup(text)  # noqa: S704
+def _trusted(text: str) -> markupsafe.Markup:
+    """Our own text, or SVG in which svg.py has escaped foreign text: it needs no escaping."""
+    return markupsafe.Markup(text)  # noqa: S704
 
 
 def _environment() -> jinja2.Environment:
-    try:
-        import jinja2  # noqa: PLC0415
-    except ImportError as error:
-        reason = f"jinja2 cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
-        raise UnavailableError(reason) from None
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_template),
         autoescape=True,

@@ -19,7 +19,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 from hypcheck.messages import escaped
@@ -54,9 +53,6 @@ from hypcheck.report.model import (
     worst_case,
 )
 from hypcheck.report.verdict import EXITS_UNFINISHED, INCONCLUSIVE, MEASUREMENT, SLOWER, Failure, failures, verdict
-
-if TYPE_CHECKING:
-    from hypcheck.report.write import ReportContext
 
 
 @dataclass(frozen=True, slots=True)
@@ -342,7 +338,7 @@ TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 """The elements that say why a case did not pass, and the attributes that count them."""
 
 
-def render(record: Record, _around: ReportContext | None = None) -> bytes:
+def render(record: Record) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
     found = [suite for suite in junit_suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
@@ -31,10 +30,7 @@ from hypcheck.report.document import (
     Text,
     bounded,
 )
-
-if TYPE_CHECKING:
-    from hypcheck.report.write import ReportContext
-
+from hypcheck.report.drawings import ReportContext
 
 _SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
 _ENTITIES = {"|": "&#124;", "<": "&lt;", ">": "&gt;", "&": "&amp;"}
@@ -79,10 +75,10 @@ def bullet_lines(items: Iterable[str]) -> list[str]:
     return [*lines, ""] if lines else []
 
 
-def render(record: Record, around: ReportContext | None = None) -> bytes:
+def render(record: Record, context: ReportContext | None = None) -> bytes:
     """The report in UTF-8, which refers to the pictures among the files beside it."""
-    beside = around.beside if around else ()
-    return markdown_page(content(record, around.against if around else None), beside)
+    beside = context.beside if context else ()
+    return markdown_page(content(record, context.against if context else None), beside)
 
 
 def markdown_page(whole: Content, beside: Collection[str]) -> bytes:
@@ -146,7 +142,7 @@ def _table(block: TableBlock) -> Iterator[str]:
     yield from table_lines([running_text(column.title) for column in block.columns], rows, numbers)
 
 
-def render_overview(record: Record, around: ReportContext | None = None) -> bytes:
+def render_overview(record: Record, context: ReportContext | None = None) -> bytes:
     """The page in UTF-8, which refers to the pictures among the files beside it."""
-    beside = around.beside if around else ()
+    beside = context.beside if context else ()
     return markdown_page(overview(record, beside), beside)

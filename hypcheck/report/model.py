@@ -25,7 +25,16 @@ from hypcheck.record.lines import (
     WrongAnswer,
 )
 from hypcheck.record.lines import ImplementationLine as Tested
-from hypcheck.record.measurements import AccuracyLine, MemoryLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
+from hypcheck.record.measurements import (
+    AccuracyLine,
+    MemoryLine,
+    MethodLine,
+    NoiseLine,
+    PlacesLine,
+    SpeedLine,
+    StabilityLine,
+    WorkloadLine,
+)
 from hypcheck.runs.judge import Status
 
 EXACT_ORACLE = "exact"
@@ -361,3 +370,18 @@ def noise_floor(record: Record, workload: str, mode: str) -> float | None:
     """The relative difference below which two times of this run are not told apart."""
     floors = [line.floor for line in record.of(NoiseLine) if (line.workload, line.mode) == (workload, mode)]
     return float(floors[0]) if floors else None
+
+
+def stability_title(line: StabilityLine) -> str:
+    """The name of a method with the precision that it was measured in."""
+    return line.method if line.method.endswith(line.precision) else f"{line.method}, {line.precision}"
+
+
+def is_unstable(line: StabilityLine) -> bool:
+    """Whether a method was wrong at any of the sizes of a stability line."""
+    return any(wrong for *_, wrong in line.bins)
+
+
+def is_wrong_somewhere(line: PlacesLine) -> bool:
+    """Whether a method was wrong at any grid point of a places line, in which "." is right."""
+    return any(set(text) - {"."} for text in line.wrong)

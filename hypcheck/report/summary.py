@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from msgspec import UNSET, Meta, UnsetType
 from msgspec.structs import replace
@@ -49,9 +49,6 @@ from hypcheck.report.model import (
     worst_error_u,
 )
 from hypcheck.report.verdict import failures, verdict
-
-if TYPE_CHECKING:
-    from hypcheck.report.write import ReportContext
 
 SCHEMA = "1.2.0"
 
@@ -257,7 +254,7 @@ def schema() -> Fields:
     return {**head, **definitions.pop("summary"), "$defs": definitions}
 
 
-def render(record: Record, _around: ReportContext | None = None) -> bytes:
+def render(record: Record) -> bytes:
     """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
     text = json.dumps(as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")

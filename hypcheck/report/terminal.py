@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import click
 
@@ -28,6 +27,8 @@ from hypcheck.report.changes import (
     ratio_changes,
     status_changes,
 )
+from hypcheck.report.drawings import ReportContext
+from hypcheck.report.formats import WrittenReport
 from hypcheck.report.messages import counted, figure, implementation_claims, listed, settings_facts, tolerance_of
 from hypcheck.report.model import (
     NEAREST,
@@ -42,9 +43,6 @@ from hypcheck.report.model import (
     worst_error_u,
 )
 from hypcheck.report.verdict import failures, verdict
-
-if TYPE_CHECKING:
-    from hypcheck.report.write import ReportContext, WrittenReport
 
 
 def oracle_facts(record: Record) -> Iterator[str]:
@@ -170,10 +168,10 @@ WIDTH = 160
 """Characters of a line on a terminal; longer ones are cut, the verdict apart. In a file or a pipe nothing is."""
 
 
-def render(record: Record, around: ReportContext | None = None) -> bytes:
+def render(record: Record, context: ReportContext | None = None) -> bytes:
     """The lines as a file has them."""
     return "".join(
-        f"{line}\n" for line in summary_lines(record, (), against=around.against if around else None)
+        f"{line}\n" for line in summary_lines(record, (), against=context.against if context else None)
     ).encode("utf-8", "replace")
 
 

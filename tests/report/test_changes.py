@@ -20,7 +20,7 @@ from hypcheck.report.changes import (
     ratio_changes,
     status_changes,
 )
-from hypcheck.report.write import ReportContext
+from hypcheck.report.drawings import ReportContext
 from tests.report import bench_lines, record_samples
 
 

@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from hypcheck.report.write import REPORTS
+from hypcheck.report.formats import REPORTS
+from hypcheck.report.write import render
 from tests.report.hostile import SCRIPT, hostile_record
 from tests.report.pages import page_of
 from tests.report.test_markdown import PARSER
@@ -25,7 +26,7 @@ def record():
 
 @pytest.fixture(scope="module")
 def texts(record):
-    others = {name: report.render(record) for name, report in REPORTS.items() if name != "html"}
+    others = {name: render(name, record) for name in REPORTS if name != "html"}
     return {name: content.decode("utf-8") for name, content in {**others, "html": page_of("hostile")}.items()}
 
 

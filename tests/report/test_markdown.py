@@ -10,8 +10,8 @@ from markdown_it import MarkdownIt
 
 from hypcheck.messages import escaped
 from hypcheck.report import markdown
+from hypcheck.report.drawings import ReportContext
 from hypcheck.report.markdown import render
-from hypcheck.report.write import ReportContext
 from tests.report import record_samples
 from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from hypcheck.cli.main import main
 from hypcheck.report import markdown
+from hypcheck.report.drawings import ReportContext
 from hypcheck.report.terminal import benchmark_facts, claim_facts
-from hypcheck.report.write import ReportContext
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 from tests.report.test_benchmark import REFUSED

@@ -17,8 +17,9 @@ from hypcheck.record.fields import decoded
 from hypcheck.record.lines import SettingsPart
 from hypcheck.report import contents, html, markdown
 from hypcheck.report.document import LONGEST
+from hypcheck.report.drawings import ReportContext
 from hypcheck.report.plots.pictures import PLOTS, draw_plots
-from hypcheck.report.write import ReportContext
+from hypcheck.report.write import render
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 from tests.report.pages import page_of
@@ -193,7 +194,7 @@ def test_without_an_extra(monkeypatch, module, what):
     without(monkeypatch, module)
     if module == "jinja2":
         with pytest.raises(UnavailableError, match=r"hypcheck\[report\]"):
-            html.render(record_samples.record())
+            render("html", record_samples.record())
     else:
         text = html.render(record_samples.record()).decode("utf-8")
         assert what in text

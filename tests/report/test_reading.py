@@ -10,7 +10,7 @@ from hypcheck.errors import InputError
 from hypcheck.record import plain
 from hypcheck.record.reader import notes, read
 from hypcheck.record.schema import schema
-from hypcheck.report.write import REPORTS
+from hypcheck.report.write import render
 from tests.report import bench_lines, record_samples
 from tests.support.records import resealed
 
@@ -110,7 +110,7 @@ def test_other_versions(tmp_path):
         "the record has schema 1.9.0, later than this program's 1.4.0; what it adds is not shown",
     ]
     for name in ("terminal", "json", "markdown", "junit"):
-        assert REPORTS[name].render(later)
+        assert render(name, later)
     assert notes(read(written(tmp_path, schema="1.0.0"))) == []
     for version in ("0.9.0", "2.0.0"):
         with pytest.raises(InputError, match=r"reads 1\.x"):

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.lines import OracleLine
 from hypcheck.report import junit, markdown, summary
-from hypcheck.report.write import ReportContext
+from hypcheck.report.drawings import ReportContext
 from hypcheck.vectors.families import select
 from hypcheck.version import VERSION
 

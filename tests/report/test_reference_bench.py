@@ -12,7 +12,9 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.measurements import AbsentLine, AccuracyLine, MethodLine
 from hypcheck.report import markdown
-from hypcheck.report.write import REPORTS, ReportContext
+from hypcheck.report.drawings import ReportContext
+from hypcheck.report.formats import REPORTS
+from hypcheck.report.write import render
 from hypcheck.version import VERSION
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -49,7 +51,7 @@ def test_the_pages_are_those_of_the_record(record):
 @pytest.mark.parametrize("name", PICTURES)
 def test_the_pictures_say_what_the_record_does(record, name):
     """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
-    fresh, committed = REPORTS[name].render(record), (FOLDER / REPORTS[name].file).read_bytes()
+    fresh, committed = render(name, record), (FOLDER / REPORTS[name].file).read_bytes()
     assert said(fresh) == said(committed)
     methods = {line.method for line in record.of(MethodLine)}
     assert lettered(fresh) - methods == lettered(committed) - methods  # a point is named where there is room for it

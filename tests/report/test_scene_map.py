@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgb
 from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import MapLine
+from hypcheck.report.drawings import render_picture
 from hypcheck.report.plots import half_plane, pictures
 from hypcheck.report.plots.style import styled
 from tests.report import record_samples
@@ -115,7 +116,7 @@ def test_without_matplotlib_there_is_a_reason(monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(UnavailableError) as caught:
-        pictures.render_map(record_samples.record())
+        render_picture("map", record_samples.record(), {})
     assert "matplotlib" in str(caught.value)
     assert "hypcheck[report]" in str(caught.value)
     assert "\n" not in str(caught.value)

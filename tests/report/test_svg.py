@@ -11,10 +11,12 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.errors import UnavailableError
+from hypcheck.report.drawings import render_picture
 from hypcheck.report.plots import pictures
+from hypcheck.report.plots.colours import colour_rules
 from hypcheck.report.plots.pictures import draw_plots
 from hypcheck.report.plots.style import ROLES, colour, new_figure, styled
-from hypcheck.report.plots.svg import Plot, css, inline, standalone
+from hypcheck.report.plots.svg import Plot, inline, standalone
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 
@@ -43,7 +45,7 @@ def test_colours_are_classes_and_nothing_is_styled():
     classes = set(" ".join(re.findall(r'class="([^"]*)"', text)).split()) - {"plot"}
     assert {"s-series-1", "f-series-2", "f-ink"} <= classes
     for each in classes:
-        assert f".{each}{{" in css()
+        assert f".{each}{{" in colour_rules()
 
 
 def test_text_is_text_and_means_itself():
@@ -86,14 +88,11 @@ def test_a_file_of_its_own_follows_the_scheme_and_has_a_ground():
     assert (ground.get("width"), ground.get("height"), ground.get("class")) == ("100%", "100%", "f-surface")
 
 
-@pytest.mark.parametrize(
-    ("picture", "plots"),
-    [(pictures.render_errors, "errors"), (pictures.render_pareto, "pareto"), (pictures.render_front, "front")],
-)
-def test_pictures_of_a_benchmark_have_all_their_plots(picture, plots):
-    root = parsed(picture(bench_record()))
+@pytest.mark.parametrize("name", ["errors", "pareto", "front"])
+def test_pictures_of_a_benchmark_have_all_their_plots(name):
+    root = parsed(render_picture(name, bench_record(), {}))
     inner = root.findall(f"{SVG}svg")
-    assert len(inner) == len(list(draw_plots(plots, bench_record())))
+    assert len(inner) == len(list(draw_plots(name, bench_record())))
     width, height = (float(each) for each in root.get("viewBox").split()[2:])
     places = [[float(each.get(name)) for name in ("x", "y", "width", "height")] for each in inner]
     for number, (x, y, across, up) in enumerate(places):
@@ -102,15 +101,16 @@ def test_pictures_of_a_benchmark_have_all_their_plots(picture, plots):
         for x2, y2, across2, up2 in places[:number]:
             assert x >= x2 + across2 or x2 >= x + across or y >= y2 + up2 or y2 >= y + up
     with pytest.raises(UnavailableError, match="the record has no"):
-        picture(record_samples.record())
+        render_picture(name, record_samples.record(), {})
 
 
 def test_the_same_record_is_the_same_bytes_in_every_process():
     """A picture of a benchmark, and the map of a run of verify behind it."""
     code = (
-        "import sys; from hypcheck.report.plots import pictures; from tests.report import record_samples as samples;"
+        "import sys; from hypcheck.report.plots import pictures; from hypcheck.report.drawings import render_picture;"
+        "from tests.report import record_samples as samples;"
         "from tests.report.bench_lines import bench_record;"
-        "sys.stdout.buffer.write(pictures.render_pareto(bench_record()) + pictures.render_map(samples.record()))"
+        "sys.stdout.buffer.write(render_picture('pareto', bench_record(), {}) + pictures.render_map(samples.record()))"
     )
     found = {
         subprocess.run(
@@ -118,4 +118,4 @@ def test_the_same_record_is_the_same_bytes_in_every_process():
         ).stdout
         for seed in ("1", "2")
     }
-    assert found == {pictures.render_pareto(bench_record()) + pictures.render_map(record_samples.record())}
+    assert found == {render_picture("pareto", bench_record(), {}) + pictures.render_map(record_samples.record())}

@@ -8,8 +8,8 @@ import click
 import pytest
 from hypothesis import given, settings
 
+from hypcheck.report.formats import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
-from hypcheck.report.write import WrittenReport
 from tests.report import bench_lines, record_samples
 from tests.report.test_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
 

@@ -17,7 +17,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
@@ -44,11 +47,6 @@ from hypcheck.report.plots.style import (
     power_of_ten,
 )
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 
 TANGENT = -math.inf
 AT_MOST = 8
@@ -213,8 +211,6 @@ def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tupl
 
 
 def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-
     soft = colour("soft")
     limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=NONE_WRONG, **LIMIT)
     drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 
 from hypcheck.report.plots import half_plane
 from hypcheck.report.plots.style import colour, in_space, mark_contacts, new_figure
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 TRUNKS = {1: ("trunk wider than the walker", "series-3"), 2: ("trunk narrower than the walker", "share-1")}
 """What the two types of trees are called and their colours, which differ in lightness too."""
@@ -110,8 +110,6 @@ def _stops(axes: Axes, stops: list[dict[str, Any]]) -> None:
 
 def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
     """The window about a phantom, in millimetres from it, and where it is in the whole."""
-    from matplotlib.patches import Patch  # noqa: PLC0415
-
     millimetres = 1000 * wall["half"]
     span = (-millimetres, millimetres)
     colours = {"e": half_plane.FAINT, "E": colour("clear"), "c": colour("ink"), "C": colour("contact")}
@@ -139,8 +137,6 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
 
 
 def _space(result: dict[str, Any]) -> Plot:
-    from matplotlib.patches import Patch  # noqa: PLC0415
-
     figure = new_figure(760, 480)
     whole: Any = figure.subfigures()
     axes = whole.add_axes((-0.12, -0.16, 1.22, 1.42), projection="3d")  # wider than what is drawn in it
@@ -177,8 +173,6 @@ def _nearness(tree: dict[str, Any]) -> float:
 
 
 def _trunk(axes: Any, tree: dict[str, Any], paint: str) -> None:  # noqa: ANN401 - axes in space
-    import numpy as np  # noqa: PLC0415
-
     x, y, z = tree["center"]
     low, high = tree["height"] or (-tree["gamma"], tree["gamma"])
     height, angle = np.meshgrid(np.linspace(low, high, _LEVELS), np.linspace(0, 2 * np.pi, _FACETS), indexing="ij")

@@ -14,8 +14,14 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from msgspec.structs import asdict
 
 from hypcheck.messages import escaped
@@ -23,15 +29,11 @@ from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.record.measurements import PlacesLine
 from hypcheck.report.messages import listed
-from hypcheck.report.model import ImplementationTotal, implementations
+from hypcheck.report.model import ImplementationTotal, implementations, is_wrong_somewhere
 from hypcheck.report.plots import heat
+from hypcheck.report.plots.colours import MISTAKES
 from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 
 Interval = tuple[float, float]
 
@@ -41,9 +43,6 @@ FAINT = "#8a94a066"
 
 def paint_letters(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
     """Paint the letters, the first text lowest. A grid point is a cell's middle; a letter without a colour is empty."""
-    import numpy as np  # noqa: PLC0415
-    from matplotlib.colors import to_rgba  # noqa: PLC0415
-
     grid = np.array([list(text) for text in letters])
     image = np.zeros((*grid.shape, 4))
     for letter, name in colours.items():
@@ -64,8 +63,6 @@ def picture_limits(r: Interval, z: Interval, shape: tuple[int, ...]) -> Any:  # 
 
 def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
     """Draw the grid points of these letters again as dots, which are seen where a cell is too small."""
-    import numpy as np  # noqa: PLC0415
-
     grid = np.array([list(text) for text in letters])
     rs, zs = np.linspace(*r, grid.shape[1]), np.linspace(*z, grid.shape[0])
     for letter, name in colours.items():
@@ -96,9 +93,6 @@ def field_plots(record: Record) -> Iterator[Plot]:
 
 
 def _field_plot(name: str, each: ImplementationTotal, found: heat.Cells) -> Plot:
-    import numpy as np  # noqa: PLC0415
-    from matplotlib.colors import to_rgba  # noqa: PLC0415
-
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
@@ -121,21 +115,11 @@ def _field_plot(name: str, each: ImplementationTotal, found: heat.Cells) -> Plot
     return Plot(name, each.name, said, drawn)
 
 
-MISTAKES = {"c": ("false clear", "clear"), "w": ("false contact", "contact"), "s": ("wrong side", "side")}
-"""The letters of wrong answers: what they are called, and the role of their colour."""
-
-
 def place_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method, scene and region in which it is wrong."""
     for number, line in enumerate(record.of(PlacesLine)):
-        if any(set(text) & set(MISTAKES) for text in line.wrong):
+        if is_wrong_somewhere(line):
             yield _place_plot(f"places-{number}", line)
-
-
-def never_wrong_at_places(record: Record) -> list[str]:
-    """The methods that are wrong nowhere in all that was looked at."""
-    wrong = {line.method for line in record.of(PlacesLine) if any(set(text) & set(MISTAKES) for text in line.wrong)}
-    return [name for name in dict.fromkeys(line.method for line in record.of(PlacesLine)) if name not in wrong]
 
 
 def _place_plot(name: str, line: PlacesLine) -> Plot:
@@ -245,9 +229,6 @@ def _within(small: MapLine, large: MapLine) -> bool:
 
 
 def _legend(methods: str, lines: Sequence[MapLine]) -> list[Any]:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-    from matplotlib.patches import Patch  # noqa: PLC0415
-
     seen = {letter.lower() for line in lines for text in line.lines for letter in text}
     regions = [Patch(facecolor=shade, label=name) for letter, (name, shade) in REGIONS.items() if letter in seen]
     meridian = Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid")

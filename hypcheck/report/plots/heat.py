@@ -13,22 +13,19 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
+from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.path import Path
 
 from hypcheck.record import Record
 from hypcheck.record.measurements import StabilityLine
 from hypcheck.report.messages import figure
-from hypcheck.report.model import implementations
+from hypcheck.report.model import implementations, is_unstable, stability_title
+from hypcheck.report.plots.colours import STEPS
 from hypcheck.report.plots.style import SMALL, colour, decades, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.patches import Rectangle
-
-
-STEPS = ((0.0, "none wrong"), (0.01, "up to 1 %"), (0.1, "up to 10 %"), (0.5, "up to 50 %"), (1.0, "more"))
-"""The shares at which the steps of colour end, and what a legend says of them."""
 
 GAP = 0.08
 """Between two cells, of the width of a cell."""
@@ -89,9 +86,6 @@ def _heat_plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequen
 
 def _draw_right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
     """The cells without a wrong answer as one shape: there are many, and nothing else to say of each."""
-    from matplotlib.patches import PathPatch  # noqa: PLC0415
-    from matplotlib.path import Path  # noqa: PLC0415
-
     if places:
         squares = [_square(place) for place in places]
         shape = Path.make_compound_path(
@@ -101,8 +95,6 @@ def _draw_right(axes: Axes, places: Sequence[tuple[int, int]]) -> None:
 
 
 def _draw_wrong(axes: Axes, found: Cells, gid: str) -> None:
-    from matplotlib.collections import PatchCollection  # noqa: PLC0415
-
     if found:
         colours = [colour(step(*counts)) for counts in found.values()]
         squares = [_square(place) for place in found]
@@ -110,8 +102,6 @@ def _draw_wrong(axes: Axes, found: Cells, gid: str) -> None:
 
 
 def _square(place: tuple[int, int]) -> Rectangle:
-    from matplotlib.patches import Rectangle  # noqa: PLC0415
-
     return Rectangle((place[0] + GAP / 2, place[1] + GAP / 2), 1 - GAP, 1 - GAP)
 
 
@@ -153,19 +143,5 @@ STABILITY_PLANE = Plane("α/b", "γ/d", 0.5)
 
 def stability_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method and precision that is wrong somewhere."""
-    wrong = [line for line in record.of(StabilityLine) if _wrong_somewhere(line)]
-    yield from heat_plots("stability", STABILITY_PLANE, {_title(line): cells(line.bins) for line in wrong})
-
-
-def never_wrong_at_sizes(record: Record) -> list[str]:
-    """The methods, with their precisions, that are wrong nowhere."""
-    return [_title(line) for line in record.of(StabilityLine) if not _wrong_somewhere(line)]
-
-
-def _wrong_somewhere(line: StabilityLine) -> bool:
-    return any(errors for *_, errors in line.bins)
-
-
-def _title(line: StabilityLine) -> str:
-    method, precision = str(line.method), str(line.precision)
-    return method if method.endswith(precision) else f"{method}, {precision}"
+    wrong = [line for line in record.of(StabilityLine) if is_unstable(line)]
+    yield from heat_plots("stability", STABILITY_PLANE, {stability_title(line): cells(line.bins) for line in wrong})

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle, Patch
 
 from hypcheck.report.plots.forest_walk import TRUNKS
 from hypcheck.report.plots.style import colour, in_space, new_figure
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 SIGHT = 4.2
 """How far from the walker trees are drawn in Figure 1, in metres."""
@@ -32,8 +32,6 @@ def plots(forest: dict[str, Any], tower: dict[str, Any]) -> Iterator[Plot]:
 
 
 def _walker(forest: dict[str, Any]) -> Plot:
-    from matplotlib.patches import Patch  # noqa: PLC0415
-
     figure = new_figure(560, 360)
     whole: Any = figure.subfigures()
     axes: Any = whole.add_axes((-0.12, -0.02, 1.18, 1.16), projection="3d")
@@ -109,8 +107,6 @@ def _towers(told: dict[str, Any]) -> Plot:
 
 
 def _quadcopter(told: dict[str, Any]) -> Plot:
-    from matplotlib.patches import Patch  # noqa: PLC0415
-
     figure = new_figure(760, 400)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.15])
     axes: Any = halves[0].add_axes((0.0, 0.06, 0.86, 0.92), projection="3d")
@@ -151,8 +147,6 @@ def _rotors(arm: float) -> list[tuple[float, float]]:
 
 
 def _from_above(axes: Axes, told: dict[str, Any], arm: float) -> None:
-    from matplotlib.patches import Circle  # noqa: PLC0415
-
     small = told["b_s"]
     axes.add_patch(Circle((0, 0), told["b"], facecolor="none", edgecolor=colour("contact"), linewidth=1.4))
     rotors = _rotors(arm)
@@ -191,8 +185,6 @@ def _hyperboloid(body: dict[str, Any], low: float, high: float) -> list[tuple[fl
 
 
 def _revolved(axes: Any, profile: list[tuple[float, float]], centre: Any, paint: str, alpha: float) -> None:  # noqa: ANN401
-    import numpy as np  # noqa: PLC0415
-
     radius, height = (np.array(column)[:, None] for column in zip(*profile, strict=True))
     angle = np.linspace(0, 2 * np.pi, 33)[None, :]
     surface = axes.plot_surface(
@@ -207,8 +199,6 @@ def _revolved(axes: Any, profile: list[tuple[float, float]], centre: Any, paint:
 
 
 def _wires(axes: Any, profile: list[tuple[float, float]]) -> None:  # noqa: ANN401 - axes in space
-    import numpy as np  # noqa: PLC0415
-
     radius, height = (np.array(column)[:, None] for column in zip(*profile, strict=True))
     angle = np.linspace(0, 2 * np.pi, 25)[None, :]
     axes.plot_wireframe(
@@ -223,8 +213,6 @@ def _wires(axes: Any, profile: list[tuple[float, float]]) -> None:  # noqa: ANN4
 
 
 def _spheroid(axes: Any, centre: Any, b: float, d: float, paint: str, *, solid: bool = False) -> None:  # noqa: ANN401
-    import numpy as np  # noqa: PLC0415
-
     up, angle = np.meshgrid(np.linspace(-np.pi / 2, np.pi / 2, 13), np.linspace(0, 2 * np.pi, 25), indexing="ij")
     x, y = centre[0] + b * np.cos(up) * np.cos(angle), centre[1] + b * np.cos(up) * np.sin(angle)
     z = centre[2] + d * np.sin(up)

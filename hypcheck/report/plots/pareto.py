@@ -11,7 +11,13 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
@@ -19,11 +25,6 @@ from hypcheck.report.messages import figure
 from hypcheck.report.model import BATCH, TIERS, MeasuredMethod, lost, measured_methods, principal, workloads
 from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, log_axis, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 
 _PLACES = (
     (7, 0, "left", "center"),
@@ -67,9 +68,6 @@ def place_labels(
     `lines` are level or upright and are kept free too. Behind the `important` first a name stands next to its point or
     nowhere.
     """
-    from matplotlib.text import Text  # noqa: PLC0415
-    from matplotlib.transforms import Bbox  # noqa: PLC0415
-
     figure: Any = axes.figure
     figure.canvas.draw()  # the layout decides where things are, and stays as it is from here on
     figure.set_layout_engine("none")
@@ -245,8 +243,6 @@ _RING: dict[str, Any] = {
 
 
 def _legend(drawn: Figure, found: Sequence[ParetoPoint]) -> None:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-
     tiers = {point.tier for point in found}
     handles = [
         Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))

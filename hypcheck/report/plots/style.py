@@ -14,43 +14,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from hypcheck.errors import UnavailableError
-from hypcheck.messages import escaped
+import matplotlib.style
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
+from hypcheck.report.plots.colours import ROLES
 
 WIDTH = 380.0
 SMALL = 178.0
 """Widths of a plot that stands alone, and of one of many that stand side by side."""
-
-ROLES = {
-    "surface": ("#ffffff", "#14181d"),
-    "ink": ("#1b2026", "#e7eaee"),
-    "soft": ("#57606b", "#a9b2bd"),
-    "rule": ("#d5dae0", "#39414b"),
-    "series-1": ("#0072b2", "#4aa8e0"),
-    "series-2": ("#d55e00", "#ff8a3d"),
-    "series-3": ("#008a62", "#2fc79b"),
-    "series-4": ("#b0568a", "#e495c3"),
-    "series-5": ("#a87400", "#f0b429"),
-    "series-6": ("#2d87ba", "#8accf5"),
-    "series-7": ("#6b6375", "#c3b8d4"),
-    "series-8": ("#1b2027", "#e7eaef"),
-    "share-0": ("#e3e8ec", "#2a313a"),
-    "share-1": ("#f2c14e", "#f2c14e"),
-    "share-2": ("#ee8434", "#ee8434"),
-    "share-3": ("#d1495b", "#d1495b"),
-    "share-4": ("#9c3fb5", "#9c3fb5"),
-    "clear": ("#d55e02", "#ff8a3e"),
-    "contact": ("#0073b3", "#4aa8e1"),
-    "side": ("#7a1c5b", "#e495c4"),
-}
-"""Every colour by what it means: on light ground, on dark ground. No colour on light ground stands for two roles."""
 
 MARKERS = "osD^vPX*"
 DASHES: tuple[Any, ...] = (
@@ -129,21 +104,13 @@ def curve_style(place: int) -> CurveStyle:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """While it lasts, matplotlib draws in the house style. Raises UnavailableError where matplotlib is missing."""
-    try:
-        from matplotlib import style  # noqa: PLC0415
-    except ImportError as error:
-        reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
-        raise UnavailableError(reason) from None
-    with style.context(["default", SETTINGS]):
+    """Within the block, matplotlib draws in the house style."""
+    with matplotlib.style.context(["default", SETTINGS]):
         yield
 
 
 def new_figure(width: float, height: float) -> Figure:
     """A figure of these many points, which finds room for its labels by itself."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
-    from matplotlib.figure import Figure  # noqa: PLC0415
-
     made = Figure(figsize=(width / 72, height / 72), layout="constrained")
     FigureCanvasAgg(made)  # which can say how large a text is
     return made

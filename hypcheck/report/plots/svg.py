@@ -12,14 +12,13 @@ import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
-from hypcheck.messages import escaped
-from hypcheck.report.plots.style import ROLES, styled
+from matplotlib.figure import Figure
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from hypcheck.messages import escaped
+from hypcheck.report.plots.colours import ROLES, colour_rules
+from hypcheck.report.plots.style import styled
 
 _SVG = "{http://www.w3.org/2000/svg}"
 _LINK = "{http://www.w3.org/1999/xlink}href"
@@ -95,17 +94,10 @@ def _file(root: Xml.Element) -> bytes:
     """A described element as a file of its own: with the colours' rules and a ground."""
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
-    style.text = css()
+    style.text = colour_rules()
     ground = Xml.Element(f"{_SVG}rect", {"width": "100%", "height": "100%", "class": "f-surface", "fill": "#ffffff"})
     root[2:2] = [style, ground]  # behind title and description
     return (_text(root) + "\n").encode("utf-8")
-
-
-def css() -> str:
-    """The rules that give each role its colour, on light and on dark ground; paper is light."""
-    light, dark = ("".join(f"--{role}:{both[ground]};" for role, both in ROLES.items()) for ground in (0, 1))
-    rules = "".join(f".f-{role}{{fill:var(--{role})}}.s-{role}{{stroke:var(--{role})}}" for role in ROLES)
-    return f":root{{{light}}}@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}"
 
 
 def _element(plot: Plot) -> Xml.Element:

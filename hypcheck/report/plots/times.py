@@ -13,7 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
@@ -22,10 +25,6 @@ from hypcheck.report.messages import figure
 from hypcheck.report.model import TIERS, lost, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.plots.style import LIMIT, MARKERS, NONE_WRONG, WIDTH, colour, curve_style, log_axis, new_figure
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 _MODES = {"batch": "in a batch", "single": "one query a call", "build": "building a mesh"}
 
@@ -149,8 +148,6 @@ def _xy(lines: Sequence[ConvergenceLine], what: str) -> tuple[list[int], list[fl
 
 
 def _convergence_legend(drawn: Figure, names: Sequence[str], *, limit: bool) -> None:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-
     handles = []
     for place, name in enumerate(names):
         how = curve_style(place)
@@ -197,8 +194,6 @@ def _bounding_points(line: BoundingLine, what: str) -> list[tuple[float, float, 
 
 
 def _bounding_plot(what: str, label: str, shapes: dict[str, BoundingLine]) -> Plot:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-
     drawn = new_figure(WIDTH, 240 + 15 * len(shapes))
     axes = drawn.subplots()
     curves = {name: _bounding_points(line, what) for name, line in shapes.items()}
@@ -250,8 +245,6 @@ def forest_plots(record: Record) -> Iterator[Plot]:
 
 
 def _forest_legend(drawn: Figure, names: Sequence[str]) -> None:
-    from matplotlib.lines import Line2D  # noqa: PLC0415
-
     handles = []
     for place, name in enumerate(names):
         how, label = curve_style(place), escaped(name, 48)

@@ -9,7 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import SubFigure
+from matplotlib.ticker import MaxNLocator
 
 from hypcheck.report.plots.style import (
     CurveStyle,
@@ -21,11 +26,6 @@ from hypcheck.report.plots.style import (
     power_of_ten,
 )
 from hypcheck.report.plots.svg import Plot
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import SubFigure
-
 
 _RINGED: dict[str, Any] = {
     "linestyle": "none",
@@ -62,9 +62,6 @@ def flights(result: dict[str, Any]) -> Plot:
 
 
 def _solid(figure: SubFigure, told: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
-    import numpy as np  # noqa: PLC0415
-    from matplotlib.ticker import MaxNLocator  # noqa: PLC0415
-
     axes: Any = figure.add_axes((-0.33, 0.0, 1.6, 1.0), projection="3d")  # a square, wider than what is drawn in it
     axes.patch.set_visible(False)
     low, high = _heights(told, paths)

@@ -46,13 +46,15 @@ from hypcheck.report.messages import Replays, figure
 from hypcheck.report.model import (
     ImplementationTotal,
     implementations,
+    is_unstable,
+    is_wrong_somewhere,
     measured_methods,
+    stability_title,
     workloads,
     worst_case,
     worst_error_u,
 )
-from hypcheck.report.plots import half_plane, heat
-from hypcheck.report.plots.heat import STEPS
+from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.runs.judge import Status
 
 MOST_CASES = 12
@@ -186,7 +188,7 @@ FRONT = Figures("front", "error against run time near contact, and with the erro
 PARETO = Figures("pareto", "error against run time on the other workloads", "pareto.svg")
 ERRORS = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
 
-_PLACES = tuple((role, words) for words, role in half_plane.MISTAKES.values())
+_PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
 
 def error_sections(record: Record) -> Iterator[Section]:
@@ -233,12 +235,19 @@ def _maps(record: Record) -> Iterator[Section]:
     if record.of(StabilityLine):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
         figures = Figures("stability", small=True, legend=HEAT)
-        never = _never_wrong("Wrong nowhere: ", heat.never_wrong_at_sizes(record))
+        never = _never_wrong(
+            "Wrong nowhere: ", [stability_title(line) for line in record.of(StabilityLine) if not is_unstable(line)]
+        )
         yield Section("Stability", (Paragraph(words), figures, never), page=True)
-    if record.of(PlacesLine):
+    places = record.of(PlacesLine)
+    if places:
+        wrong = {line.method for line in places if is_wrong_somewhere(line)}
         words = "Grid points of the half plane, distance from the axis across and height up, in metres."
         figures = Figures("places", small=True, legend=_PLACES)
-        never = _never_wrong("Wrong at none of the grid points: ", half_plane.never_wrong_at_places(record))
+        never = _never_wrong(
+            "Wrong at none of the grid points: ",
+            [name for name in dict.fromkeys(line.method for line in places) if name not in wrong],
+        )
         yield Section("Where the wrong answers lie", (Paragraph(words), figures, never), page=True)
 
 

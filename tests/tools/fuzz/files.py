@@ -17,8 +17,9 @@ from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
 from hypcheck.record.integrity import check, repair
 from hypcheck.record.reader import notes, read, recorded_cases
 from hypcheck.report import github, html
-from hypcheck.report.plots.pictures import PLOTS, DrawnPlot, drawn_plots
-from hypcheck.report.write import REPORTS, ReportContext
+from hypcheck.report.drawings import DrawnPlot, ReportContext, drawn_plots
+from hypcheck.report.plots.pictures import PLOTS
+from hypcheck.report.write import render as render_report
 from hypcheck.runs.known_failures import read_known_failures, render
 from hypcheck.scene.reading import read_scene
 from hypcheck.tables.streams import Route
@@ -74,7 +75,7 @@ def reports(data: bytes) -> None:
     found = read(kept(data, "record.jsonl"))
     notes(found)
     for name in ("terminal", "json", "markdown", "junit"):
-        REPORTS[name].render(found)
+        render_report(name, found)
     github.error_lines(found)
 
 
@@ -85,7 +86,7 @@ def page(data: bytes) -> None:
     """
     found = read(kept(data, "record.jsonl"))
     with patch.object(html, "_environment", _environment):
-        REPORTS["html"].render(found, ReportContext(drawings=UNDRAWN))
+        render_report("html", found, ReportContext(drawings=UNDRAWN))
 
 
 def plots(data: bytes) -> None:

@@ -1,0 +1,88 @@
+"""Plots as text, each drawn once for all the reports that show it. matplotlib is loaded when a plot is drawn.
+
+matplotlib takes a tenth of a second for a plot, and a benchmark has a hundred of them, so those of a large record are
+drawn ahead by all processors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from types import ModuleType
+
+from hypcheck.errors import UnavailableError
+from hypcheck.messages import escaped
+from hypcheck.processes import perform, processes, usable_processors
+from hypcheck.record import Record
+from hypcheck.record.measurements import AccuracyLine, PlacesLine, StabilityLine
+
+MANY = 100
+"""Lines with plots, at least, for which it is worth to start processes: starting one takes a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnPlot:
+    """A plot's title and its element of SVG."""
+
+    title: str
+    svg: str
+
+
+Drawings = Mapping[str, tuple[DrawnPlot, ...]]
+"""Plots that were drawn already, by their names in pictures.PLOTS."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReportContext:
+    """What a report is made of besides its record.
+
+    beside: the names of the files that stand beside it; it refers to pictures among them.
+    against: another record, with which reports that compare show the changes.
+    drawings: plots that were drawn already.
+    """
+
+    beside: Collection[str] = ()
+    against: Record | None = None
+    drawings: Drawings = field(default_factory=dict)
+
+
+def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlot, ...]:
+    """The plots of that name, drawn now if they are not yet. Raises UnavailableError if matplotlib is missing."""
+    return drawings[name] if name in drawings else _draw((name, record))
+
+
+def draw_ahead(record: Record) -> Drawings:
+    """All plots of a large record; none of a small one, or if they cannot be drawn here."""
+    if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < MANY:
+        return {}
+    try:
+        slowest_first = sorted(pictures().PLOTS, key=lambda name: name not in ("other-errors", "errors", "places"))
+        with processes(usable_processors()) as executor:
+            drawn = perform(_draw, [(name, record) for name in slowest_first], executor)
+            return {name: plots for (name, _), plots in drawn}
+    except UnavailableError:
+        return {}
+
+
+def _draw(task: tuple[str, Record]) -> tuple[DrawnPlot, ...]:
+    return tuple(DrawnPlot(*plot) for plot in pictures().inline_plots(*task))
+
+
+def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
+    """The plots of that name as one file. Raises UnavailableError if there are none, or matplotlib is missing."""
+    module = pictures()
+    if name == "map":
+        return bytes(module.render_map(record))
+    return bytes(module.render_together(name, [(plot.title, plot.svg) for plot in drawn_plots(name, record, drawings)]))
+
+
+def pictures() -> ModuleType:
+    """The module that draws. Raises UnavailableError if matplotlib, which is an extra, is missing."""
+    try:
+        import matplotlib  # noqa: F401, PLC0415
+
+        from hypcheck.report.plots import pictures  # noqa: PLC0415
+    except ImportError as error:
+        reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
+        raise UnavailableError(reason) from None
+    return pictures
