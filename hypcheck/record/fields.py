@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Protocol, TypeVar
 
-from msgspec import Meta, Struct, convert, to_builtins
+from msgspec import UNSET, Meta, Struct, UnsetType, convert, to_builtins
 
 from hypcheck.messages import shortened
 
@@ -99,6 +99,13 @@ InvalidRow = Annotated[
 ]
 """As a row, but also of what is no number: rows that must be refused."""
 
+Axis = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
+"""axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
+
+InvalidAxis = Annotated[
+    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=3, max_length=3)
+]
+
 Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
 """Its two numbers, the cases in it, and how many of them did not end as right."""
 
@@ -115,6 +122,24 @@ class LinePart(Struct, frozen=True, kw_only=True):
 def _type_of(name: str) -> str:
     """The type of a line from the name of its struct: speed for SpeedLine."""
     return name.removesuffix("Line").lower()
+
+
+class _CasePart(Protocol):
+    @property
+    def row(self) -> tuple[str, ...]: ...
+    @property
+    def axis(self) -> tuple[str, ...] | UnsetType: ...
+
+
+def numbers_of(case: _CasePart) -> tuple[str, ...]:
+    """All numbers of a case's row, seven, or ten of a tilted spheroid."""
+    return (*case.row, *(case.axis or ()))
+
+
+def row_fields(row: Sequence[float]) -> dict[str, Any]:
+    """The fields row and axis of a row of seven or ten numbers."""
+    told = tuple(value.hex() for value in row)
+    return {"row": told[:7], "axis": told[7:] or UNSET}
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):

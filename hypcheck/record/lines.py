@@ -6,7 +6,8 @@ a line is left out. A field that is UNSET is not there: it belongs to other runs
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
 1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
-scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files.
+scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
+adds the axis of tilted spheroids, and that an implementation takes them.
 """
 
 from __future__ import annotations
@@ -17,10 +18,12 @@ from msgspec import UNSET, Meta, UnsetType
 
 from hypcheck.record.fields import (
     Amount,
+    Axis,
     Bin,
     Count,
     Counts,
     Interval,
+    InvalidAxis,
     InvalidRow,
     Limits,
     LinePart,
@@ -38,7 +41,7 @@ from hypcheck.record.fields import (
     require_possible,
 )
 
-SCHEMA = "1.4.0"
+SCHEMA = "1.5.0"
 """The version of what is written."""
 
 
@@ -126,6 +129,7 @@ class DisagreementPart(LinePart, frozen=True, kw_only=True):
     oracle: str
     case: str
     row: Row
+    axis: Axis | UnsetType = UNSET
     exact: str
     opinion: str
 
@@ -168,6 +172,7 @@ class WrongAnswer(LinePart, frozen=True, kw_only=True):
 
     case: str
     row: Row
+    axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: int
     mistake: Mistake
@@ -181,6 +186,7 @@ class FaultPart(LinePart, frozen=True, kw_only=True):
 
     case: str
     row: InvalidRow
+    axis: InvalidAxis | UnsetType = UNSET
     status: str
     reason: str
 
@@ -239,7 +245,7 @@ class DomainPart(LinePart, frozen=True, kw_only=True):
 
 
 class DescriptionPart(LinePart, frozen=True, kw_only=True):
-    """What an implementation says of itself, or is taken for."""
+    """What an implementation says of itself, or is taken for; `tilt`, since 1.5.0, where it is asked in ten numbers."""
 
     name: str
     version: str
@@ -250,6 +256,7 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
     refuses: bool
     binary: bool
     time: bool
+    tilt: bool | UnsetType = UNSET
 
 
 class Retest(LinePart, frozen=True, kw_only=True):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import UNSET, Meta, UnsetType
 
 from hypcheck.record.fields import (
+    Axis,
     Count,
+    InvalidAxis,
     InvalidRow,
     LinePart,
     Mistake,
@@ -60,6 +62,7 @@ class SavedAnswer(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: Row
+    axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: Annotated[int, Meta(ge=-128, le=127)]
     mistake: Mistake
@@ -73,6 +76,7 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: InvalidRow
+    axis: InvalidAxis | UnsetType = UNSET
     status: str
     reason: str
 

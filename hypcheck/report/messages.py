@@ -20,10 +20,11 @@ from typing import Any
 from msgspec import UnsetType
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import SIZES
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import counted
 from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import (
     DescriptionPart,
     DomainPart,
@@ -65,7 +66,7 @@ def with_interval(value: float, interval: Sequence[float] | None) -> str:
 
 
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
-    """The seven numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
+    """The numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
     try:
         return tuple(float.fromhex(value) for value in row)
     except OverflowError:
@@ -73,15 +74,21 @@ def from_hex(row: Sequence[str]) -> tuple[float, ...]:
 
 
 def short_row(row: Sequence[float]) -> str:
-    """A row to six digits, enough to see what is meant: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)"."""
-    sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
-    return f"{sizes}, centre ({', '.join(f'{value:.6g}' for value in row[4:])})"
+    """A row to six digits, enough to see what is meant: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
+
+    The axis of a tilted spheroid stands behind.
+    """
+    sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(SIZES, row[:4], strict=True))
+    vectors = (("centre", row[4:7]), ("axis", row[7:]))
+    places = [f"{name} ({', '.join(f'{value:.6g}' for value in vector)})" for name, vector in vectors if vector]
+    return ", ".join([sizes, *places])
 
 
 def classify_command(row: Sequence[float]) -> str:
     """The command that decides a row exactly and proves it; the decimals read back as the same float64."""
-    sizes = " ".join(f"--{name} {value!r}" for name, value in zip(COLUMNS[:4], row[:4], strict=True))
-    return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:]))}"
+    sizes = " ".join(f"--{name} {value!r}" for name, value in zip(SIZES, row[:4], strict=True))
+    axis = f" --axis {' '.join(map(repr, row[7:]))}" if row[7:] else ""
+    return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
 
 
 def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
@@ -122,6 +129,8 @@ def description_text(description: DescriptionPart) -> str:
     parts += [text for text in (description.language, description.version) if text]
     if description.refuses:
         parts.append("refuses invalid rows")
+    if description.tilt:
+        parts.append("takes tilted spheroids")
     return ", ".join(parts)
 
 
@@ -166,7 +175,7 @@ class Replays:
     def command(self, group: GroupLine, case: WrongAnswer | FaultPart) -> str:
         """The command that replays a case of a gated implementation, or decides and proves one of our own methods'."""
         if not group.tested:
-            return classify_command(from_hex(case.row))
+            return classify_command(from_hex(numbers_of(case)))
         return shlex.join(["hypcheck", "replay", str(case.case), str(group.spec), *self.options])
 
 

@@ -20,6 +20,7 @@ from itertools import chain
 
 from hypcheck.geometry.pair import Position
 from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
 from hypcheck.report.messages import Replays, classify_command, counted, figure, from_hex, listed, with_interval
@@ -181,7 +182,7 @@ MEANINGS = {
     1: "wrong answers, or findings other than the known ones",
     2: "nothing was judged",
     3: "slower than the baseline allows",
-    4: "too noisy to tell",
+    4: "too noisy to tell, or undecided",
     5: "an implementation could not be started or broke the protocol",
     6: "the oracles or a proof contradict each other",
     70: "an internal error of hypcheck",
@@ -234,7 +235,7 @@ def _oracles(record: Record) -> Iterator[Failure]:
 
 def _disagreement(line: OracleLine, case: DisagreementPart) -> Failure:
     message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
-    replay = classify_command(from_hex(case.row))
+    replay = classify_command(from_hex(numbers_of(case)))
     return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay)
 
 
@@ -315,6 +316,11 @@ def verdict(record: Record) -> Verdict:
     )
     reason = reason or MEANINGS.get(code, "no line of the record says why")
     if code == EXIT_INCONCLUSIVE:
+        undecided = sum(line.counts.get("undecided", 0) for line in record.of(GroupLine))
+        if undecided:
+            between = "the tolerance lies between the two ends that are proved of the backward error"
+            left = f"{counted(undecided, 'answer')} undecided: {between}"
+            return Verdict(False, f"INCONCLUSIVE, exit code {code}: {left}.")
         open_ = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
         what_helps = "A quieter machine or more --processes would tell."
         return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. {what_helps}")

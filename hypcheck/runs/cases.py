@@ -17,14 +17,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.pair import COLUMNS, Position
+from hypcheck.geometry.rows import Floats, Positions, Rows
 from hypcheck.runs import judge
 from hypcheck.runs.tally import CasePlace
-from hypcheck.truth import float_filter
 from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.families import FAMILIES, case_id
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id
 from hypcheck.vectors.family import BLOCK, Family
 
 _SMALLEST = 1e-300
@@ -33,7 +32,7 @@ _SMALLEST = 1e-300
 
 @dataclass(frozen=True, slots=True)
 class FrozenVectors:
-    """The vectors of a family: ids, rows (n, 7), positions, int8 (n,), and of each its octave, float64 (n,).
+    """The vectors of a family: ids, rows (n, 7 or 10), positions, int8 (n,), and of each its octave, float64 (n,).
 
     An octave is floor(log2) of the distance to the nearest other position; NaN where the vector cannot tell it.
     """
@@ -139,7 +138,7 @@ class CaseChunk:
 
 @dataclass(frozen=True)
 class ChunkCases:
-    """The cases of a chunk: rows (n, 7), the same column by column (7, n), and the exact positions, int8 (n,)."""
+    """The cases of a chunk: rows (n, 7 or 10), the same column by column, and the exact positions, int8 (n,)."""
 
     chunk: CaseChunk
     rows: Rows
@@ -175,7 +174,7 @@ def frozen_count(name: str) -> int:
 def searched_chunks() -> Iterator[CaseChunk]:
     """The frozen vectors that no family generates: the worst cancellations, which a search has found."""
     for name in vectors.NAMES:
-        if name not in FAMILIES:
+        if name not in FAMILIES and name not in TILTED_FAMILIES:
             known = len(frozen_vectors(name).rows)
             yield CaseChunk(name, None, 0, known, min(known, EXPONENTS_OF))
 
@@ -188,20 +187,25 @@ def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
 def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
     """The cases of each of these chunks; decided together, which takes less time where each has few."""
     made = [(chunk, _columns(chunk)) for chunk in some]
-    drawn = [columns for chunk, columns in made if chunk.seed is not None]
-    decided = (
-        float_filter.positions(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T) if drawn else None
-    )
-    found, start = [], 0
+    decided = iter(_decided([columns for chunk, columns in made if chunk.seed is not None]))
+    found = []
     for chunk, columns in made:
-        if chunk.seed is None or decided is None:
+        if chunk.seed is None:
             known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
             found.append(ChunkCases(chunk, known.rows[part], columns, known.positions[part]))
         else:
-            stop = start + len(chunk)
-            found.append(ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, decided[start:stop]))
-            start = stop
+            found.append(ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, next(decided)))
     return tuple(found)
+
+
+def _decided(drawn: list[Floats]) -> list[Positions]:
+    """The exact positions of each of these, given by columns."""
+    if len({len(columns) for columns in drawn}) > 1:  # of upright and of tilted spheroids
+        return [judge.exact_positions(columns.T) for columns in drawn]
+    if not drawn:
+        return []
+    together = judge.exact_positions(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T)
+    return np.split(together, np.cumsum([columns.shape[1] for columns in drawn[:-1]]))
 
 
 def _columns(chunk: CaseChunk) -> NDArray[np.float64]:
@@ -227,9 +231,11 @@ def first_unfrozen(family: Family, seed: int) -> int:
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
     """floor(log2) of the distance to the nearest other position, of those of the (ascending) indices it is recorded of.
 
-    A frozen vector says it itself.
+    A frozen vector says it itself. Of tilted spheroids no distance is recorded: to prove one takes too long.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
+    if len(made.columns) > len(COLUMNS):
+        return np.empty(0)
     if not len(measured):
         return np.empty(0)
     if chunk.seed is not None:
@@ -242,4 +248,4 @@ def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np
 
 @lru_cache
 def _family(name: str) -> Family:
-    return families.family_at(name) if families.MARK in name else FAMILIES[name]
+    return families.family_of(name)

@@ -101,8 +101,9 @@ def _implementation_run(
         lines = ImplementationLines(plan, opener.spec, implementation.declared, used, rules)
         progress = ProgressWriter(recorder, number, implementation.declared, planned_size(plan))
         state = resumed or RunState(implementation.allowance)
+        steps = steps_of(plan, used)
         with _task_execution(implementation, opener, plan, rules, client) as execution:
-            run = _ImplementationRun(steps_of(plan, used), execution, progress, state)
+            run = _ImplementationRun(steps, execution, progress, state)
             try:
                 yield run
             except StartError:
@@ -112,7 +113,8 @@ def _implementation_run(
                     progress.keep(run.state)
                 lines.add(run.state, recorder, finished=False)
                 raise
-        require_all_tallied(run.state.total.tallies, planned_cases(plan, used.domain, refuses=used.refuses))
+        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt)
+        require_all_tallied(run.state.total.tallies, planned)
         lines.add(run.state, recorder, finished=True)
 
 
@@ -142,10 +144,13 @@ def add_reasons(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
     """
     judged = 0
     not_started, failed = outcome.because[Exit.NOT_STARTED], outcome.because[Exit.WRONG]
+    inconclusive = outcome.because[Exit.INCONCLUSIVE]
     for line in recorded:
         if isinstance(line, GroupLine):
             judged += line.asked
-            failed += [f"{line.method} on {line.family}: {status}" for status in line.failing or ()]
+            for status in line.failing or ():
+                reasons = inconclusive if status == Status.UNDECIDED else failed
+                reasons.append(f"{line.method} on {line.family}: {status}")
         elif isinstance(line, DriftLine):
             failed.append(line.sentence)
         elif isinstance(line, NotStartedLine):
@@ -195,7 +200,7 @@ class ImplementationLines:
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family == frozen.INVALID_NAME
-        grave = (Status.WRONG, *UNANSWERED) if wrong_fails else UNANSWERED
+        grave = (*((Status.WRONG,) if wrong_fails else ()), Status.UNDECIDED, *UNANSWERED)
         failing = [status.value for status in grave if tallied.counts.get(status.value)]
         name = self.used.name
         return tally.group_line(

@@ -27,10 +27,9 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import FAULTS_KEPT, WORST_KEPT, Tally, WorstCase
-from hypcheck.truth import float_filter
 from hypcheck.vectors import families, frozen
 
-_OFF = (Status.WRONG, Status.TOLERATED, Status.EXCUSED)
+_OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)
 _ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
 _UNANSWERED = frozenset(status.value for status in UNANSWERED)
 
@@ -58,7 +57,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     if len(tallied) < len(groups):
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if families.MARK in family and not plan.filtered}
-    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied)
+    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied, tilt=whole.used.tilt is True)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:
         trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)
@@ -77,7 +76,7 @@ def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan:
 
 def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
     """The statuses for which a group fails the run must be those of its counts, as far as these decide it."""
-    must = {name for name in _UNANSWERED if line.counts.get(name)}
+    must = {name for name in (*_UNANSWERED, Status.UNDECIDED.value) if line.counts.get(name)}
     may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
     if plan.fail_on == "wrong" or line.family == frozen.INVALID_NAME:
         must = may
@@ -233,7 +232,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
     """Whether a worst case is judged now as the record has it."""
     rows, answers = np.array([case.row]), np.array([case.answer], dtype=np.int8)
-    truth = float_filter.positions(rows)
+    truth = judge.exact_positions(rows)
     for judged in judge.wrong_cases(rows, truth, answers, rules.criterion):
         status = Status.WRONG if case.status == Status.EXCUSED else Status(case.status)
         error = judge.measured(judged, rules.criterion.question)

@@ -27,7 +27,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
-from hypcheck.truth import exact, float_filter
+from hypcheck.truth import exact
 from hypcheck.truth.exact import Cubic, Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.draw import Integers
@@ -193,7 +193,7 @@ class HuntTarget:
     def ask(self, rows: Rows) -> Score:
         """The score of rows, which are asked now."""
         answered = self.implementation.classify(rows)
-        return score(rows, float_filter.positions(rows), answered, self.criterion)
+        return score(rows, judge.exact_positions(rows), answered, self.criterion)
 
 
 def target_of(

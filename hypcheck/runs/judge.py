@@ -1,7 +1,9 @@
 """Judging answers: right or not, and if not, by how much, in one number for every precision.
 
 The backward error of a wrong answer is the infimum of the ε for which changing each input by a relative ε at most makes
-that very answer right (truth/flip.py), counted in units u of the precision that the implementation declares.
+that very answer right (truth/backward_error.py), counted in units u of the precision that the implementation declares.
+Of a tilted spheroid it lies between two proved ends (truth/tilted/backward_error.py): the answer is wrong if the lower
+end exceeds the tolerance, tolerated if the upper end does not, and undecided otherwise.
 """
 
 from __future__ import annotations
@@ -16,11 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.truth.exact import Decision
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.batch import positions as tilted_positions
+from hypcheck.truth.tilted.pair import TiltedLengths
 
 DEFAULT_TOLERANCE = Fraction(8)
 """Units u of backward error that a run tolerates unless told otherwise."""
@@ -32,6 +37,7 @@ class Status(str, Enum):
     RIGHT = "right"
     TOLERATED = "tolerated"
     WRONG = "wrong"
+    UNDECIDED = "undecided"
     EXCUSED = "excused"
     ABSTAINED = "abstained"
     SKIPPED = "skipped"
@@ -89,7 +95,8 @@ class Criterion:
 class WrongCase:
     """A wrong answer: its place in the batch, the row, truth and answer, what it means, and how far off it is.
 
-    `exponent` is floor(log2) of the backward error (−inf: 0, inf: no change is enough); measured() gives the number.
+    `exponent` is floor(log2) of the backward error (−inf: 0, inf: no change is enough), of a tilted spheroid log2 of an
+    estimate of it; measured() gives the number.
     """
 
     index: int
@@ -113,6 +120,13 @@ def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> NDAr
     return np.asarray((answers != expected(truth, question)) & (answers != CANNOT_SAY))
 
 
+def exact_positions(rows: Rows) -> Positions:
+    """The exact positions of valid rows, (n, 7) or (n, 10): int8 (n,)."""
+    if rows.shape[1] == len(COLUMNS):
+        return float_filter.positions(rows)
+    return tilted_positions(rows)
+
+
 def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criterion: Criterion) -> list[WrongCase]:
     """Every wrong answer of a batch, judged."""
     return list(judged(rows, answers, np.flatnonzero(is_wrong(truth, answers, criterion.question)), criterion))
@@ -129,20 +143,41 @@ def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], crite
 
 
 def measured(case: WrongCase, question: str) -> float:
-    """The backward error of a wrong answer, to 4 significant digits."""
-    return error_of(case.row, case.answer, question)
+    """The backward error of a wrong answer, to 4 significant digits; of a tilted spheroid as ends_of has it.
+
+    Of its two ends the lower where it is more than tolerated, so that what is said is proved, else the upper.
+    """
+    if isinstance(_lengths(case.row), Lengths):
+        return error_of(case.row, case.answer, question)
+    low, high = ends_of(case.row, case.answer, question)
+    return low if case.status in (Status.WRONG, Status.EXCUSED) else high
+
+
+def ends_of(row: Sequence[float], answer: int, question: str) -> tuple[float, float]:
+    """Two ends between which the backward error of an answer about a tilted spheroid is proved to lie."""
+    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
+
+    truth = tilted_exact.decide(TiltedLengths.of(row))
+    targets = right_positions(truth.position, answer, question)
+    brackets = [tilted_error.bracket(row, truth, target) for target in targets]
+    return min(each.lower for each in brackets), min(each.upper for each in brackets)
 
 
 def error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """The backward error of an answer to a row, right or wrong, to 4 significant digits."""
-    lengths = Pair.from_row(row).lengths
+    """The backward error of an answer to a row, right or wrong, to 4 significant digits.
+
+    Of a tilted spheroid, a number that it is proved not to exceed.
+    """
+    lengths = _lengths(row)
+    if isinstance(lengths, TiltedLengths):
+        return ends_of(row, answer, question)[1]
     truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.backward_error(lengths, truth, target) for target in targets)
 
 
 def flip_exponents(rows: Rows) -> NDArray[np.float64]:
-    """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency."""
+    """floor(log2) of each upright row's distance to the nearest other position, (n,); −inf for a tangency."""
     octaves = backward_error.distance_exponents(rows, float_filter.positions(rows))
     guess = -10
     for index in np.flatnonzero(np.isnan(octaves)):
@@ -158,19 +193,47 @@ def flip_exponents(rows: Rows) -> NDArray[np.float64]:
 
 
 def _judged(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> WrongCase:
-    lengths = Pair.from_row(row).lengths
+    lengths = _lengths(row)
+    position, status, exponent = (
+        _status_of_upright(lengths, answer, criterion, guess)
+        if isinstance(lengths, Lengths)
+        else _status_of_tilted(lengths, row, answer, criterion)
+    )
+    mistake = mistake_of(position, answer, criterion.question)
+    return WrongCase(index, tuple(row), position, answer, mistake, status, exponent)
+
+
+def _lengths(row: Sequence[float]) -> Lengths | TiltedLengths:
+    """The integers of a row: seven where the spheroid stands upright or is a sphere, ten where it is tilted."""
+    if len(row) == len(COLUMNS):
+        return Pair.from_row(row).lengths
+    lengths = TiltedLengths.of(row)
+    return lengths.upright or lengths
+
+
+def _status_of_upright(
+    lengths: Lengths, answer: int, criterion: Criterion, guess: int
+) -> tuple[Position, Status, float]:
+    """The truth, whether a wrong answer is within the tolerance, and floor(log2) of its backward error."""
     truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, criterion.question)
     within = tolerated(lengths, truth, targets, criterion)
-    return WrongCase(
-        index=index,
-        row=tuple(row),
-        truth=truth.position,
-        answer=answer,
-        mistake=mistake_of(truth.position, answer, criterion.question),
-        status=Status.TOLERATED if within else Status.WRONG,
-        exponent=min(backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets),
-    )
+    exponent = min(backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets)
+    return truth.position, Status.TOLERATED if within else Status.WRONG, exponent
+
+
+def _status_of_tilted(
+    lengths: TiltedLengths, row: Sequence[float], answer: int, criterion: Criterion
+) -> tuple[Position, Status, float]:
+    """The same of a tilted spheroid; UNDECIDED where the tolerance lies between the two ends of the error."""
+    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
+
+    truth = tilted_exact.decide(lengths)
+    targets = right_positions(truth.position, answer, criterion.question)
+    within = tilted_error.tolerated(row, truth, targets, criterion.tolerance * criterion.unit)
+    status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
+    near = min(tilted_error.estimate(row, truth, target) for target in targets)
+    return truth.position, status, math.log2(near) if near else -math.inf
 
 
 def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:

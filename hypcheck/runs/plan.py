@@ -20,6 +20,7 @@ from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import families as fixed_sizes
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import select
+from hypcheck.vectors.family import Family
 
 FAIL_ON = ("wrong", "false-clear")
 
@@ -92,13 +93,15 @@ def check_cluster_address(address: str) -> None:
         raise InputError(f"--cluster is {address!r}; it must be {right}")
 
 
-def planned_cases(plan: ConformancePlan, domain: Domain | None = None, *, refuses: bool = False) -> dict[str, int]:
+def planned_cases(
+    plan: ConformancePlan, domain: Domain | None = None, *, refuses: bool = False, tilt: bool = False
+) -> dict[str, int]:
     """The number of cases of each family for one implementation, skipped cases included.
 
-    A domain with fixed sizes has families of its own. An implementation that `refuses` is asked the invalid rows too.
-    Raises InputError naming a family that does not exist.
+    A domain with fixed sizes has families of its own. An implementation that `refuses` is asked the invalid rows too,
+    one that takes `tilt` the families of tilted spheroids. Raises InputError naming a family that does not exist.
     """
-    cases = {family.name: frozen_count(family.name) + plan.count for family in select(plan.families)}
+    cases = {family.name: frozen_count(family.name) + plan.count for family in chosen_families(plan, tilt=tilt)}
     if not plan.filtered:
         cases |= {chunk.family: len(chunk) for chunk in searched_chunks()}
         settings = domain.settings if domain is not None else ()
@@ -108,8 +111,19 @@ def planned_cases(plan: ConformancePlan, domain: Domain | None = None, *, refuse
     return {family: number for family, number in cases.items() if number}
 
 
+def chosen_families(plan: ConformancePlan, *, tilt: bool = False) -> tuple[Family, ...]:
+    """The families of the plan, without those of tilted spheroids unless an implementation takes `tilt`.
+
+    Raises InputError naming one that does not exist.
+    """
+    return tuple(family for family in select(plan.families, tilted=True) if tilt or not family.tilted)
+
+
 def planned_size(plan: ConformancePlan) -> int:
-    """The number of cases for each implementation, those that it will skip included."""
+    """The number of cases for each implementation, those that it will skip included.
+
+    An implementation that takes tilt has more, which is known once it has described itself.
+    """
     return sum(planned_cases(plan).values())
 
 
@@ -119,8 +133,17 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
-    """The steps for an implementation that is judged by this description."""
-    return steps_of_chunks(_chunks(plan, used.domain), refuses=used.refuses)
+    """The steps for an implementation that is judged by this description.
+
+    Raises InputError if the plan names families of tilted spheroids alone, and the implementation takes none.
+    """
+    families = chosen_families(plan, tilt=used.tilt)
+    if not families:
+        raise InputError(
+            f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
+            'description must say "tilt": true'
+        )
+    return steps_of_chunks(_chunks(plan, families, used.domain), refuses=used.refuses)
 
 
 def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure, ...]) -> JudgingRules:
@@ -128,9 +151,8 @@ def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure
     return JudgingRules(Criterion(used.question, used.precision, plan.tolerance), used.domain, known, plan.seed)
 
 
-def _chunks(plan: ConformancePlan, domain: Domain) -> Iterator[CaseChunk]:
+def _chunks(plan: ConformancePlan, families: tuple[Family, ...], domain: Domain) -> Iterator[CaseChunk]:
     """The chunks of a run; a domain with fixed sizes has families of its own."""
-    families = select(plan.families)
     for family in families:
         yield from family_chunks(family, plan.seed, plan.count)
     if plan.filtered:

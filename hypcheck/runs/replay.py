@@ -22,6 +22,7 @@ from hypcheck.implementations.description import Description, representable
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.spec import begins_as_spec
 from hypcheck.record import read
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
 from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
@@ -86,7 +87,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
         raise InputError(f"{path} has no case {number}; {there}")
     case = kept[number - 1].case
     try:
-        row = tuple(float.fromhex(value) for value in case.row)
+        row = tuple(map(float.fromhex, numbers_of(case)))
     except OverflowError:
         raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
     return ReplayCase(case.case, row)

@@ -23,7 +23,7 @@ from hypcheck.errors import InputError
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
-from hypcheck.record.fields import as_json, decoded
+from hypcheck.record.fields import as_json, decoded, numbers_of, row_fields
 from hypcheck.record.lines import DescriptionPart, HeaderLine, ImplementationLine, NotStartedLine
 from hypcheck.record.progress import (
     PendingCases,
@@ -61,7 +61,10 @@ Json = dict[str, Any]
 
 def recorded_description(description: Description) -> DescriptionPart:
     """An implementation's description as the record has it."""
-    return decoded(asdict(description), DescriptionPart)
+    told = asdict(description)
+    if not description.tilt:  # as in records from before there was tilt
+        del told["tilt"]
+    return decoded(told, DescriptionPart)
 
 
 class ProgressWriter:
@@ -148,8 +151,8 @@ def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> Res
     with plan.opener(begun.number).open() as implementation:
         before, now = as_json(begun.declared), as_json(recorded_description(implementation.declared))
         used = implementation.description
-    for key in now:
-        _require_same(before.get(key), now[key], f"the {key} that {plan.specs[begun.number]} declares", file)
+    for key in {**before, **now}:
+        _require_same(before.get(key), now.get(key), f"the {key} that {plan.specs[begun.number]} declares", file)
     with _contradictions_of(file):
         state = restored_state(begun.state)
         require_state(state, steps_of(plan, used), plan, rules_of(plan, used, known_failures_of(plan)))
@@ -296,11 +299,12 @@ def _restored_tally(content: SavedTally) -> Tally:
 
 
 def _saved_case(case: WorstCase | UnansweredCase) -> Json:
-    return {**asdict(case), "row": tuple(value.hex() for value in case.row)}
+    return {**asdict(case), **row_fields(case.row)}
 
 
 def _restored_case(case: SavedAnswer | SavedFault) -> Json:
-    return {**structs.asdict(case), "row": tuple(map(float.fromhex, case.row))}
+    told = {name: value for name, value in structs.asdict(case).items() if name != "axis"}
+    return {**told, "row": tuple(map(float.fromhex, numbers_of(case)))}
 
 
 def _runs(indices: NDArray[np.intp]) -> list[tuple[int, int]]:

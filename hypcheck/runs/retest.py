@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows, with_axis
 from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -81,7 +81,7 @@ class RetestTask:
 
 @dataclass(frozen=True)
 class _Sample:
-    """The cases of a round, in arrays: rows (n, 7), positions and first answers (n,).
+    """The cases of a round, in arrays: rows (n, 7 or 10), positions and first answers (n,).
 
     `moments` (n,) are the moments of the movement, of those that follow an object; −1 of others.
     """
@@ -134,11 +134,17 @@ def _sample(some: tuple[PendingRetest, ...]) -> _Sample:
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,
-        np.concatenate([part.rows[each.indices] for part, each in both]),
+        _stacked([part.rows[each.indices] for part, each in both]),
         np.concatenate([part.positions[each.indices] for part, each in both]),
         np.concatenate([each.answers for each in some]),
         np.concatenate([_moments(each) for each in some]),
     )
+
+
+def _stacked(parts: list[Rows]) -> Rows:
+    """All rows, of ten numbers each where some of them are of tilted spheroids."""
+    widths = {part.shape[1] for part in parts}
+    return np.concatenate(parts if len(widths) == 1 else [with_axis(part) for part in parts])
 
 
 def _moments(each: PendingRetest) -> NDArray[np.int64]:

@@ -25,6 +25,7 @@ from hypcheck.implementations.meshes import point_mesh
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, processes
 from hypcheck.record import Recorder, lines
+from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import TimingLine
 from hypcheck.runs import findings, judge, oracles
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batches, self_check_families
@@ -182,8 +183,7 @@ def _cross_check(
     for tally in oracles.merged_tallies(tallies):
         outcome.because[Exit.ORACLES_DISAGREE] += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
         cases = [
-            lines.DisagreementPart(**{**asdict(case), "row": tuple(value.hex() for value in case.row)})
-            for case in tally.disagreements[:20]
+            lines.DisagreementPart(**{**asdict(case), **row_fields(case.row)}) for case in tally.disagreements[:20]
         ]
         recorder.add(
             lines.OracleLine(

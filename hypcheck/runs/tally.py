@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import Mask, Rows
 from hypcheck.record import lines
-from hypcheck.record.fields import Unsigned
+from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Status
@@ -251,7 +251,7 @@ def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, FAULTS_KEPT - len(first))]]
     return [
-        lines.FaultPart(case=fault.case, row=_hex(fault.row), status=fault.status, reason=fault.reason)
+        lines.FaultPart(case=fault.case, **row_fields(fault.row), status=fault.status, reason=fault.reason)
         for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
 
@@ -294,7 +294,7 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, .
 def _worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
     return lines.WrongAnswer(
         case=case.case,
-        row=_hex(case.row),
+        **row_fields(case.row),
         truth=case.truth,
         answer=case.answer,
         mistake=case.mistake,
@@ -302,7 +302,3 @@ def _worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
         backward_error=Unsigned(case.error),
         backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
     )
-
-
-def _hex(row: tuple[float, ...]) -> tuple[str, ...]:
-    return tuple(value.hex() for value in row)

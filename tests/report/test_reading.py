@@ -107,7 +107,7 @@ def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
 def test_other_versions(tmp_path):
     later = read(written(tmp_path, [*record_samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
     assert notes(later) == [
-        "the record has schema 1.9.0, later than this program's 1.4.0; what it adds is not shown",
+        "the record has schema 1.9.0, later than this program's 1.5.0; what it adds is not shown",
     ]
     for name in ("terminal", "json", "markdown", "junit"):
         assert render(name, later)

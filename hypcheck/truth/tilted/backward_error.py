@@ -122,6 +122,8 @@ def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position]
             goals.append(goal)
     if change >= 1:
         return bool(goals)
+    if all(excluded(row, goal, change, cuts=0) for goal in goals):  # most wrong answers are wrong by far
+        return False
     if any(reached(row, goal, change) for goal in goals):
         return True
     return False if all(excluded(row, goal, change) for goal in goals) else None
@@ -140,6 +142,14 @@ def bracket(row: Sequence[float], truth: Decision, answer: Position) -> Bracket:
         return Bracket(math.inf, math.inf)
     low, high = _ends(row, goal)
     return Bracket(_rounded(low, -math.inf), _rounded(high, math.inf))
+
+
+def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
+    """About the backward error, as derivatives at the row tell: fast, and no proof. It ranks answers."""
+    if is_limit(truth, answer):
+        return 0.0
+    goal = goal_of(truth.position, answer)
+    return math.inf if is_out_of_reach(row, goal) else float(_estimate(tuple(map(Fraction, row)), goal))
 
 
 def _ends(row: Sequence[float], goal: Goal) -> tuple[Fraction, Fraction]:

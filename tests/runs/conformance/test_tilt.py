@@ -1,0 +1,189 @@
+"""`verify SPEC` with implementations that take tilted spheroids: questions, judging, and the record."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import Exit, InputError, RunOutcome
+from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.description import Description, Domain
+from hypcheck.record import read
+from hypcheck.record.fields import as_json, decoded, numbers_of
+from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.record.progress import SavedResult
+from hypcheck.runs import judge
+from hypcheck.runs.cases import CaseChunk, cases_of_chunk
+from hypcheck.runs.conformance import add_reasons
+from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.plan import ConformancePlan, planned_cases, steps_of
+from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest
+from hypcheck.runs.resume import restored_result, saved_result
+from hypcheck.runs.retest import RetestTask, retest
+from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
+from hypcheck.truth.tilted import backward_error
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from tests.tilted_fractions import exact_position
+
+pytestmark = pytest.mark.usefixtures("text_reports")
+
+LEANING = "tilted-uniform"
+BESIDE = (2.0, 5.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 0.0, 1.0)
+"""In contact."""
+
+
+def gate(tmp_path, name, *options, count="30"):
+    out = tmp_path / name
+    code = main(["verify", f"python:tests.runs.leaning:{name}", "--out", str(out), "--count", count, *options])
+    return code, read(out / "record.jsonl") if (out / "record.jsonl").exists() else None
+
+
+def by_family(record):
+    return {line.family: line for line in record.of(GroupLine)}
+
+
+def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted_families(tmp_path):
+    code, record = gate(tmp_path, "exact", "--families", f"ring,{LEANING}")
+    found = by_family(record)
+    assert code == 0
+    assert set(found) == {"ring", LEANING, "invalid"}
+    assert set(found[LEANING].counts) <= {"right", "skipped"}
+    (line,) = record.of(ImplementationLine)
+    assert line.declared.tilt is line.used.tilt is True
+    assert line.again.asked > 30
+
+
+def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(
+    tmp_path,
+):
+    code, record = gate(tmp_path, "upright", "--families", f"ring,{LEANING}")
+    found = by_family(record)
+    assert code == 1
+    assert set(found["ring"].counts) <= {"right", "skipped"}
+    assert found[LEANING].counts["wrong"] > 0
+    for case in found[LEANING].worst:
+        row = tuple(map(float.fromhex, numbers_of(case)))
+        assert len(row) == 10
+        assert exact_position(row) == case.truth != case.answer
+        assert float(case.backward_error_u) > 8
+    assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "upright" / "record.jsonl").read_text("utf-8")
+
+
+def test_a_fault_about_a_tilted_spheroid_costs_its_own_case_and_is_recorded_with_its_axis(tmp_path):
+    code, record = gate(tmp_path, "raises_far_over", "--families", LEANING, count="60")
+    faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
+    assert code == 1
+    assert faults
+    for fault in faults:
+        axis_x, _, axis_z = map(float.fromhex, numbers_of(fault)[7:])
+        assert axis_x > abs(axis_z)
+        assert "no heading" in fault.reason
+
+
+def test_an_implementation_without_tilt_is_asked_no_family_of_tilted_spheroids():
+    plan = ConformancePlan(("builtin:fast",), families=("*",), count=5)
+    assert not planned_cases(plan).keys() & TILTED_FAMILIES.keys()
+    assert planned_cases(plan, tilt=True).keys() == planned_cases(plan).keys() | TILTED_FAMILIES.keys()
+    alone = ConformancePlan(("builtin:fast",), families=("tilted-*",))
+    assert planned_cases(alone) == {}
+    with pytest.raises(InputError, match=r"tilted-\*: these are families of tilted spheroids, and plain takes none"):
+        steps_of(alone, Description("plain"))
+
+
+def test_families_of_tilted_spheroids_asked_of_an_implementation_without_tilt_are_a_usage_error(tmp_path, capsys):
+    code = main(["verify", "builtin:fast", "--families", LEANING, "--out", str(tmp_path)])
+    assert code == 2
+    assert f"{LEANING}: these are families of tilted spheroids, and fast takes none" in capsys.readouterr().err
+
+
+def test_a_record_of_an_implementation_without_tilt_says_nothing_of_tilt(tmp_path):
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "5", "--out", str(tmp_path)]) == 0
+    text = (tmp_path / "record.jsonl").read_text()
+    assert "tilt" not in text.partition("\n")[2]
+    assert "axis" not in text.partition("\n")[2].replace('"family": "near-axis"', "")
+
+
+def test_answers_about_upright_rows_of_ten_numbers_keep_their_exact_backward_error():
+    rows = FAMILIES["uniform"].rows(3, 60)
+    axes = np.tile([0.0, 0.0, -7.5], (len(rows), 1))
+    answers = np.zeros(len(rows), dtype=np.int8)
+    truth = judge.exact_positions(rows)
+    upright, ten = (
+        judge.wrong_cases(some, truth, answers, Criterion()) for some in (rows, np.column_stack([rows, axes]))
+    )
+    assert len(upright) > 10
+    for one, other in zip(upright, ten, strict=True):
+        assert (one.status, one.exponent) == (other.status, other.exponent)
+        assert judge.measured(one, "position") == judge.measured(other, "position")
+
+
+def test_a_wrong_answer_about_a_tilted_spheroid_is_wrong_by_at_least_what_is_recorded():
+    (case,) = judge.wrong_cases(
+        np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), Criterion()
+    )
+    low, high = judge.ends_of(case.row, case.answer, "position")
+    assert exact_position(BESIDE) == 0
+    assert case.status is Status.WRONG
+    assert judge.measured(case, "position") == low <= high
+    tolerant = Criterion(tolerance=Fraction(high) * 2**53)
+    (case,) = judge.wrong_cases(np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), tolerant)
+    assert case.status is Status.TOLERATED
+    assert judge.measured(case, "position") == high
+
+
+def test_an_undecided_answer_makes_the_run_inconclusive_and_is_shown(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(backward_error, "tolerated", lambda *_: None)
+    code, record = gate(tmp_path, "upright", "--families", LEANING)
+    shown = capsys.readouterr().out
+    number = by_family(record)[LEANING].counts["undecided"]
+    assert number > 0
+    assert code == Exit.INCONCLUSIVE
+    assert by_family(record)[LEANING].failing == ["undecided"]
+    assert f"INCONCLUSIVE, exit code 4: {number} answers undecided: the tolerance lies between the two ends" in shown
+    outcome = RunOutcome()
+    add_reasons(record.lines, outcome)
+    assert outcome.because[Exit.INCONCLUSIVE] == [f"leaning on {LEANING}: undecided"]
+
+
+class AskedAgain:
+    """Answers rightly, and remembers how many numbers the rows had."""
+
+    stands = 1
+
+    def __init__(self):
+        self.widths = set()
+
+    def fresh(self):
+        """Nothing to begin afresh."""
+
+    def classify(self, rows, *, batch=None):
+        """The exact answers."""
+        self.widths.add(rows.shape[1])
+        return Answered.of(judge.exact_positions(rows))
+
+
+def test_open_cases_of_upright_and_tilted_spheroids_are_asked_again_together():
+    chunks = [CaseChunk("uniform", 1, 0, 20), CaseChunk(LEANING, 1, 0, 20)]
+    some = tuple(PendingRetest(chunk, np.arange(20), cases_of_chunk(chunk).positions) for chunk in chunks)
+    subject = AskedAgain()
+    result = retest(RetestTask(0, 0, some), subject, JudgingRules(Criterion(), Domain()))
+    assert subject.widths == {10}
+    assert result.again.asked == 40
+    assert {family: dict(each.counts) for family, each in result.tallies.items()} == {
+        "uniform": {"right": 20},
+        LEANING: {"right": 20},
+    }
+
+
+def test_what_is_kept_of_an_interrupted_run_has_the_axis_of_its_cases():
+    worst = WorstCase((1, 3), f"{LEANING}/1/1/3", BESIDE, 0, 1, "false-clear", "wrong", 0.25)
+    fault = UnansweredCase((0, 2), "invalid-0100", (*BESIDE[:7], 0.0, float("nan"), 0.0), "error", "no heading")
+    total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), faults=(fault,))})
+    kept = decoded(as_json(saved_result(total)), SavedResult)
+    assert kept.tallies[LEANING].worst[0].axis == ((1.0).hex(), (0.0).hex(), (1.0).hex())
+    restored = restored_result(kept).tallies[LEANING]
+    assert restored.worst == (worst,)
+    assert repr(restored.faults) == repr((fault,))
