@@ -55,6 +55,8 @@ def render(name: str, record: Record, context: ReportContext | None = None) -> b
 
 def import_all() -> None:
     """Import every module that makes a report, so that none is read from the disk after foreign code has run."""
+    from hypcheck.report import github  # noqa: F401, PLC0415 - used by the command line alone
+
     for load in (pictures, _html):
         with suppress(UnavailableError):
             load()

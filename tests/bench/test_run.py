@@ -107,7 +107,10 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
     [
         (["--methods", "tabel-2-float32"], "there is no method 'tabel-2-float32'; did you mean table-2-float32"),
         (["--workloads", "everywhere"], "there is no workload 'everywhere'"),
-        (["--max-slowdown", "1.1"], "--max-slowdown holds a run to an earlier one; name that one with --baseline"),
+        (
+            ["--max-slowdown", "1.1"],
+            "--max-slowdown compares a run with an earlier one; name the earlier one with --baseline",
+        ),
         (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )

@@ -166,7 +166,7 @@ def test_without_matplotlib_simulate_writes_all_but_the_pictures(capsys, tmp_pat
         (("forest", "--show-scene", "--scene", "x.toml"), "'x.toml' is no shipped scene; there are forest, tower"),
         (
             ("forest", "--steps", 1, "--out", "/dev/null/x"),
-            "--out /dev/null/x: nothing can be written into it: not a directory",
+            "--out /dev/null/x: files cannot be written to it: not a directory",
         ),
     ],
 )
