@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import entries, leaning
 from hypcheck.paper.ledger.leaning import first_change
@@ -50,3 +51,12 @@ def test_search_that_finds_nothing_says_how_many_it_tried(monkeypatch):
     search = first_change(Position.CONTACT, Position.EXTERIOR, "never")
     assert search.found is None
     assert search.tried > 0
+
+
+def test_each_witness_is_shown_with_a_command_that_asks_about_it(evidence, capsys):
+    assert main(["derive", "--claim", "Section 3.2, pitch"]) == 0
+    commands = [line.split() for line in capsys.readouterr().out.splitlines() if "hypcheck classify" in line]
+    assert len(commands) == len(evidence.leaning)
+    for command, witness in zip(commands, evidence.leaning, strict=True):
+        main(command[1:])
+        assert capsys.readouterr().out.splitlines()[0] == witness.certificate.position.label

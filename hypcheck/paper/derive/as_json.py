@@ -18,7 +18,6 @@ from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
 from hypcheck.paper.ledger.leaning import LeaningWitness
 from hypcheck.paper.ledger.points import PointWitness
-from hypcheck.tables.numbers import exact_text
 from hypcheck.version import VERSION
 
 SCHEMA = "1.3.0"
@@ -132,8 +131,7 @@ def _leaning(witness: LeaningWitness) -> dict[str, Any]:
         "position": int(certificate.position),
         "upright_position": int(witness.vertical.position),
         "certified": witness.holds,
-        "lambda": None if certificate.multiplier is None else exact_text(certificate.multiplier),
-        "points": [list(map(exact_text, point)) for point in certificate.points],
+        "proof": proof_as_json(witness.pair, certificate),
         "upright_proof": proof_as_json(witness.upright, witness.vertical),
     }
 

@@ -31,8 +31,6 @@ from hypcheck.paper.derive.selection import (
 )
 from hypcheck.paper.ledger.book import coverage
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Evidence, LedgerEntry, described
-from hypcheck.paper.ledger.leaning import LeaningWitness
-from hypcheck.tables.numbers import equals_text
 
 _NUMBER, _VERDICT, _TITLE = 34, 49, 10
 """Columns of the ledger: where the number and the verdict end, and how wide the titles of further lines are."""
@@ -161,23 +159,14 @@ def _evidence(evidence: Evidence) -> Iterator[str]:
     for leaning in evidence.leaning:
         yield from formula(leaning.text, indent, CHECKED if evidence.holds and leaning.holds else FAILS)
         yield from paragraph(leaning.shows, indent + 4)
-        yield f"{'':{indent + 4}}{_command(leaning.upright)}"
-        for line in (*proof_lines(leaning.upright, leaning.vertical), "As it leans:", *_leaning_proof(leaning)):
+        axis = " ".join(f"{each:g}" for each in leaning.pair.axis)
+        yield f"{'':{indent + 4}}{_command(leaning.upright)} --axis {axis}"
+        for line in (
+            *proof_lines(leaning.pair, leaning.certificate),
+            "Without --axis:",
+            *proof_lines(leaning.upright, leaning.vertical),
+        ):
             yield from paragraph(line, indent + 4)
-
-
-def _leaning_proof(witness: LeaningWitness) -> list[str]:
-    """What proves the position with the axis that leans (docs/mathematics.md has the matrices S and H)."""
-    certificate = witness.certificate
-    if certificate.multiplier is not None:
-        return [
-            (
-                f"S + λH is positive definite for λ {equals_text(certificate.multiplier)}: "
-                f"that proves {certificate.position.label}."
-            )
-        ]
-    points = (", ".join(map(equals_text, point)).replace("= ", "") for point in certificate.points)
-    return [f"({point})" for point in points] + ["lie in the closed spheroid, on both sides of the hyperboloid."]
 
 
 def _command(pair: Pair) -> str:
