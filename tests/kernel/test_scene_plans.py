@@ -30,7 +30,7 @@ def test_pairs_of_the_same_sizes_share_a_setting():
     [
         (
             {"mover": Mover(0.5, 0.25, axis=FREE)},
-            "no kernel is made: the mover's axis is free, and kernels are made for",
+            "no kernel is made: the mover's axis is free, and no formula in floats",
         ),
         (
             {"mover": Mover(0.5, 0.25, axis=(1.0, 0.0, 2.0))},

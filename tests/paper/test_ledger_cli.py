@@ -115,7 +115,7 @@ def test_a_failing_link_is_shown_and_ends_derive_with_6(capsys, monkeypatch, for
     monkeypatch.setattr(selection, "chains", lambda: {**chains(), chain.name: broken})
     code, output, errors = told(capsys, "--only", "propositions", "--format", form)
     assert code == Exit.ORACLES_DISAGREE
-    assert errors == ("hypcheck: our derivation disagrees with what it is said to show: Proposition 3, repaired\n")
+    assert errors == ("hypcheck: the derivation disagrees with results that it should show: Proposition 3, repaired\n")
     assert ("FAILS" in output) == (form != "json")
     if form == "json":
         document = json.loads(output)
