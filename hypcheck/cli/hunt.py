@@ -222,8 +222,9 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
 _REPLAY_HELP = """\
 Show SPEC's answer to CASE, the right answer with its proof, and where the formula nearest to SPEC goes wrong.
 
-CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats, or
-RECORD:N, the N-th case that a record.jsonl (or the folder of its run) has kept, as reports number them.
+CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats (of a
+tilted spheroid with axis_x,axis_y,axis_z behind), or RECORD:N, the N-th case that a record.jsonl (or the folder of its
+run) has kept, as reports number them.
 
 \b
 hypcheck replay ring-0007 builtin:table-2-float64

@@ -8,15 +8,15 @@ One case and one implementation: what is true, what it answers, what that is wor
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hypcheck.answer import DisagreementError
+from hypcheck.answer import DisagreementError, TiltedAnswer, answer
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair, Position, trouble_with
+from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS, Pair, Position, columns_of, trouble_with
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.description import Description, representable
 from hypcheck.implementations.implementation import Implementation
@@ -33,7 +33,11 @@ from hypcheck.tables.numbers import number_of_text
 from hypcheck.truth import backward_error, exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
+from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
+from hypcheck.truth.tilted.certificate import TiltedCertificate
+from hypcheck.truth.tilted.exact import Decision as TiltedDecision
+from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import MARK, is_extreme, parse_case_id
 from hypcheck.vectors.family import BLOCK
@@ -47,7 +51,7 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class ReplayCase:
-    """A row to be replayed, and what it is called; the seven numbers may be what no pair has."""
+    """A row to be replayed, of seven or ten numbers, and what it is called; they may be what no pair has."""
 
     name: str
     row: Row
@@ -55,7 +59,9 @@ class ReplayCase:
     @property
     def at_fault(self) -> tuple[str, ...]:
         """The columns that keep the row from being a pair, so that it must be refused; none of a valid row."""
-        return tuple(name for name, value in zip(COLUMNS, self.row, strict=True) if trouble_with(name, value))
+        named = tuple(zip(columns_of(self.row), self.row, strict=True))
+        axis = AXIS if len(self.row) > len(COLUMNS) and not any(self.row[len(COLUMNS) :]) else ()
+        return (*(name for name, value in named if trouble_with(name, value)), *axis)
 
 
 def case_of(text: str) -> ReplayCase:
@@ -94,12 +100,14 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 
 
 def _given_row(text: str) -> Row:
-    """Seven valid numbers, each of them decimal or hexadecimal."""
+    """Seven valid numbers, or ten, each of them decimal or hexadecimal."""
     parts = text.split(",")
-    if len(parts) != len(COLUMNS):
-        raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have 7: {', '.join(COLUMNS)}")
-    row = tuple(_number(name, part) for name, part in zip(COLUMNS, parts, strict=True))
-    Pair.from_row(row)
+    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS)):
+        wanted = f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}"
+        raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
+    names = COLUMNS if len(parts) == len(COLUMNS) else TILTED_COLUMNS
+    row = tuple(_number(name, part) for name, part in zip(names, parts, strict=True))
+    pair_of(row)
     return row
 
 
@@ -119,12 +127,20 @@ REPEATED_ROWS = 33
 
 @dataclass(frozen=True, slots=True)
 class ProvedTruth:
-    """The exact decision about a pair, its proof, and the distance to each other position as a backward error."""
+    """The exact decision about a pair, its proof, and the distance to each other position as a backward error.
 
-    pair: Pair
-    decision: Decision
-    certificate: Certificate
-    flips: Mapping[Position, float]
+    Of a tilted spheroid, the two ends between which that is proved to lie.
+    """
+
+    pair: Pair | TiltedPair
+    decision: Decision | TiltedDecision
+    certificate: Certificate | TiltedCertificate
+    flips: Mapping[Position, float | tuple[float, float]]
+
+    @property
+    def kind(self) -> Kind | None:
+        """The kind of its roots; None of a tilted spheroid."""
+        return self.decision.kind if isinstance(self.decision, Decision) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,24 +194,50 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
                 " such rows"
             )
         return Replay(*told, None, _refused(implementation, rows), None, None)
-    truth = truth_of(Pair.from_row(case.row))
+    if rows.shape[1] > len(COLUMNS) and not used.tilt:
+        raise InputError(
+            f'{case.name} has an axis, and {used.name} takes upright spheroids alone; its description must say "tilt": '
+            "true"
+        )
+    truth = truth_of(pair_of(case.row))
     judgement = _judged(implementation, rows, truth, criterion)
-    subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
-    choice = choose_formula(subject, case.row, truth.decision.position, formula)
+    choice = None
+    if isinstance(truth.pair, Pair):
+        subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
+        choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
+    elif formula is not None:
+        raise InputError(f"--formula is {formula!r}, and {case.name} is about a tilted spheroid, of which none speaks")
     return Replay(*told, truth, judgement, _skipped(case, used, criterion), choice)
 
 
-def truth_of(pair: Pair) -> ProvedTruth:
+def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:
     """Decide, prove, and check the proof. Raises DisagreementError where it does not hold."""
+    if isinstance(pair, TiltedPair):
+        return _tilted_truth_of(pair)
     decision = exact.decide(pair.lengths)
     certificate = prove(pair, decision)
     if certificate.position is not decision.position or not check_certificate(pair, certificate):
         raise DisagreementError(
             f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck"
         )
-    others = (position for position in Position if position is not decision.position)
+    others = _others(decision.position)
     flips = {position: backward_error.backward_error(pair.lengths, decision, position) for position in others}
     return ProvedTruth(pair, decision, certificate, flips)
+
+
+def _tilted_truth_of(pair: TiltedPair) -> ProvedTruth:
+    from hypcheck.truth.tilted.backward_error import bracket  # noqa: PLC0415 - loads mpmath
+
+    told = answer(pair)
+    if not isinstance(told, TiltedAnswer):
+        raise TypeError("a pair that is upright is decided as that")
+    brackets = {other: bracket(pair.row, told.decision, other) for other in _others(told.decision.position)}
+    flips = {other: (each.lower, each.upper) for other, each in brackets.items()}
+    return ProvedTruth(pair, told.decision, told.certificate, flips)
+
+
+def _others(position: Position) -> Iterator[Position]:
+    return (other for other in Position if other is not position)
 
 
 def _usable(answer: int | None) -> int | None:

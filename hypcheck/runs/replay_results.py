@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
-from hypcheck.geometry.pair import COLUMNS, REFUSED, Position
+from hypcheck.geometry.pair import REFUSED, Position, columns_of
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description
 from hypcheck.record import plain
@@ -52,7 +52,7 @@ def _truth_json(truth: ProvedTruth) -> dict[str, Any]:
         "position": int(decision.position),
         "label": decision.position.label,
         "tangent": decision.tangent,
-        "kind": decision.kind.value,
+        "kind": None if truth.kind is None else truth.kind.value,
         "flips": {position.label: distance for position, distance in truth.flips.items()},
         "proof": proof_as_json(truth.pair, truth.certificate),
     }
@@ -108,7 +108,7 @@ _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 def replay_lines(done: Replay) -> Iterator[str]:
     """The whole replay, line by line."""
     yield from _titled("case", done.case.name)
-    for name, value in zip(COLUMNS, done.case.row, strict=True):
+    for name, value in zip(columns_of(done.case.row), done.case.row, strict=True):
         yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
     if done.truth is None:
         yield from _titled("truth", f"no pair, for {' and '.join(done.case.at_fault)}: to be refused with {REFUSED}")
@@ -124,7 +124,8 @@ def replay_lines(done: Replay) -> Iterator[str]:
 def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
     decision = truth.decision
     yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
-    yield from _titled("kind", kind_as_text(decision.kind))
+    if truth.kind is not None:
+        yield from _titled("kind", kind_as_text(truth.kind))
     for position, distance in truth.flips.items():
         yield from _titled("flips", f"to {position.label} {_change(distance)}")
     yield from _titled("proof", *proof_lines(truth.pair, truth.certificate))
@@ -231,7 +232,10 @@ def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
         yield f"{name} errs in exact arithmetic too: {fault}; truth: {truth.label}"
 
 
-def _change(distance: float) -> str:
+def _change(distance: float | tuple[float, float]) -> str:
+    if isinstance(distance, tuple):
+        low, high = distance
+        return _change(low) if low == high else f"{_change(high)}, and not if by {low:.4g} or less"
     if distance == 0:
         return "by an arbitrarily small change"
     if distance == float("inf"):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import NO_DIRECTION, TILTED_COLUMNS, Lengths, Pair, trouble_with
+from hypcheck.geometry.pair import COLUMNS, NO_DIRECTION, TILTED_COLUMNS, Lengths, Pair, trouble_with
 
 Row = tuple[float, float, float, float, float, float, float, float, float, float]
 Vector = tuple[int, int, int]
@@ -73,6 +73,14 @@ class TiltedPair:
     def lengths(self) -> TiltedLengths:
         """The same pair in integers: see TiltedLengths."""
         return TiltedLengths.of(self.row)
+
+
+def pair_of(row: Sequence[float]) -> Pair | TiltedPair:
+    """The pair of seven numbers, or of ten; an upright pair wherever that is the same query. Raises InputError."""
+    if len(row) == len(COLUMNS):
+        return Pair.from_row(row)
+    pair = TiltedPair.from_row(row)
+    return pair.upright or pair
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,71 @@
+"""`hypcheck replay` of tilted spheroids: the row with its axis, the proof, the two ends of each error."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from hypcheck.cli.main import main
+
+BESIDE = "2,5,1,0.5,2.5,0,0,1,0,1"
+SPEC = "python:tests.runs.leaning:"
+
+
+def replayed(capsys, *words):
+    code = main(["replay", *words])
+    return code, capsys.readouterr()
+
+
+def test_a_tilted_row_is_replayed_with_its_axis_a_proof_and_two_ends_for_each_other_position(capsys):
+    code, said = replayed(capsys, BESIDE, f"{SPEC}exact")
+    assert code == 0
+    assert "axis_x      1                       0x1p+0" in said.out
+    assert "truth       contact" in said.out
+    assert "two points of the spheroid (s ≤ 1) lie on different sides" in said.out
+    assert "answer      0, contact" in said.out
+    assert "values" not in said.out
+
+
+def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(capsys):
+    code, said = replayed(capsys, "tilted-uniform/1/1/5", f"{SPEC}upright", "--json")
+    told = json.loads(said.out)
+    assert code == 1
+    assert len(told["row"]) == len(told["row_hex"]) == 10
+    assert (told["status"], told["mistake"]) == ("wrong", "false-clear")
+    low, high = told["truth"]["flips"]["interior"]
+    assert 0 < low == told["backward_error"] <= high
+    assert told["truth"]["kind"] is told["values"] is None
+
+
+def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one(capsys):
+    told = [
+        json.loads(replayed(capsys, row, f"{SPEC}exact", "--json")[1].out)["truth"]
+        for row in ("2,5,1,0.5,2.5,0,0", "2,5,1,0.5,2.5,0,0,0,0,-3")
+    ]
+    assert told[0] == told[1]
+    assert told[0]["kind"] == "crossing-one-curve"
+
+
+@pytest.mark.parametrize(
+    ("case", "spec", "sentence"),
+    [
+        (BESIDE, "builtin:fast", "the given row has an axis, and fast takes upright spheroids alone; its description"),
+        (
+            "2,5,1,0.5,2.5,0,0,0,0,0",
+            f"{SPEC}exact",
+            "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction",
+        ),
+        ("2,5,1,0.5,2.5,0,0,1", f"{SPEC}exact", "has 8 numbers; it must have 7: alpha, gamma"),
+    ],
+)
+def test_what_cannot_be_replayed_is_told_in_a_sentence(case, spec, sentence, capsys):
+    code, said = replayed(capsys, case, spec)
+    assert code == 2
+    assert sentence in said.err
+
+
+def test_a_formula_is_not_shown_for_a_tilted_spheroid(capsys):
+    code, said = replayed(capsys, BESIDE, f"{SPEC}exact", "--formula", "table-2")
+    assert code == 2
+    assert "the given row is about a tilted spheroid, of which none speaks" in said.err
