@@ -131,7 +131,7 @@ def test_a_verdict_without_its_evidence_ends_derive_with_6(capsys, monkeypatch, 
     monkeypatch.setattr(selection, "entries", lambda: changed)
     code, output, errors = told(capsys, "--only", "ledger", "--format", form)
     assert code == Exit.ORACLES_DISAGREE
-    assert errors.endswith("to show: Table 2\n")
+    assert errors.endswith("should show: Table 2\n")
     assert ("FAILS: proved" in output) == (form != "json")
 
 
