@@ -19,11 +19,13 @@ class Scene:
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
+    axis: tuple[float, float, float] | None = None
 
     @property
     def rows(self) -> np.ndarray:
-        """The same as rows, (n, 7)."""
-        return np.column_stack([*(np.full(len(self.x), size) for size in self.sizes), self.x, self.y, self.z])
+        """The same as rows, (n, 7), or (n, 10) with an axis."""
+        sizes, axis = (np.tile(each or (), (len(self.x), 1)) for each in (self.sizes, self.axis))
+        return np.column_stack([sizes, self.x, self.y, self.z, axis])
 
 
 def families(seed: int, count: int) -> Iterator[tuple[str, np.ndarray]]:

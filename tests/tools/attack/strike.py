@@ -8,8 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.truth import float_filter
-from tests.tools.attack import places
+from hypcheck.truth.tilted.batch import positions as tilted_positions
+from tests.tools.attack import places, tilted_places
 from tests.tools.attack.places import Scene
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 from tests.tools.attack.subjects import Subject
@@ -17,7 +19,7 @@ from tests.tools.attack.subjects import Subject
 
 @dataclass(frozen=True)
 class Batch:
-    """Rows (n, 7) or a scene, their exact positions, and the rounding modes under which subjects are asked for them."""
+    """Rows (n, 7) or (n, 10), or a scene, their exact positions, and the rounding modes under which they are asked."""
 
     stratum: str
     asked: np.ndarray | Scene
@@ -37,9 +39,14 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
     batch under one directed mode beside the usual one.
     """
     for number, (stratum, asked) in enumerate(_places(seed, rows)):
-        truth = float_filter.positions(asked.rows if isinstance(asked, Scene) else asked)
+        truth = truth_of(asked.rows if isinstance(asked, Scene) else asked)
         turn = DIRECTED[number // 4 % 3 : number // 4 % 3 + 1] if number % 4 == 0 else ()
         yield Batch(stratum, asked, truth, (TO_NEAREST, *(DIRECTED if stratum.startswith("far") else turn)))
+
+
+def truth_of(rows: np.ndarray) -> np.ndarray:
+    """The exact positions of rows of seven or ten."""
+    return tilted_positions(rows) if rows.shape[1] == len(TILTED_COLUMNS) else float_filter.positions(rows)
 
 
 def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
@@ -60,6 +67,24 @@ def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
         yield "far", places.far(random, min(share // 2, 1 << 15))
     for scene in places.far_scenes(random, share // 4096 + 3, 1024):
         yield "far scenes", scene
+    yield from _tilted_places(random, max(2000, share // 12))
+
+
+def _tilted_places(random: np.random.Generator, share: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
+    """Fewer rows with an axis: each is decided alone, in some 0.1 ms."""
+    for name, make in (
+        ("tilted near", tilted_places.near_contact),
+        ("tilted pole", tilted_places.at_a_pole),
+        ("tilted grid", tilted_places.grid),
+        ("tilted limits", tilted_places.at_the_limits),
+        ("far tilted", tilted_places.far),
+    ):
+        for _ in range(0, share, 1 << 14):
+            yield name, make(random, min(share, 1 << 14))
+    for scene in tilted_places.scenes(random, share // 1000, 2048):
+        yield "tilted scenes", scene
+    for scene in tilted_places.on_the_planes(random, share // 500, 2048):
+        yield "tilted planes", scene
 
 
 def strike(subjects: Iterable[Subject], all_batches: Iterable[Batch]) -> Iterator[tuple[str, str, int, np.ndarray]]:
@@ -77,7 +102,7 @@ def strike(subjects: Iterable[Subject], all_batches: Iterable[Batch]) -> Iterato
 
 def _asked(subject: Subject, asked: np.ndarray | Scene, some: slice) -> np.ndarray:
     if isinstance(asked, Scene):
-        return subject.scene(asked.sizes, *(column[some] for column in (asked.x, asked.y, asked.z)))
+        return subject.scene(asked.sizes, *(column[some] for column in (asked.x, asked.y, asked.z)), axis=asked.axis)
     return subject.rows(asked[some])
 
 

@@ -18,7 +18,7 @@ from hypcheck.kernel.scalar import exact_position
 
 @dataclass(frozen=True)
 class Subject:
-    """`rows(rows)` and `scene(sizes, x, y, z)` answer positions; only each `every`-th row is asked.
+    """`rows(rows)` and `scene(sizes, x, y, z, axis=None)` answer positions; only each `every`-th row is asked.
 
     In scenes every question has its own lines: a position that another question does not agree with is answered 99.
     """
@@ -51,16 +51,21 @@ def of_library(path: Path, name: str, level: str | None = None) -> Subject | Non
         values, answers = np.ascontiguousarray(values), np.full(len(values), 99, np.int8)
         with chosen() as there:
             assert there
-            library.hypcheck_classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
+            classify = library.hypcheck_classify if values.shape[1] == 7 else library.hypcheck_classify_tilted
+            classify(ctypes.c_size_t(len(values)), pointer(values), pointer(answers))
         return answers
 
-    def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
+    def scene(sizes: tuple[float, ...], *columns: np.ndarray, axis: tuple[float, ...] | None = None) -> np.ndarray:
         four, count = np.array(sizes), ctypes.c_size_t(len(columns[0]))
         pointers = [pointer(column) for column in columns]
 
         def ask(question: str) -> np.ndarray:
             answers = np.full(len(columns[0]), 99, np.int8)
-            library.hypcheck_ask_scene(NUMBER_OF[question], pointer(four), count, *pointers, pointer(answers))
+            begin, rest = (NUMBER_OF[question], pointer(four)), (count, *pointers, pointer(answers))
+            if axis is None:
+                library.hypcheck_ask_scene(*begin, *rest)
+            else:
+                library.hypcheck_ask_tilted_scene(*begin, pointer(np.array(axis)), *rest)
             return answers
 
         with chosen() as there:
@@ -80,20 +85,23 @@ def _agreed(ask: Callable[[str], np.ndarray]) -> np.ndarray:
     return positions
 
 
-def _numpy_scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
+def _numpy_scene(sizes: tuple[float, ...], *columns: np.ndarray, axis: tuple[float, ...] | None = None) -> np.ndarray:
     with patch.object(numpy_kernel, "LINES_FROM", 1):  # its lines are attacked in small scenes too
-        return numpy_kernel.positions_of_scene(sizes, *columns)
+        return numpy_kernel.positions_of_scene(sizes, *columns, axis)
 
 
 def one_by_one(position: Callable[..., int], name: str, every: int) -> Subject:
     """A function of one pair."""
 
     def rows(values: np.ndarray) -> np.ndarray:
+        if values.shape[1] == 10:
+            return np.array([position(*row[:7], axis=row[7:]) for row in values.tolist()], dtype=np.int8)
         return np.array([position(*row) for row in values.tolist()], dtype=np.int8)
 
-    def scene(sizes: tuple[float, ...], *columns: np.ndarray) -> np.ndarray:
+    def scene(sizes: tuple[float, ...], *columns: np.ndarray, axis: tuple[float, ...] | None = None) -> np.ndarray:
         centres = zip(*(column.tolist() for column in columns), strict=True)
-        return np.array([position(*sizes, *centre) for centre in centres], dtype=np.int8)
+        leaning = {} if axis is None else {"axis": axis}
+        return np.array([position(*sizes, *centre, **leaning) for centre in centres], dtype=np.int8)
 
     return Subject(name, rows, scene, every)
 

@@ -66,6 +66,10 @@ def test_no_build_is_wrong_anywhere(compiler, options, struck, tmp_path):
 SABOTAGE = {
     "bounds a hundredth": {name: generate.CONSTANTS[name] / 100 for name in ("u_4", "u_8", "u_12", "u_16", "u_1536")},
     "margins reversed": {"more": generate.CONSTANTS["less"], "less": generate.CONSTANTS["more"]},
+    "bounds of a leaning row a hundredth": {
+        name: generate.CONSTANTS[name] / 100 for name in ("u_p_l", "u_k", "u_d_l", "u_F", "u_psi")
+    },
+    "margins of half spaces": {"unit": 0.0, "more": generate.CONSTANTS["less"], "less": generate.CONSTANTS["more"]},
     "products may overflow": {"farthest": sys.float_info.max},
 }
 
