@@ -146,7 +146,11 @@ class Scene:
     def __post_init__(self) -> None:
         if not self.model.hyperboloids:
             raise InputError("the scene has no hyperboloid; it must have one at least")
-        if self.model.mover.parts and leans(self.model.mover.axis):
+        mover = self.model.mover
+        trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)
+        if trouble is not None:
+            raise InputError(f"the mover: {trouble}")
+        if mover.parts and leans(mover.axis):
             raise InputError("the mover leans and has parts, whose places are known only where it is upright")
 
     @classmethod
@@ -374,7 +378,13 @@ class Scene:
 
     @cached_property
     def _bodies(self) -> Bodies:
-        return bodies_of(self.model.hyperboloids)
+        bodies = bodies_of(self.model.hyperboloids)
+        if not (np.isfinite(bodies.axes).all() and (bodies.axes != 0).any(axis=1).all()):
+            for body in self.model.hyperboloids:
+                trouble = trouble_with_axis(body.axis)
+                if trouble is not None:
+                    raise InputError(f"the hyperboloid {body.name!r}: {trouble}")
+        return bodies
 
 
 def _directions(columns: Sequence[Floats]) -> Floats:

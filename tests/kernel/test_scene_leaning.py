@@ -290,6 +290,17 @@ def test_classify_names_the_row_of_an_axis_that_cannot_be():
             Scene(FREELY).classify(1.0, 2.0, 3.0, axis=[(0.0, 0.0, 1.0), bad])
 
 
+def test_axes_of_a_scene_made_in_python_must_have_a_direction():
+    with pytest.raises(
+        InputError, match="the mover: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
+    ):
+        Scene(replace(FREELY, mover=Mover(0.5, 0.25, axis=(0.0, 0.0, 0.0))))
+    for axis, message in (((0.0, 0.0, 0.0), "are 0, 0, 0"), ((0.0, np.nan, 1.0), "axis_y is nan; it must be finite")):
+        scene = Scene(replace(UPSTANDING, hyperboloids=(Hyperboloid("h", 1.0, 1.0, axis=axis),)))
+        with pytest.raises(InputError, match=f"the hyperboloid 'h': .*{message}"):
+            scene.position(1.0, 2.0, 3.0)
+
+
 def test_a_mover_with_parts_that_leans_is_refused():
     mover = Mover(1.0, 1.0, (MoverPart(0.1, 0.1, 0.1),), (1.0, 0.0, 1.0))
     with pytest.raises(

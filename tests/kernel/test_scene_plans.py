@@ -49,6 +49,13 @@ def test_a_scene_in_which_something_leans_has_no_plan(changes, message):
         plan_of(replace(upright, **changes))
 
 
+def test_a_ball_whose_axis_leans_has_the_plan_of_an_upright_one():
+    upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.5))
+    for axis in (FREE, (1.0, 0.0, 2.0)):
+        leaning = replace(upright, mover=Mover(0.5, 0.5, axis=axis))
+        assert plan_of(leaning).settings == plan_of(upright).settings
+
+
 def test_the_region_is_seen_from_each_hyperboloid_and_wider_by_an_arm():
     trees = (Hyperboloid("oak", 1.0, 2.0, (10.0, 0.0, 0.0)), Hyperboloid("elm", 1.0, 3.0, (-10.0, 5.0, 1.0)))
     mover = Mover(0.5, 0.5, (MoverPart(0.1, 0.1, 0.25),))

@@ -72,13 +72,13 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
 
 
 def _require_upright(scene: SceneModel) -> None:
-    """Raise InputError about what leans, or may."""
+    """Raise InputError about what leans, or may. A mover with b = d is a ball, the same along every axis."""
     lean = [
         f"the hyperboloid {body.name!r} has the axis {list(body.axis)}"
         for body in scene.hyperboloids
         if leans(body.axis)
     ]
-    if leans(scene.mover.axis):
+    if leans(scene.mover.axis) and scene.mover.b != scene.mover.d:
         free = scene.mover.axis == FREE
         lean.insert(0, "the mover's axis is free" if free else f"the mover has the axis {list(scene.mover.axis)}")
     if lean:
