@@ -4,9 +4,9 @@
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
-    hypcheck.InputError: what they raise, with a sentence, about rows, scenes and files that cannot be
+    hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
 
-They are loaded when first used, and numpy with all but position.
+They are loaded when first used; all but position load numpy.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What can go wrong, as types: each is one sentence for a person and one exit code for a program."""
+"""The errors of hypcheck: each is one sentence for a user and one exit code for a program."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hypcheck.messages import sentence
 
 
 class Exit(IntEnum):
-    """A process's status; others' scripts depend on the numbers."""
+    """The exit codes; scripts of users depend on the numbers."""
 
     HELD = 0
     WRONG = 1
@@ -28,7 +28,7 @@ class Exit(IntEnum):
 
     @property
     def meaning(self) -> str:
-        """What the status says, in a few words."""
+        """The meaning of the code, in a few words."""
         return _MEANINGS[self]
 
 
@@ -39,10 +39,10 @@ _MEANINGS = {
     Exit.SLOWER: "slower than the baseline allows",
     Exit.INCONCLUSIVE: "too noisy to tell, or undecided",
     Exit.NOT_STARTED: "an implementation could not be started or broke the protocol",
-    Exit.ORACLES_DISAGREE: "our oracles disagree",
+    Exit.ORACLES_DISAGREE: "oracles disagree",
     Exit.INTERNAL: "an internal error of hypcheck",
     Exit.INTERRUPTED: "interrupted",
-    Exit.CLOSED_PIPE: "the reader of our output left",
+    Exit.CLOSED_PIPE: "the reader of the output closed it",
     Exit.TERMINATED: "terminated",
 }
 
@@ -59,30 +59,30 @@ PRECEDENCE = (
     Exit.INCONCLUSIVE,
     Exit.HELD,
 )
-"""Of several reasons to end with, the first of these is told."""
+"""If there are several reasons to end, the first of these is the exit code."""
 
 
 def first_that_applies(reasons: Iterable[int]) -> Exit:
-    """The one exit code of a run that may have several: HELD where there is no reason for another."""
+    """The exit code of a run with these reasons; HELD without any."""
     return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
 
 
 @dataclass
 class RunOutcome:
-    """What decides how a run ends: sentences by the exit code that they are reasons for."""
+    """The reasons for the exit code of a run: sentences by code."""
 
     because: defaultdict[Exit, list[str]] = field(default_factory=lambda: defaultdict(list))
 
     @property
     def exit_code(self) -> Exit:
-        """The first that applies, HELD where there is no reason for another."""
+        """The first code that applies; HELD without any reason."""
         return first_that_applies(code for code, reasons in self.because.items() if reasons)
 
 
 class HypcheckError(Exception):
-    """An expected failure: its text is the whole message a user sees, and `exit_code` the process's status.
+    """An expected failure: its text is the whole message that a user sees, `exit_code` that of the process.
 
-    Whatever it quotes, the text is one line, printable, and at most visible.LONGEST characters long.
+    The text is one printable line of at most messages.LONGEST characters, whatever it quotes.
     """
 
     exit_code = Exit.INTERNAL
@@ -98,7 +98,7 @@ class InputError(HypcheckError):
 
 
 class NothingJudgedError(HypcheckError):
-    """A run that asked or judged nothing; it proves nothing, so it is never a pass."""
+    """A run that asked or judged nothing: it proves nothing, so it is no pass."""
 
     exit_code = Exit.USAGE
 
@@ -110,19 +110,19 @@ class UnavailableError(HypcheckError):
 
 
 class SystemLimitError(HypcheckError):
-    """The system has no more files, processes, memory or semaphores for us; nothing is at fault that is tested."""
+    """The system has no more files, processes, memory or semaphores; the implementation under test is not at fault."""
 
     exit_code = Exit.USAGE
 
 
 SCARCE = (errno.EMFILE, errno.ENFILE, errno.EAGAIN, errno.ENOMEM)
-"""Files that may be open, processes and memory, of which this account or all together have as many as they may."""
+"""The errors about open files, processes and memory, if this account or the system has reached a limit."""
 
 
 def limit_reached(error: BaseException) -> SystemLimitError | None:
-    """What to raise in place of an error that a limit of the system led to; None for any other."""
+    """The error to raise if a limit of the system caused `error`; None for any other."""
     if isinstance(error, OSError) and error.errno in SCARCE:
-        return SystemLimitError(f"the system gives no more: {system_reason(error)}; see `ulimit -a`")
+        return SystemLimitError(f"a limit of the system is reached: {system_reason(error)}; see `ulimit -a`")
     return None
 
 
@@ -131,5 +131,5 @@ class Terminated(BaseException):
 
 
 def system_reason(error: OSError) -> str:
-    """Why the system refused, in its own words, as the end of a sentence."""
+    """The reason that the system gives, as the end of a sentence."""
     return (error.strerror or str(error)).lower()

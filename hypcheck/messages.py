@@ -1,9 +1,4 @@
-"""Text in messages, reports and on a terminal: foreign text escaped, numbers with nouns, suggested names.
-
-Text in messages, reports and on a terminal: what others wrote, made harmless, and numbers with their nouns.
-
-What somebody may have meant by a name that is not there.
-"""
+"""Text in messages, reports and on a terminal: foreign text escaped, numbers with nouns, suggested names."""
 
 from __future__ import annotations
 
@@ -12,29 +7,29 @@ from difflib import get_close_matches
 
 
 def escaped(text: object, width: int | None = None) -> str:
-    r"""The text on one line, at most `width` characters long, what cannot be seen written as its escape.
+    r"""The text on one line, at most `width` characters long, with escapes for characters that cannot be seen.
 
-    Blanks of every kind, ends of lines among them, become one space each run. Escaped (\x1b, \u202e, \ud800) are the
-    characters that a terminal, a parser or an encoding would not pass on: control and direction marks, lone surrogates
-    and what Unicode assigns to no character.
+    Each run of blanks, ends of lines included, becomes one space. Escaped (\x1b, \u202e, \ud800) are characters that a
+    terminal, a parser or an encoding may not pass on: control and direction marks, lone surrogates and unassigned
+    characters.
     """
     shown = "".join(map(_escaped_character, " ".join(str(text).split())))
     return shown if width is None else shortened(shown, width)
 
 
 def printable(line: object) -> str:
-    """The text of one line with its blanks as they are; what visible() escapes is escaped, ends of lines too."""
+    """The text of one line with its blanks as they are; other characters are escaped as by escaped()."""
     return "".join(map(_escaped_character, str(line)))
 
 
 LONGEST = 1000
-"""Characters of a sentence: a file that is wrong from end to end does not fill the screen."""
+"""Characters of a sentence, at most, so that a bad file does not fill the screen."""
 
 
 def sentence(text: object) -> str:
-    """The text as one visible line of at most LONGEST characters; of a longer one the middle is left out.
+    """The text as one printable line of at most LONGEST characters; a longer one loses its middle.
 
-    The beginning says where something is wrong, and the end what would be right.
+    The beginning says what is wrong and where, the end what would be right.
     """
     return _without_middle(escaped(_without_middle(str(text))))
 
@@ -44,7 +39,7 @@ def _without_middle(text: str) -> str:
 
 
 def shortened(text: str, width: int) -> str:
-    """The text, cut to `width` characters with an ellipsis where it is longer."""
+    """The text, cut to `width` characters with an ellipsis if it is longer."""
     return text if len(text) <= width else text[: width - 1].rstrip() + "…"
 
 
@@ -57,18 +52,18 @@ def _escaped_character(character: str) -> str:
     return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
 
 
-_LONGEST = 100
-"""Characters of a name that are compared: comparing takes time with the square of their number."""
+_LONGEST_COMPARED = 100
+"""Characters of a name that are compared: the time grows with the square of their number."""
 
 
 def suggestion(name: str, known: Iterable[str], *, most: int = 3, otherwise: str = "there are") -> str:
-    """The end of a sentence about a name that is not `known`: up to `most` names like it, else all that there are.
+    """The end of a sentence about a name that is not `known`: up to `most` similar names, else all known ones.
 
-    `otherwise` is what stands before the list of all.
+    `otherwise` stands before the list of all.
     """
     known = tuple(known)
     shown = {_plain(each): each for each in known}
-    near = [shown[each] for each in get_close_matches(_plain(name[:_LONGEST]), shown, n=most)]
+    near = [shown[each] for each in get_close_matches(_plain(name[:_LONGEST_COMPARED]), shown, n=most)]
     if not near:
         return f"{otherwise} {', '.join(known)}"
     return "did you mean " + " or ".join(filter(None, (", ".join(near[:-1]), near[-1]))) + "?"

@@ -1,4 +1,4 @@
-"""Long work: its stages, fresh processes of our own that do it, and interrupts that end it as they should."""
+"""Processes for long work: pools of fresh processes, stages with progress, and interrupts that end them in order."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 Advance = Callable[[int], object]
-"""Takes note of so many steps that are done."""
+"""Takes note of so many finished steps."""
 
 
 @dataclass(frozen=True)
 class Stage:
-    """A part of a long run: its title for the progress bar, how many steps it has, and what does them."""
+    """A part of a long run: its title for the progress bar, the number of its steps, and the function that runs it."""
 
     title: str
     steps: int
@@ -35,20 +35,20 @@ class Stage:
 
 
 UNWINDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-"""The signals that end a run in good order."""
+"""The signals after which a run removes half-written files and ends."""
 
 
 def usable_processors() -> int:
-    """The processors this process may use."""
+    """The number of processors that this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 @contextmanager
 def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
-    """As many processes; none where one worker is asked for. Fresh ones: forking copies locks and threads.
+    """A pool of so many fresh processes (forking would copy locks and threads); None for one worker.
 
-    Where the block is left by an exception they are ended, and what they were to do is not done.
+    If an exception leaves the block, the processes are ended, and the rest of their work is not done.
     """
     if workers <= 1:
         yield None
@@ -59,7 +59,7 @@ def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 
 @contextmanager
 def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
-    """The same, with a process of its own for a single worker too."""
+    """The same, but a single worker is a process as well."""
     require_semaphores()
     executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
@@ -73,11 +73,11 @@ def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def require_semaphores() -> None:
-    """Raise SystemLimitError where processes cannot be given work, since the system makes no semaphores.
+    """Raise SystemLimitError if the system makes no semaphores, without which processes cannot be given work.
 
     They are in shared memory, which may be full, missing or read-only.
     """
-    _prepare_children()  # the first semaphore starts the process that looks after them
+    _prepare_children()  # the first semaphore starts the resource tracker
     try:
         get_context("spawn").Lock()
     except OSError as error:
@@ -90,7 +90,7 @@ def require_semaphores() -> None:
 def perform(
     function: Callable[[Task], Result], tasks: Iterable[Task], executor: Executor | None
 ) -> Iterator[tuple[Task, Result]]:
-    """Each task with its result, as they are finished; without an executor, here and in order."""
+    """Each task with its result, in the order in which they finish; without an executor, here and in order."""
     if executor is None:
         for task in tasks:
             yield task, function(task)
@@ -104,10 +104,10 @@ def perform(
 def in_order(
     function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int
 ) -> Generator[Result, None, None]:
-    """The result of each task, in order: of the first few, `alone`, done here, and of the others by so many processes.
+    """The result of each task, in order. The first `alone` tasks are done here, the others by so many workers.
 
-    Tasks are taken ahead of their turn, and what goes wrong is told in its turn. What a process was killed over is done
-    here. To be closed where it is left early.
+    Tasks are taken in advance, but an error is raised after the results before it. If a worker is killed, its task is
+    done here. The caller closes the generator if it does not exhaust it.
     """
     coming = iter(tasks)
     yield from map(function, islice(coming, alone))
@@ -116,31 +116,33 @@ def in_order(
         return
     for first in coming:
         with fresh(workers) as executor:
-            line: deque[tuple[Task | _Trouble, Future[Result] | None]] = deque()
-            for task in _troubles_in_turn(chain([first], coming)):
-                line.append((task, _begun(function, task, executor)))
-                if len(line) == 2 * workers:
-                    yield _finished(function, *line.popleft())
-            while line:
-                yield _finished(function, *line.popleft())
+            queue: deque[tuple[Task | _TaskError, Future[Result] | None]] = deque()
+            for task in _tasks_then_error(chain([first], coming)):
+                queue.append((task, _submitted(function, task, executor)))
+                if len(queue) == 2 * workers:
+                    yield _finished(function, *queue.popleft())
+            while queue:
+                yield _finished(function, *queue.popleft())
 
 
 @dataclass(frozen=True, slots=True)
-class _Trouble:
-    """What stands in place of the tasks that it ended."""
+class _TaskError:
+    """An error of the tasks themselves, which takes the place of those that it prevented."""
 
     error: Exception
 
 
-def _troubles_in_turn(tasks: Iterable[Task]) -> Iterator[Task | _Trouble]:
+def _tasks_then_error(tasks: Iterable[Task]) -> Iterator[Task | _TaskError]:
     try:
         yield from tasks
-    except Exception as error:  # noqa: BLE001 - whatever it is, it is told behind the results before it
-        yield _Trouble(error)
+    except Exception as error:  # noqa: BLE001 - every error is raised after the results before it
+        yield _TaskError(error)
 
 
-def _begun(function: Callable[[Task], Result], task: Task | _Trouble, executor: Executor) -> Future[Result] | None:
-    if isinstance(task, _Trouble):
+def _submitted(
+    function: Callable[[Task], Result], task: Task | _TaskError, executor: Executor
+) -> Future[Result] | None:
+    if isinstance(task, _TaskError):
         return None
     try:
         with interrupts_held():
@@ -149,8 +151,8 @@ def _begun(function: Callable[[Task], Result], task: Task | _Trouble, executor: 
         return None
 
 
-def _finished(function: Callable[[Task], Result], task: Task | _Trouble, future: Future[Result] | None) -> Result:
-    if isinstance(task, _Trouble):
+def _finished(function: Callable[[Task], Result], task: Task | _TaskError, future: Future[Result] | None) -> Result:
+    if isinstance(task, _TaskError):
         raise task.error
     with suppress(BrokenExecutor):
         if future is not None:
@@ -159,20 +161,20 @@ def _finished(function: Callable[[Task], Result], task: Task | _Trouble, future:
 
 
 def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:
-    """Each task with its result, in order, done by a process that has done nothing before; `workers` at a time."""
+    """Each task with its result, in order, each done by a fresh process of its own; `workers` at a time."""
     todo = list(tasks)
     require_semaphores()
-    with interrupts_held():  # the thread that starts further processes holds them as long as it lives
+    with interrupts_held():  # for the thread that starts further processes, too
         pool = get_context("spawn").Pool(max(1, workers), initializer=end_with_parent, maxtasksperchild=1)
     with pool:
         yield from zip(todo, pool.imap(function, todo, chunksize=1), strict=True)
 
 
 def end_with_parent() -> None:
-    """From here on this process ends at once, whatever it is at, when the one that started it is gone.
+    """End this process at once when its parent ends.
 
-    That one may have been killed, which its processes would not see: those of a pool wait for ever for what they are to
-    do, and others would first finish what nobody asks for any more.
+    A parent may be killed, which its children do not notice: those of a pool would wait for ever for a task, and others
+    would first finish work that nobody needs.
     """
     parent = parent_process()
     if parent is None:
@@ -187,10 +189,10 @@ def end_with_parent() -> None:
 
 @contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Interrupts wait, and the processes started meanwhile never get those from the keyboard.
+    """Defer interrupts within the block; processes started within it ignore those of the keyboard for ever.
 
-    A terminal sends them to every process; the parent deals with them, and a worker would only print where it was. So
-    would one whose parent was interrupted before it had told it what to do.
+    A terminal sends an interrupt to every process. The parent handles it; a worker would only print a traceback, also
+    one that has no task yet.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -205,18 +207,18 @@ def interrupts_held() -> Iterator[None]:
 
 
 def _prepare_children() -> None:
-    """Before a process of ours is started."""
+    """Prepare for the first child process."""
     _keep_working_directory_off_their_path()
     _begin_resource_tracker()
 
 
 @lru_cache
 def _keep_working_directory_off_their_path() -> None:
-    """From here on, no Python process that multiprocessing starts takes a module from its working directory.
+    """Keep processes that multiprocessing starts from importing modules from their working directory.
 
-    Each begins as `python -c`, which has that folder first on its path: a types.py or socket.py that lies there would
-    run in place of Python's own. Once it has begun, multiprocessing gives it the path of its parent. -P does the same
-    from Python 3.11 on only, and the variable PYTHONSAFEPATH would also reach the programs that are tested.
+    Each starts as `python -c`, which has that folder first on its path: a types.py or socket.py there would run in
+    place of Python's own. Later, multiprocessing gives it the path of its parent. -P does the same only from Python
+    3.11 on, and the variable PYTHONSAFEPATH would also reach the programs under test.
     """
     if not hasattr(util, "spawnv_passfds"):  # Windows
         return
@@ -232,15 +234,15 @@ def _keep_working_directory_off_their_path() -> None:
 
 
 def _begin_resource_tracker() -> None:
-    """Start Python's process that removes what a killed one leaves; it is to do so without a word.
+    """Start Python's resource tracker, which removes what a killed process leaves, without its warnings.
 
-    Started with the first process of ours, it would let interrupts through again. It is to outlive all of us, for which
-    Python lets it ignore every signal but the one that a closed terminal sends.
+    If it started with the first child, interrupts would not be blocked any more. It must outlive all processes: Python
+    lets it ignore all signals except SIGHUP, which is blocked here.
     """
     if not hasattr(signal, "pthread_sigmask"):
         return
     quiet = "ignore:resource_tracker:UserWarning"
-    sys.warnoptions.append(quiet)  # with which it starts, as with what is blocked here
+    sys.warnoptions.append(quiet)  # it inherits this, and the blocked signal
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGHUP})
     try:
         resource_tracker.ensure_running()
@@ -251,24 +253,24 @@ def _begin_resource_tracker() -> None:
 
 @contextmanager
 def interrupts_deferred() -> Iterator[None]:
-    """Ctrl-C and the like wait until the block is done, and then do what they would have done.
+    """Ctrl-C and the like wait until the block is done, and then take effect.
 
-    A mask would not do: Python runs their handlers here whichever thread the system gave them to.
+    Blocking the signals is not enough: Python runs handlers in the main thread, whichever thread got the signal.
     """
     if threading.current_thread() is not threading.main_thread():
-        yield  # which no handler interrupts
+        yield  # no handler interrupts another thread
         return
-    came: list[int] = []
+    received: list[int] = []
     before: dict[signal.Signals, Any] = {}
     try:
         for each in UNWINDING:
             before[each] = signal.getsignal(each)
             if callable(before[each]):
-                signal.signal(each, lambda number, _: came.append(number))
+                signal.signal(each, lambda number, _: received.append(number))
         yield
     finally:
         for each, handler in before.items():
             if callable(handler):
                 signal.signal(each, handler)
-        for caught in dict.fromkeys(came):
+        for caught in dict.fromkeys(received):
             signal.raise_signal(caught)

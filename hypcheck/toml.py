@@ -1,4 +1,4 @@
-"""TOML that people write, as text of a bounded length; whatever is wrong with a file is one sentence."""
+"""TOML files that users write, as text of a bounded length; an error in a file is one sentence."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import Any
 from hypcheck.errors import InputError, system_reason
 
 LARGEST = 1 << 20
-"""Bytes of a file: what people write, and over ten thousand trees of a scene. Reading more of what is written to be
-read slowly would take minutes and gigabytes."""
+"""Bytes of a file, at most: enough for ten thousand trees of a scene. A larger file that is slow to read would take
+minutes and gigabytes."""
 
 
 def text_of(path: str) -> str:
-    """The text of a regular file, without a byte order mark. Raises FileNotFoundError, and InputError for all else."""
+    """The text of a regular file, without a byte order mark. Raises FileNotFoundError, else InputError."""
     try:
-        # Without waiting: a pipe in which nobody writes would be waited for as long as nobody does.
+        # Non-blocking: opening a pipe would wait until another process writes to it.
         with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
             if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise InputError(f"cannot read {path}: is a pipe or a device; it must be a regular file")
+                raise InputError(f"cannot read {path}: it is a pipe or a device; it must be a regular file")
             content = file.read(LARGEST + 1)
     except FileNotFoundError:
         raise
@@ -44,21 +44,21 @@ _LONG_INTEGER = re.compile(r"0[xob][0-9A-Fa-f_]{400}")
 _TOO_LONG = "has an integer with too many digits; a number must fit into float64"
 
 MOST_DOTS = 100
-"""Dots of a line, but for decimal points and rows of dots: the parser's time and memory grow with the square of the
-parts of a key, a.b.c, which is on one line."""
+"""Dots of a line, decimal points and runs of dots apart, at most: the parser's time and memory grow with the square of
+the number of parts of a key such as a.b.c, which is on one line."""
 
-_NO_PART = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?!\s*[\w.])|\.{2,}")
+_NO_KEY = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?!\s*[\w.])|\.{2,}")
 
 
 def parsed(text: str, name: str) -> dict[str, Any]:
-    """What a text says; `name` is that of its file. Raises InputError."""
-    if _LONG_INTEGER.search(text):  # which would be read, and then not be shown in any message
+    """The content of a TOML text; `name` is that of its file. Raises InputError."""
+    if _LONG_INTEGER.search(text):  # Python would read it, and could not print it in a message
         raise InputError(f"{name}: {_TOO_LONG}")
     for number, line in enumerate(text.split("\n"), start=1):
-        if line.count(".") > MOST_DOTS and _NO_PART.sub("", line).count(".") > MOST_DOTS:
+        if line.count(".") > MOST_DOTS and _NO_KEY.sub("", line).count(".") > MOST_DOTS:
             raise InputError(f"{name}, line {number}: has more than {MOST_DOTS} dots; a key or text must be shorter")
     if sys.version_info >= (3, 11):
-        import tomllib  # noqa: PLC0415 - not loaded where there is no file
+        import tomllib  # noqa: PLC0415 - not loaded without a file
     else:
         import tomli as tomllib  # noqa: PLC0415
     try:
@@ -67,5 +67,5 @@ def parsed(text: str, name: str) -> dict[str, Any]:
         raise InputError(f"{name}: is no TOML: {error}") from None
     except RecursionError:
         raise InputError(f"{name}: is no TOML that can be read: it is nested too deeply") from None
-    except ValueError:  # Python reads no integer of more than some thousand digits
+    except ValueError:  # an integer of more than 4300 digits
         raise InputError(f"{name}: {_TOO_LONG}") from None

@@ -43,7 +43,7 @@ def test_what_cannot_be_read_is_one_sentence(tmp_path):
         (large, "has more than 1 MiB"),
         (other, r"line 2: is not UTF-8 text: invalid start byte at byte 11"),
         (tmp_path, "cannot read .*: is a directory"),
-        (os.devnull, "cannot read .*: is a pipe or a device; it must be a regular file"),
+        (os.devnull, "cannot read .*: it is a pipe or a device; it must be a regular file"),
         (tmp_path / "a\0b", "cannot read .*: embedded null byte"),
         (tmp_path / ("a" * 5000), "cannot read .*: file name too long"),
     ):
@@ -68,4 +68,4 @@ def test_a_pipe_as_settings_scene_or_known_failures_is_refused_and_not_waited_fo
     spec = ["builtin:fast"] if words[0] == "verify" else []
     assert main([words[0], *spec, *words[1:]]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
-    assert said == f"hypcheck: error: cannot read {name}: is a pipe or a device; it must be a regular file"
+    assert said == f"hypcheck: error: cannot read {name}: it is a pipe or a device; it must be a regular file"

@@ -1,4 +1,4 @@
-"""The record of a run: one JSON object a line, from which every report is made. docs/record.md says what is in it."""
+"""The record of a run: one JSON object a line, from which every report is made. docs/record.md describes it."""
 
 from __future__ import annotations
 

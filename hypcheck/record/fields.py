@@ -1,4 +1,4 @@
-"""What a field of a record's line may be, and how a line comes from JSON and becomes JSON again."""
+"""Types of the fields of a record's lines, and how a line is decoded from JSON and encoded again."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from msgspec import UNSET, Meta, Struct, UnsetType, convert, to_builtins
 from hypcheck.messages import shortened
 
 FARTHEST = 9999
-"""No octave of a float64, of a ratio of two, or of a product of a few, lies farther from 0."""
+"""The floor of log2 of a float64, of a ratio of two, or of a product of a few, is nearer to 0."""
 
 _OCTAVE = re.compile(r"-?\d{1,4}|-?inf", re.ASCII)
 _HEX = r"-?0x[01](\.[0-9a-f]+)?p[+-][0-9]+"
 
 
 class Extended(float):
-    """A float that may be infinite, which JSON has as the string "inf" or "-inf"."""
+    """A float that may be infinite; JSON holds an infinity as the string "inf" or "-inf"."""
 
 
 class Unsigned(Extended):
-    """One that is not negative."""
+    """An Extended that is not negative."""
 
 
 Kind = TypeVar("Kind")
 
 
 def decoded(value: object, kind: type[Kind]) -> Kind:
-    """The value of a kind that these dicts, lists, texts and numbers are, or the attributes of an object.
+    """Decode a value of that kind from dicts, lists, texts and numbers, or from the attributes of an object.
 
     Raises msgspec.ValidationError.
     """
@@ -38,16 +38,14 @@ def decoded(value: object, kind: type[Kind]) -> Kind:
 
 
 def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds
-    """The value as JSON has it, infinities as texts."""
+    """Encode a line or a part of one for JSON, infinities as texts."""
     return plain(to_builtins(value, enc_hook=_number))
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
-    """The value as JSON has it: infinities as the strings "inf" and "-inf", mappings and sequences likewise."""
+    """The value for JSON: infinities as the strings "inf" and "-inf", also inside mappings and sequences."""
     if isinstance(value, float):
-        if math.isfinite(value):
-            return value
-        return str(value)
+        return value if math.isfinite(value) else str(value)
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -74,7 +72,7 @@ def _number(value: object) -> float:
 
 
 def one_of(*names: str) -> Meta:
-    """That a text is one of these names."""
+    """A constraint: the text is one of these names."""
     return Meta(pattern=f"^({'|'.join(names)})$", extra_json_schema={"enum": list(names)})
 
 
@@ -97,7 +95,7 @@ Row = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_
 InvalidRow = Annotated[
     tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=7, max_length=7)
 ]
-"""As a row, but also of what is no number: rows that must be refused."""
+"""Like a row, but NaN and infinities are allowed: rows that must be refused."""
 
 Axis = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
 """axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
@@ -107,7 +105,7 @@ InvalidAxis = Annotated[
 ]
 
 Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
-"""Its two numbers, the cases in it, and how many of them did not end as right."""
+"""The two numbers of a bin, its cases, and how many of them did not end as right."""
 
 Truth = Annotated[int, Meta(ge=-1, le=1)]
 Question = Annotated[str, one_of("position", "exterior", "interior", "contact")]
@@ -120,7 +118,7 @@ class LinePart(Struct, frozen=True, kw_only=True):
 
 
 def _type_of(name: str) -> str:
-    """The type of a line from the name of its struct: speed for SpeedLine."""
+    """The type of a line, from the name of its struct: speed for SpeedLine."""
     return name.removesuffix("Line").lower()
 
 
@@ -143,23 +141,23 @@ def row_fields(row: Sequence[float]) -> dict[str, Any]:
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):
-    """A line; the first of its fields is its type."""
+    """A line of a record; its first field is its type."""
 
     @property
     def type(self) -> str:
-        """The name of what it is."""
+        """The type of the line."""
         return str(self.__struct_config__.tag)
 
 
 def require_possible(field: str, bins: Sequence[Bin]) -> None:
-    """Raise ValueError where a bin is no place on a scale, or holds more wrong answers than cases."""
+    """Raise ValueError if a bin lies beyond FARTHEST, or has more wrong answers than cases."""
     for number, (across, up, asked, wrong) in enumerate(bins):
         require_places((across, up), f"{field}[{number}]")
         require_counts(asked, wrong, f"{field}[{number}]")
 
 
 def require_places(places: Sequence[int], where: str) -> None:
-    """Raise ValueError where one of these is farther than FARTHEST from 0."""
+    """Raise ValueError if one of these is farther than FARTHEST from 0."""
     for place in places:
         if abs(place) > FARTHEST:
             shown = shortened(str(place), 20)
@@ -167,14 +165,14 @@ def require_places(places: Sequence[int], where: str) -> None:
 
 
 def require_counts(asked: int, wrong: int, where: str) -> None:
-    """Raise ValueError where there are more wrong answers than answers."""
+    """Raise ValueError if there are more wrong answers than answers."""
     if not 0 <= wrong <= asked:
         few, many = shortened(str(wrong), 20), shortened(str(asked), 20)
         raise ValueError(f"{where} has {few} wrong answers of {many}")
 
 
 def require_octaves(octaves: Mapping[str, object]) -> None:
-    """Raise ValueError where a key is no octave."""
+    """Raise ValueError if a key is no octave: a floor of log2, or an infinity."""
     for octave in octaves:
         if not _OCTAVE.fullmatch(octave):
             shown = shortened(repr(octave), 20)

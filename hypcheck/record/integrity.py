@@ -1,16 +1,12 @@
 """The integrity of a record: the checksum of each line, reading up to the first damage, and repair.
 
-The checksum at the end of each line of a record: a CRC-32 of everything from the first byte of the file up to it.
+Each line ends in a checksum: the CRC-32 of everything from the first byte of the file up to it. It guards against
+accidents: a bit that flipped, a line that was lost, doubled or moved, two runs that wrote into one file. Each checksum
+continues the one before, so a misplaced line does not fit, whatever is in it. A CRC finds every change within 32
+neighbouring bits, and any other but for one in 2³². It does not guard against people, who can compute checksums again.
+Every language has a CRC-32, and it costs next to nothing (1 GB/s and more).
 
-It is there against accidents: a bit that flipped, a line that was lost, doubled or moved, two runs that wrote into one
-file. Each checksum goes on from the one before, so that such a line does not fit where it stands, whatever is in it.
-A CRC finds every change within 32 neighbouring bits for certain, and any other but for one in 2³². Whoever changes a
-record on purpose can compute any checksum anew: a cryptographic one would promise no more. This one is in every
-language's reach and costs next to nothing (1 GB/s and more).
-
-The whole lines of a record, one at a time: none that is too long is loaded, nothing behind damage is believed.
-
-Whether the file of a record is whole, and what of it can be saved where it is not.
+Lines are read one at a time: none that is too long is loaded, and nothing after damage is believed.
 """
 
 from __future__ import annotations
@@ -29,7 +25,7 @@ from hypcheck.tables.numbers import shown, shown_json
 from hypcheck.tables.streams import Reader, reading, same_file, writing
 
 Raw = dict[str, Any]
-"""A line as JSON has it."""
+"""A line as decoded from JSON, before it becomes a struct."""
 
 FIELD = "crc32"
 
@@ -38,41 +34,41 @@ _LENGTH = len(f', "{FIELD}": "01234567"}}')
 
 
 def sealed(line: Raw, before: int) -> tuple[bytes, int]:
-    """The bytes of a line, its end included, and their checksum; `before` is that of the line before, 0 for the first.
+    """The bytes of a line with its end, and their checksum; `before` is that of the previous line, 0 for the first.
 
-    The checksum, eight hexadecimal digits, is the last field: it covers what stands before its comma.
+    The checksum, eight hexadecimal digits, is the last field, and covers everything before its comma.
     """
     text = json.dumps(line, ensure_ascii=False, allow_nan=False)
-    # A lone surrogate becomes its escape, which within a text of JSON stands for the same.
+    # A lone surrogate becomes its escape, which means the same within a text of JSON.
     body = text.encode("utf-8", "backslashreplace")[:-1]
     check = zlib.crc32(body, before)
     return b'%s, "%s": "%08x"}\n' % (body, FIELD.encode(), check), check
 
 
 def seal_of(line: bytes) -> int | None:
-    """The checksum that a line, without its end, says it has; None where it ends in none."""
+    """The checksum at the end of a line (given without its line end); None if there is none."""
     seal = _SEAL.search(line, max(0, len(line) - _LENGTH))
     return int(seal[1], 16) if seal else None
 
 
 def body_of(line: bytes) -> bytes:
-    """The JSON text of a line that has a checksum, without it."""
+    """The JSON text of a line without its checksum."""
     return line[:-_LENGTH] + b"}"
 
 
 def checksum(line: bytes, before: int) -> int:
-    """The checksum that a line with one must have."""
+    """The checksum that the line must have."""
     return zlib.crc32(memoryview(line)[:-_LENGTH], before)
 
 
 READABLE = "1"
-"""The major version of the schema that is read here."""
+"""The major version of the schema that this program reads."""
 
 SEALED_SINCE = 2
 """The minor version since which every line has a checksum."""
 
 LONGEST = 1 << 24
-"""Bytes of a line, of which the longest ever written had 62,000: a longer one is refused before it is loaded."""
+"""Bytes of a line, at most; the longest ever written had 62,000. A longer line is refused before it is loaded."""
 
 _VERSION = re.compile(r"([0-9]{1,6})\.([0-9]{1,6})\.[0-9]{1,6}", re.ASCII)
 _BEGINNING = b'{"type": "header"'
@@ -95,20 +91,20 @@ def _integer(text: str) -> int:
     return int(text)
 
 
-_QUICK = json.JSONDecoder(parse_constant=_no_constant)
-_CAREFUL = json.JSONDecoder(parse_constant=_no_constant, parse_float=_finite, parse_int=_integer)
-"""As the quick one, but for numbers beyond float64, which nothing that reads a record expects."""
+_DECODER = json.JSONDecoder(parse_constant=_no_constant)
+_FINITE_DECODER = json.JSONDecoder(parse_constant=_no_constant, parse_float=_finite, parse_int=_integer)
+"""Refuses numbers beyond float64; slower, so it decodes only lines that may hold one."""
 
 
 def _version_of(header: Raw) -> tuple[str | None, int]:
-    """The major and the minor version that a header tells; None and 0 where it tells none."""
+    """The major and the minor version of the schema of a header; None and 0 if it names none."""
     version = header.get("schema")
     found = _VERSION.fullmatch(version) if isinstance(version, str) else None
     return (found[1], int(found[2])) if found else (None, 0)
 
 
 class DamagedError(InputError):
-    """A record that is not as it was written. `at` is the byte, from 0, where the first line begins that is not."""
+    """A record that is not as it was written; `at` is the byte, from 0, where the first damaged line begins."""
 
     def __init__(self, sentence: str, at: int = 0) -> None:
         super().__init__(sentence)
@@ -118,8 +114,8 @@ class DamagedError(InputError):
 class RecordScan:
     """An iterator over the whole lines of a record, header and footer included, each without its checksum.
 
-    A line is whole when its line end is there. The iterator ends with the file, which may be cut off within a line. It
-    raises DamagedError where anything else is wrong, and InputError where the file is no record that can be read.
+    A line is whole if it has its line end. The iterator ends with the file, which may be cut off within a line. It
+    raises DamagedError if anything else is wrong, and InputError if the file is no record that this program reads.
     """
 
     def __init__(self, reader: Reader) -> None:
@@ -132,9 +128,9 @@ class RecordScan:
         self.lines = 0
         """Whole lines so far."""
         self.end = 0
-        """The byte behind the last of them."""
+        """The byte after the last of them."""
         self.written = b""
-        """What was read last: the bytes of a whole line, or those at which reading came to its end."""
+        """The bytes that were read last: a whole line, or those where reading ended."""
 
     def __iter__(self) -> Iterator[Raw]:
         while written := self._next():
@@ -158,14 +154,14 @@ class RecordScan:
         if len(written) > LONGEST:
             self._refuse(f"it is longer than {LONGEST} bytes, which no line of a record is")
         if self.footer is not None:
-            self._refuse("it stands behind the footer, which ends a record")
+            self._refuse("it stands after the footer, which ends a record")
         if self.lines == 0:
             if written.startswith(_BEGINNING[: len(written)]):
                 raise InputError(f"{self._reader.name} is cut off within its first line; nothing of it can be used")
             self._no_record("it has no whole line")
 
     def _first(self, text: bytes) -> Raw:
-        """The header. It alone decides whether there are checksums, so one that it has counts whatever it says."""
+        """The header. If it has a checksum, all lines must have one, whatever its schema says."""
         self.sealed = seal_of(text) is not None
         line = self._parsed(body_of(text) if self.sealed else text)
         major, minor = _version_of(line)
@@ -189,7 +185,7 @@ class RecordScan:
 
     def _parsed(self, text: bytes) -> Raw:
         try:
-            line = (_CAREFUL if _MAY_BE_HUGE.search(text) else _QUICK).decode(text.decode())
+            line = (_FINITE_DECODER if _MAY_BE_HUGE.search(text) else _DECODER).decode(text.decode())
         except UnicodeDecodeError as error:
             self._refuse(f"its byte {error.start} is no UTF-8")
         except RecursionError:
@@ -209,14 +205,14 @@ class RecordScan:
         right = checksum(text, self._check)
         if seal != right:
             self._refuse(
-                f"its checksum is {seal:08x}, but of what stands here it is {right:08x}: it was changed, or a line "
+                f"its checksum is {seal:08x}, but must be {right:08x} for these bytes: it was changed, or a line "
                 "before it was lost, doubled or moved"
             )
         self._check = seal
 
     def _check_place(self, line: Raw) -> None:
         if self.footer is not None:
-            self._refuse("it stands behind the footer, which ends a record")
+            self._refuse("it stands after the footer, which ends a record")
         if line["type"] == "header" and self.lines:
             self._refuse("it is a second header; a file holds one record")
         if line["type"] == "footer":
@@ -241,15 +237,22 @@ _BLOCK = 1 << 20
 
 @dataclass(frozen=True, slots=True)
 class FileCondition:
-    """What is in a file: its good lines and their bytes, what is lost behind them, and why (empty: it is cut off)."""
+    """The condition of the file of a record.
+
+    schema: the version in its header.
+    sealed: whether its lines have checksums.
+    lines, size: its good lines, and their bytes.
+    exit_code: that of the footer; None without a footer.
+    complete: whether it has a footer.
+    lost_bytes, lost_lines: what follows the good lines.
+    why: the reason why that is lost; empty if the file is only cut off.
+    """
 
     schema: str
     sealed: bool
     lines: int
     size: int
     exit_code: object
-    """As the footer has it, None without one."""
-
     complete: bool
     lost_bytes: int
     lost_lines: int
@@ -257,7 +260,7 @@ class FileCondition:
 
 
 def check(path: Path) -> FileCondition:
-    """The condition of a file that is whole, or cut off. Raises DamagedError and InputError as Scan does."""
+    """The condition of a file that is complete or cut off. Raises DamagedError and InputError as RecordScan does."""
     with reading(str(path)) as reader:
         scan = RecordScan(reader)
         for _ in scan:
@@ -266,14 +269,12 @@ def check(path: Path) -> FileCondition:
 
 
 def repair(path: Path, target: Path) -> FileCondition:
-    """Write everything up to the last good line to `target`, and say what was lost.
+    """Write everything up to the last good line to `target`; the condition says what was lost.
 
-    Raises InputError where not even the header is good, and where the two are one file.
+    Raises InputError if not even the header is good, or if both paths are one file.
     """
     if same_file(str(path), str(target)):
-        raise InputError(
-            f"--out {target} is the record itself; name another file, so that what is lost can be looked at"
-        )
+        raise InputError(f"--out {target} is the record itself; name another file, to keep what is lost")
     with reading(str(path)) as reader, writing(str(target)) as writer:
         scan, why = RecordScan(reader), ""
         try:
@@ -287,7 +288,7 @@ def repair(path: Path, target: Path) -> FileCondition:
 
 
 def _condition(scan: RecordScan, reader: Reader, why: str) -> FileCondition:
-    """The condition once the scan has ended; what it did not read is counted."""
+    """The condition after the scan has ended; what it did not read is counted."""
     last = scan.written
     size, ends = len(last), last.count(b"\n")
     while block := reader.read(_BLOCK):

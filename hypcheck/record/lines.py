@@ -1,7 +1,7 @@
-"""The lines of a record as values: what each holds, in the order in which it is written. docs/record.md explains them.
+"""The lines of a record as structs, their fields in the order in which they are written. docs/record.md explains them.
 
-Whoever reads a record gets these and nothing else; the published schema is made from them. What a later version adds to
-a line is left out. A field that is UNSET is not there: it belongs to other runs, or the record is older than the field.
+Reading a record gives these structs, and the published schema is made from them. Fields that a later version adds to a
+line are left out. A field that is UNSET is missing: other runs have it, or the record is older than the field.
 
 History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and null for a range of a domain that was not
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
@@ -42,11 +42,11 @@ from hypcheck.record.fields import (
 )
 
 SCHEMA = "1.5.0"
-"""The version of what is written."""
+"""The version of the records that are written."""
 
 
 class Machine(LinePart, frozen=True, kw_only=True):
-    """What a run took place on."""
+    """The machine of a run."""
 
     system: str
     architecture: str
@@ -55,7 +55,7 @@ class Machine(LinePart, frozen=True, kw_only=True):
 
 
 class WeakenedPart(LinePart, frozen=True, kw_only=True):
-    """An option that fails less, or asks less, than its default; `source` is the settings file or the command line."""
+    """An option with which a run fails less or asks less than by default; `source`: settings file or command line."""
 
     option: str
     value: str
@@ -64,16 +64,17 @@ class WeakenedPart(LinePart, frozen=True, kw_only=True):
 
 
 class SettingsPart(LinePart, frozen=True, kw_only=True):
-    """The settings file of a run, None where none was used, and what weakens its gate."""
+    """The settings file of a run (None: none was used), and the options that weaken its gate."""
 
     file: str | None
     weakened: list[WeakenedPart]
 
 
 class HeaderLine(RecordLine, frozen=True, kw_only=True):
-    """The first line, for some runs with the sha256 of the files under test, by path, since 1.3.0.
+    """The first line: versions, machine and options of a run.
 
-    Since 1.4.0 also with that of the program's own files, and with the settings.
+    Some runs add `files`, the sha256 of the files under test by path, since 1.3.0; `program`, that of the program's own
+    files, and `settings`, since 1.4.0.
     """
 
     schema: Annotated[str, Meta(pattern=r"^1\.[0-9]+\.[0-9]+$")]
@@ -89,7 +90,7 @@ class HeaderLine(RecordLine, frozen=True, kw_only=True):
 
 
 class FooterLine(RecordLine, frozen=True, kw_only=True):
-    """The last line, without which a record is truncated; `lines` counts those of the file."""
+    """The last line, without which a record is truncated; `lines` counts the lines of the file."""
 
     lines: Count
     exit_code: int
@@ -97,14 +98,14 @@ class FooterLine(RecordLine, frozen=True, kw_only=True):
 
 
 class UnavailableLine(RecordLine, frozen=True, kw_only=True):
-    """An oracle that could not be asked."""
+    """An oracle that could not be asked, and why."""
 
     oracle: str
     reason: str
 
 
 class EquationLine(RecordLine, frozen=True, kw_only=True):
-    """A displayed formula of the paper."""
+    """A displayed formula of the paper, and the verdict on it."""
 
     number: str
     holds: bool
@@ -115,7 +116,7 @@ class EquationLine(RecordLine, frozen=True, kw_only=True):
 
 
 class ProofLine(RecordLine, frozen=True, kw_only=True):
-    """A quantity of a formula, and whether it is proved to be what it must be."""
+    """A quantity of a formula, and whether it is proved to be right."""
 
     formula: str
     quantity: str
@@ -124,7 +125,7 @@ class ProofLine(RecordLine, frozen=True, kw_only=True):
 
 
 class DisagreementPart(LinePart, frozen=True, kw_only=True):
-    """A case of which an oracle says something else than the exact decision."""
+    """A case where an oracle and the exact decision disagree."""
 
     oracle: str
     case: str
@@ -135,7 +136,7 @@ class DisagreementPart(LinePart, frozen=True, kw_only=True):
 
 
 class OracleLine(RecordLine, frozen=True, kw_only=True):
-    """An oracle and a family."""
+    """What one oracle answered about one family."""
 
     oracle: str
     family: str
@@ -148,7 +149,7 @@ class OracleLine(RecordLine, frozen=True, kw_only=True):
 
 
 class FindingLine(RecordLine, frozen=True, kw_only=True):
-    """A formula that is wrong in exact arithmetic on a family, inside its stated regimes or outside them."""
+    """A formula that is wrong in exact arithmetic on a family, inside or outside its stated regimes."""
 
     formula: str
     family: str
@@ -162,7 +163,7 @@ class FindingLine(RecordLine, frozen=True, kw_only=True):
 
 
 class DriftLine(RecordLine, frozen=True, kw_only=True):
-    """A way in which what was found is not what is known."""
+    """A difference between the findings and the known findings."""
 
     sentence: str
 
@@ -182,7 +183,7 @@ class WrongAnswer(LinePart, frozen=True, kw_only=True):
 
 
 class FaultPart(LinePart, frozen=True, kw_only=True):
-    """A case that ended without an answer that counts."""
+    """A case that ended without an answer that counts, and why."""
 
     case: str
     row: InvalidRow
@@ -192,10 +193,10 @@ class FaultPart(LinePart, frozen=True, kw_only=True):
 
 
 class GroupLine(RecordLine, frozen=True, kw_only=True):
-    """A method and a family; `spec`, `faults` and `failing` are there of an implementation under test alone.
+    """A method and a family; only implementations under test have `spec`, `faults` and `failing`.
 
-    `octaves` are counts by the floor of log2 of the cases' own distances to the nearest other position, `failing` the
-    statuses of its cases that fail the run.
+    `octaves` are counts by the floor of log2 of the cases' distances to the other answer, `failing` the statuses that
+    fail the run.
     """
 
     method: str
@@ -222,12 +223,12 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
 
     @property
     def tested(self) -> bool:
-        """Whether it is about an implementation under test, whose failing statuses the line names."""
+        """Whether the line is about an implementation under test, and so names failing statuses."""
         return self.failing is not UNSET
 
 
 class FixedSizesPart(LinePart, frozen=True, kw_only=True):
-    """The only sizes that an implementation knows, and the spans of the centre; None: any."""
+    """The only sizes that an implementation supports, and the spans of the centre (None: any)."""
 
     sizes: Sizes
     x: Span
@@ -260,7 +261,7 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
 
 
 class Retest(LinePart, frozen=True, kw_only=True):
-    """How many cases were asked again, and of how many the answer changed within the tolerance and beyond it."""
+    """How many cases were asked again, and how many answers changed within the tolerance and beyond it."""
 
     asked: Count
     within: Count
@@ -268,7 +269,7 @@ class Retest(LinePart, frozen=True, kw_only=True):
 
 
 class ImplementationLine(RecordLine, frozen=True, kw_only=True):
-    """An implementation under test as a whole; `finished`, since 1.3.0, is false where it was not asked to its end."""
+    """An implementation under test as a whole; `finished`, since 1.3.0, is false if its run was interrupted."""
 
     spec: str
     name: str
@@ -305,7 +306,7 @@ class MapLine(RecordLine, frozen=True, kw_only=True):
 
 
 class TimingLine(RecordLine, frozen=True, kw_only=True):
-    """A contender on a workload: nanoseconds a row, one for each round."""
+    """A contender on a workload: nanoseconds a row, one value for each round."""
 
     workload: str
     median_ns: Amount

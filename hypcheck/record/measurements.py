@@ -1,6 +1,6 @@
-"""The lines of a benchmark, since 1.1.0. Flip distances are absolute, never in units u; ratios over 1 are slower.
+"""The lines of a benchmark, since 1.1.0. Flip distances are absolute, not in units u; ratios over 1 are slower.
 
-Intervals are at 95 %. What a single method or a single run cannot tell is None.
+Intervals are at 95 %. A value is None if a single method or a single run cannot give it.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ Grid = tuple[float, float, Count]
 """The first, the last, and how many."""
 
 Load = tuple[Amount, Amount, Amount] | None
-"""How many processes wanted a processor, on average of 1, 5 and 15 minutes."""
+"""How many processes wanted a processor, averaged over 1, 5 and 15 minutes."""
 
 
 class MethodLine(RecordLine, frozen=True, kw_only=True):
-    """What was measured, once for each method."""
+    """A method that was measured."""
 
     method: str
     title: str
@@ -57,7 +57,7 @@ class MethodLine(RecordLine, frozen=True, kw_only=True):
 
 
 class WorkloadLine(RecordLine, frozen=True, kw_only=True):
-    """Rows that methods are asked; `scene` are α, γ, b, d where all of them share these."""
+    """Rows that methods are asked; `scene`: α, γ, b, d if all rows share them."""
 
     workload: str
     title: str
@@ -69,14 +69,14 @@ class WorkloadLine(RecordLine, frozen=True, kw_only=True):
 
 
 class AbsentLine(RecordLine, frozen=True, kw_only=True):
-    """What is not there, so that the methods that need it are left out; since 1.2.0."""
+    """Something that is not installed, so that the methods that need it are left out; since 1.2.0."""
 
     what: str
     reason: str
 
 
 class CompilerLine(RecordLine, frozen=True, kw_only=True):
-    """What compiled the methods in C; since 1.2.0."""
+    """The compiler of the methods in C; since 1.2.0."""
 
     program: str
     version: str
@@ -84,7 +84,7 @@ class CompilerLine(RecordLine, frozen=True, kw_only=True):
 
 
 class ConditionsLine(RecordLine, frozen=True, kw_only=True):
-    """Under which times were taken, since 1.2.0; None where the system does not tell."""
+    """The conditions of the measurement, since 1.2.0; None if the system does not report them."""
 
     governor: str | None
     processors: Count
@@ -93,7 +93,7 @@ class ConditionsLine(RecordLine, frozen=True, kw_only=True):
 
 
 class UnmeasuredLine(RecordLine, frozen=True, kw_only=True):
-    """A method that could not be timed in this way here, which fails nothing and gates nothing; since 1.4.0."""
+    """A method that could not be timed here, which does not fail the run; since 1.4.0."""
 
     method: str
     workload: str
@@ -102,7 +102,7 @@ class UnmeasuredLine(RecordLine, frozen=True, kw_only=True):
 
 
 class RefusedLine(RecordLine, frozen=True, kw_only=True):
-    """A method that is not timed because its answers were not what they must be, which fails the run; since 1.2.0."""
+    """A method that is not timed because its answers were wrong, which fails the run; since 1.2.0."""
 
     method: str
     workload: str
@@ -121,7 +121,7 @@ class Mistaken(LinePart, frozen=True, kw_only=True):
 
 
 class AccuracyLine(RecordLine, frozen=True, kw_only=True):
-    """A method's answers on a workload; `reliable_above`: the distance above which at most 1 in 1000 is wrong."""
+    """A method's answers on a workload; above the flip distance `reliable_above`, at most 1 in 1000 is wrong."""
 
     method: str
     workload: str
@@ -142,9 +142,9 @@ class AccuracyLine(RecordLine, frozen=True, kw_only=True):
 
 
 class SpeedLine(RecordLine, frozen=True, kw_only=True):
-    """A method's time on a workload: nanoseconds a row, a call or a mesh, for each process its rounds.
+    """A method's time on a workload: nanoseconds a row, a call or a mesh; the rounds of each process.
 
-    `dropped`, since 1.4.0: samples left out, of which nothing was left when the call that does nothing was taken off.
+    `dropped`, since 1.4.0: samples left out because the empty call, which is subtracted, took as long.
     """
 
     method: str
@@ -164,7 +164,7 @@ class SpeedLine(RecordLine, frozen=True, kw_only=True):
 
 
 class NoiseLine(RecordLine, frozen=True, kw_only=True):
-    """One method against itself: what a ratio of one is in this run; nothing is concluded below `floor`."""
+    """One method compared with itself; a difference below `floor` means nothing in this run."""
 
     workload: str
     mode: Mode
@@ -213,7 +213,7 @@ class PlacesLine(RecordLine, frozen=True, kw_only=True):
 
 
 class ConvergenceLine(RecordLine, frozen=True, kw_only=True):
-    """A mesh of so many triangles: its times, its deviation in spheroid radii, and what it gets wrong."""
+    """A mesh of so many triangles: its times, its deviation in spheroid radii, and its wrong answers."""
 
     method: str
     triangles: Count
@@ -225,7 +225,7 @@ class ConvergenceLine(RecordLine, frozen=True, kw_only=True):
 
 
 class BoundingLine(RecordLine, frozen=True, kw_only=True):
-    """A shape in the spheroid's place; `overlap`: d/b, asked, false contacts, median excess clearance in radii."""
+    """A shape around the spheroid; `overlap`: d/b, asked, false contacts, median excess clearance in radii."""
 
     shape: Annotated[str, one_of("sphere", "cylinder")]
     workload: str
@@ -240,7 +240,7 @@ class BoundingLine(RecordLine, frozen=True, kw_only=True):
 
 
 class Compared(LinePart, frozen=True, kw_only=True):
-    """One side of a claim of cost: operations counted, times measured."""
+    """One side of a claim about cost: operations counted, times measured."""
 
     name: str
     operations: Counts | None
@@ -250,7 +250,7 @@ class Compared(LinePart, frozen=True, kw_only=True):
 
 
 class CostLine(RecordLine, frozen=True, kw_only=True):
-    """A claim of the paper about cost, and what was measured."""
+    """A claim of the paper about cost, and the verdict on it."""
 
     claim: str
     scene: str
@@ -260,7 +260,7 @@ class CostLine(RecordLine, frozen=True, kw_only=True):
 
 
 class KernelLine(RecordLine, frozen=True, kw_only=True):
-    """A target of a kernel's speed, and what was measured."""
+    """A target of a kernel's speed, and whether it is met."""
 
     name: str
     target: str
@@ -272,7 +272,7 @@ class KernelLine(RecordLine, frozen=True, kw_only=True):
 
 
 class ForestLine(RecordLine, frozen=True, kw_only=True):
-    """What a walker's step among so many trees costs; since 1.3.0."""
+    """The cost of a walker's step among so many trees; since 1.3.0."""
 
     method: str
     title: str
@@ -299,7 +299,7 @@ class Shares(LinePart, frozen=True, kw_only=True):
 
 
 class SceneTimes(LinePart, frozen=True, kw_only=True):
-    """Nanoseconds a row, and how long the kernel takes for each of the others'."""
+    """Nanoseconds a row of three kernels, and the ratio of the scene's kernel to each of the others."""
 
     kernel_ns: Amount
     printed_ns: Amount
@@ -311,7 +311,7 @@ class SceneTimes(LinePart, frozen=True, kw_only=True):
 
 
 class SceneLine(RecordLine, frozen=True, kw_only=True):
-    """What a scene's kernel leaves out and saves; since 1.3.0."""
+    """The kernel of a scene: what each stage decides, and what it saves; since 1.3.0."""
 
     scene: str
     question: str
@@ -325,7 +325,7 @@ class SceneLine(RecordLine, frozen=True, kw_only=True):
 
 
 class ComparisonLine(RecordLine, frozen=True, kw_only=True):
-    """Ratios to the reference method of this run and of the baseline's; `gates`: whether it decides the exit code."""
+    """Ratios to the reference method in this run and in the baseline; `gates`: whether they decide the exit code."""
 
     method: str
     workload: str

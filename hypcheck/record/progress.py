@@ -1,4 +1,4 @@
-"""The line of progress, since 1.3.0: how far a gating run is, and what it goes on from."""
+"""The line of progress, since 1.3.0: what a conformance run has finished, so that it can be resumed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from hypcheck.record.fields import (
 from hypcheck.record.lines import DescriptionPart, Retest
 
 Total = Annotated[int, Meta(ge=0, le=1 << 60)]
-"""A count that fits into int64, and so do sums of a few: a run has fewer cases."""
+"""A count that fits into int64, as do sums of a few; no run has more cases."""
 
 Totals = dict[str, Total]
 Label = Annotated[str, one_of("answered", "error", "crash", "timeout", "protocol", "not-run")]
@@ -32,11 +32,11 @@ Place = tuple[Annotated[int, Meta(ge=0, le=1)], Total]
 """0 and the number of a frozen vector in its family, or 1 and that of a generated row."""
 
 SavedBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta(min_length=4, max_length=4)]
-"""As a Bin, of numbers that fit into int64."""
+"""A Bin of numbers that fit into int64."""
 
 
 class SavedAllowance(LinePart, frozen=True, kw_only=True):
-    """What the implementation may still cost. `over` says why it is asked no more; empty while it is."""
+    """Restarts, faults and hangs that an implementation may still have; `over`: why it is not asked any more."""
 
     restarts: Total
     faults: Total = 0
@@ -47,7 +47,7 @@ class SavedAllowance(LinePart, frozen=True, kw_only=True):
 class PendingCases(LinePart, frozen=True, kw_only=True):
     """Cases that were answered and wait for their retest.
 
-    `chunk`: the family, the seed (None: frozen vectors), the first case, the one behind the last, and how many are
+    `chunk`: the family, the seed (None: frozen vectors), the first case, the one after the last, and how many are
     measured. `indices`: stretches [first, last + 1) within the chunk. `answers`: an int8 each, as hexadecimal digits.
     """
 
@@ -82,7 +82,7 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
 
 
 class SavedTally(LinePart, frozen=True, kw_only=True):
-    """A family so far, as a group has it; `dangerous`: its false clears beyond the tolerance."""
+    """The tally of a family so far, as in a group line; `dangerous`: false clears beyond the tolerance."""
 
     asked: Total
     counts: Totals
@@ -101,10 +101,10 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
 
 
 class SavedResult(LinePart, frozen=True, kw_only=True):
-    """The cases that are done: a tally for each family, and `open` cases that no tally counts yet.
+    """The result so far: a tally for each family, and `open` cases that no tally counts yet.
 
-    `outcomes` are all ways in which questions ended; `excusing` the numbers of the known failures that excused
-    something, `named` the cases that known failures name and that were asked.
+    `outcomes`: all ways in which questions ended; `excusing`: the numbers of known failures that excused something;
+    `named`: asked cases that known failures name.
     """
 
     tallies: dict[str, SavedTally]
@@ -116,7 +116,7 @@ class SavedResult(LinePart, frozen=True, kw_only=True):
 
 
 class SavedState(LinePart, frozen=True, kw_only=True):
-    """How many steps are done, what the implementation may still cost, and the result so far."""
+    """The steps that are done, the allowance that is left, and the result so far."""
 
     done: Total
     left: SavedAllowance
@@ -124,11 +124,11 @@ class SavedState(LinePart, frozen=True, kw_only=True):
 
 
 class ProgressLine(RecordLine, frozen=True, kw_only=True):
-    """Of a run with SPEC that did not finish: what it goes on from.
+    """The state of a run with SPEC that did not finish, from which --resume continues.
 
-    `number` is the place, from 0, of the implementation that is asked among those of the run, `declared` what it says
-    of itself, and `cases` how many it is asked in all. `program` is the sha256 of our own files: what a step is, and so
-    what a number of them comes to, may change between two commits.
+    `number`: the place, from 0, of the implementation among those of the run; `declared`: its description; `cases`: how
+    many it is asked in all. `program`: the sha256 of hypcheck's files, since a step may mean something else in another
+    version.
     """
 
     number: Count

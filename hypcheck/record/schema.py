@@ -1,4 +1,4 @@
-"""Published JSON schemas, made from classes: that of a record's lines. `make schemas` writes all of them anew."""
+"""JSON schemas made from structs: that of a record's lines, and parts of others. `make schemas` writes all files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def schema() -> Json:
 
 
 def components(kinds: Iterable[type]) -> tuple[list[Json], Json]:
-    """References to these kinds, and the definitions of them and of all that they are made of."""
+    """References to these kinds, and the definitions of them and of all their parts."""
     references, definitions = msgspec.json.schema_components(
         kinds, schema_hook=_extended, ref_template="#/$defs/{name}"
     )
@@ -50,7 +50,7 @@ def components(kinds: Iterable[type]) -> tuple[list[Json], Json]:
 
 
 def text(schema: Json) -> str:
-    """The content of the file in which a schema is published, a property and a definition a line."""
+    """The text of the file that publishes a schema: one property or definition on each line."""
     fields = ",\n".join(f"  {_json(name)}: {_entries(name, each)}" for name, each in schema.items())
     return f"{{\n{fields}\n}}\n"
 

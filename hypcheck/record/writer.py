@@ -1,13 +1,9 @@
-"""The writer of a record: one run at a time holds the folder, and appends one JSON object a line.
-
-One run at a time in a folder: the system keeps the lock, and gives it back however the run ends.
-
-The file that a record grows in: lines are added at its end, and now and then all of it is exchanged at once.
-
-The record of a run: one JSON object a line, from which every report is made.
+"""The writer of a record: one run at a time owns the folder, and appends one JSON object a line.
 
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
-Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf".
+Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf". The system keeps the lock of
+the folder and releases it however the run ends. Lines are added at the end of the file, and at times the whole file is
+replaced at once.
 """
 
 from __future__ import annotations
@@ -45,14 +41,14 @@ from hypcheck.version import VERSION
 
 
 class FolderInUseError(InputError):
-    """Another process has the folder."""
+    """Another run is writing to the folder."""
 
 
 @contextmanager
 def folder_locked(folder: Path) -> Iterator[None]:
-    """While it lasts no other process owns the folder. Raises FolderInUseError where one does.
+    """Own the folder within the block. Raises FolderInUseError if another process owns it.
 
-    Where the system has no locks for folders (Windows, some networks), nobody is refused.
+    If the system has no locks for folders (Windows, some networks), every process gets it.
     """
     place = None if sys.platform == "win32" else os.open(folder, os.O_RDONLY)
     try:
@@ -61,11 +57,11 @@ def folder_locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         if place is not None:
-            os.close(place)  # which gives the lock back
+            os.close(place)  # this releases the lock
 
 
 def _locked(place: int) -> bool:
-    """Take the lock of an open folder; whether it could be had."""
+    """Take the lock of an open folder; returns whether it was free."""
     if sys.platform != "win32":
         import fcntl  # noqa: PLC0415 - there is none on Windows
 
@@ -79,10 +75,10 @@ def _locked(place: int) -> bool:
 
 
 class GrowingFile:
-    """A context manager. Whatever moment the program is killed at, the file holds what stood there or what was new.
+    """A file that grows, as a context manager. Killed at any moment, it holds its old content or the new one.
 
-    Raises OSError where the system refuses; the file is then as it was, but for a line that may be cut off. A folder
-    that somebody removed is made again.
+    Methods raise OSError if the system fails; the file is then as before, but for a line that may be cut off. A folder
+    that was removed is made again.
     """
 
     def __init__(self, path: Path) -> None:
@@ -98,14 +94,14 @@ class GrowingFile:
             self._file.close()
 
     def write(self, data: bytes) -> None:
-        """Add to the end, so that it is there should this process end at once."""
+        """Add to the end; the data survives if this process is killed."""
         if self._file is None:
-            raise ValueError("a record is renewed before anything is added to it")
+            raise ValueError("a growing file must be renewed before anything is added to it")
         self._file.write(data)
         self._file.flush()
 
     def renew(self, data: bytes) -> None:
-        """Let `data` take the place of all that stands there, when it is on the disk."""
+        """Replace the whole content by `data`, once that is on the disk."""
         self._path.parent.mkdir(parents=True, exist_ok=True)
         file = _new_file(self._beside)
         try:
@@ -121,26 +117,26 @@ class GrowingFile:
             raise
         before, self._file = self._file, file
         if before is not None:
-            with suppress(OSError):  # what could not be written of a line was written anew
+            with suppress(OSError):  # a line that was cut off is in the new file
                 before.close()
 
     @property
     def is_there(self) -> bool:
-        """Whether what was written stands in its place: nobody removed it, or put something else there."""
+        """Whether the file is still in its place: it was not removed or replaced."""
         try:
             return self._file is not None and os.path.samestat(os.fstat(self._file.fileno()), self._path.stat())
         except OSError:
             return False
 
     def move(self, path: Path) -> None:
-        """Take another place, for good."""
+        """Move the file to its final place."""
         self._path.replace(path)
 
 
 def _new_file(path: Path) -> BinaryIO:
-    """A file that was not there before, to be added to; what a killed run left in its place is removed.
+    """A new file to append to; the file of a killed run in its place is removed.
 
-    A link that somebody planted there is not followed. Raises OSError, also where one is planted at this very moment.
+    A link in its place is not followed. Raises OSError, also if a link is made there at this moment.
     """
     path.unlink(missing_ok=True)
     how = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
@@ -149,7 +145,12 @@ def _new_file(path: Path) -> BinaryIO:
 
 @dataclass(frozen=True)
 class Provenance:
-    """What the headers of some runs say besides: the sha256 of files under test and of our own, and the settings."""
+    """What the headers of some runs add.
+
+    files: the sha256 of the files under test, by path.
+    program: the sha256 of hypcheck's own files.
+    settings: the settings file, and the options that weaken the gate.
+    """
 
     files: Mapping[str, str] | None = None
     program: str | None = None
@@ -159,9 +160,8 @@ class Provenance:
 class Recorder:
     """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    `provenance` is told in the header. `carried` are lines of the record
-    that is gone on with, which are there from the first moment on. Interrupts wait while a line is written, so that
-    none is ever written twice, or by half with another behind it.
+    `provenance` goes into the header. `carried` are lines of the record that is resumed, written at once. Interrupts
+    wait while a line is written, so that no line is written twice, or half of one before another.
     """
 
     def __init__(
@@ -173,7 +173,7 @@ class Recorder:
     ) -> None:
         self._stream = stream
         self._started = datetime.now(timezone.utc)
-        self._began = time.monotonic()  # the clock may be set meanwhile
+        self._began = time.monotonic()  # the wall clock may be set during the run
         self._lines = [line for line in carried if not isinstance(line, ProgressLine)]
         self._progress = next((line for line in carried if isinstance(line, ProgressLine)), None)
         self._place = len(self._lines)
@@ -187,7 +187,7 @@ class Recorder:
 
     @property
     def goes_on(self) -> bool:
-        """Whether there is something of a gating run that it could go on from."""
+        """Whether the record has something that --resume could continue."""
         return self._progress is not None or self.concluded > 0
 
     @property
@@ -197,7 +197,7 @@ class Recorder:
 
     @property
     def lines(self) -> tuple[RecordLine, ...]:
-        """What was added so far."""
+        """The lines that were added so far."""
         return tuple(self._lines)
 
     def add(self, line: RecordLine) -> None:
@@ -206,13 +206,13 @@ class Recorder:
         self._lines.append(line)
 
     def keep(self, progress: ProgressLine) -> None:
-        """Let a line of progress stand behind what is recorded, in place of the one before; in a file alone."""
+        """Put a line of progress after the recorded lines, in place of the previous one; only in a GrowingFile."""
         if isinstance(self._stream, GrowingFile):
             self._progress, self._place = progress, len(self._lines)
             self._renew()
 
     def close(self, exit_code: int) -> Record:
-        """Write the footer; the record as it would be read back."""
+        """Write the footer; returns the record as it would be read back."""
         seconds = time.monotonic() - self._began
         footer = FooterLine(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
         self._ending = (footer,)
@@ -224,7 +224,7 @@ class Recorder:
         return Record(self._header, tuple(self._lines), footer)
 
     def settle(self, path: Path) -> None:
-        """Let the file that grew take another place; what somebody removed meanwhile is written anew."""
+        """Move the file to its final place; if it was removed during the run, it is written again."""
         if isinstance(self._stream, GrowingFile):
             if not self._stream.is_there:
                 self._renew()
@@ -240,7 +240,7 @@ class Recorder:
                 self._stream.flush()
 
     def _renew(self) -> None:
-        """Write all lines anew."""
+        """Write all lines again."""
         if not isinstance(self._stream, GrowingFile):
             raise TypeError("only a file can be renewed")
         progress = [] if self._progress is None else [self._progress]
@@ -254,7 +254,7 @@ class Recorder:
 
 
 def header(options: Mapping[str, Any], started: datetime, provenance: Provenance | None = None) -> HeaderLine:
-    """The first line: versions, machine and options, and what is known of the run's provenance."""
+    """The first line: versions, machine, options and provenance of the run."""
     known = provenance or Provenance()
     return HeaderLine(
         schema=SCHEMA,
@@ -276,7 +276,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
 
 
 def _versions() -> dict[str, str]:
-    """The versions of the libraries a run can use, read from their metadata: asking the modules would load them."""
+    """The versions of the libraries a run can use, from their metadata, so that none is loaded."""
     found = {}
     for name in ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib"):
         with suppress(PackageNotFoundError):

@@ -1,11 +1,7 @@
-"""The files of a project under test: the languages that `hypcheck init` knows, and their templates, filled in.
-
-The languages that `hypcheck init` knows: the files of each adapter, and the commands that go with it.
+"""The files of a project under test: the languages that `hypcheck init` supports, and their templates, filled in.
 
 Paths are relative to the folder that init writes into, where commands are also run. Each language has a folder of its
-own there, so that a project can have several.
-
-The files of a project that is to be gated: templates of one language, filled in.
+own there, so a project can have several.
 """
 
 from __future__ import annotations
@@ -23,8 +19,10 @@ from types import MappingProxyType
 class Language:
     """How an adapter is made in one language.
 
-    `files` are the templates in the language's folder, `predicate` the one of them that holds the stub. `build` is one
-    command line, and `spec` is what verify is given once that has run; `products` are what building leaves behind.
+    files: the templates in the language's folder; `predicate` is the one that holds the stub.
+    build: the command line that builds the adapter.
+    spec: the SPEC that verify is given after the build.
+    products: the files that the build leaves behind.
     """
 
     name: str
@@ -36,13 +34,13 @@ class Language:
 
     @property
     def folder(self) -> str:
-        """Where the adapter is written."""
+        """The folder of the adapter."""
         return f"hypcheck-{self.name}"
 
 
-# -ffp-contract=off: else a×b + c may round once instead of twice, and the stub answers otherwise on other machines.
-# GOWORK=off, as [workspace] in Cargo.toml: the adapter is no part of a workspace in a folder above.
-# -buildvcs=false: Go would ask git about the folder, and fail where git does not trust it.
+# -ffp-contract=off: otherwise a×b + c may round once instead of twice, and answers depend on the machine.
+# GOWORK=off, and [workspace] in Cargo.toml: the adapter does not belong to a workspace in a folder above.
+# -buildvcs=false: Go would ask git about the folder, and fail if git does not trust it.
 _LISTED = (
     Language(
         name="c",
@@ -105,11 +103,11 @@ _LISTED = (
 )
 
 LANGUAGES: Mapping[str, Language] = MappingProxyType({language.name: language for language in _LISTED})
-"""By name, as `--language` has it."""
+"""The languages by the names of `--language`."""
 
 
 SCENES = "forest-type-1,forest-type-2"
-"""Families on which the stub is right: the paper's scenes for its Table 2."""
+"""Families on which the stub is right: the scenes of the paper's Table 2."""
 
 LONGEST_NAME = 64
 
@@ -119,19 +117,19 @@ _PLACE = re.compile(r"@([A-Z]+)@")
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """What is to be written: the adapter's language, and the implementation's name."""
+    """A project to write: the language of its adapter, and the name of its implementation."""
 
     language: Language
     name: str = ""
 
     @property
     def verify(self) -> str:
-        """The command line that gates it."""
+        """The command line that gates the implementation."""
         return f"hypcheck verify {shlex.quote(self.language.spec)}"
 
     @property
     def commands(self) -> tuple[str, str, str]:
-        """What to type next: build, verify where the stub is right, verify everywhere."""
+        """The commands to type next: build, verify where the stub is right, verify everywhere."""
         return self.language.build, f"{self.verify} --families {SCENES}", self.verify
 
     @property
@@ -140,7 +138,7 @@ class Project:
         return f"{self.language.folder}/{self.language.predicate}"
 
     def files(self) -> dict[str, str]:
-        """Texts of the language's own folder by path, relative to the folder of the project; the stub's first."""
+        """The texts of the language's folder by path, relative to the project; the stub first."""
         language = self.language
         written = {f"{language.folder}/{name}": self.filled(language.name, name) for name in language.files}
         if language.products:
@@ -148,7 +146,7 @@ class Project:
         return written
 
     def filled(self, folder: str, name: str) -> str:
-        """A template with what stands for @NAME@ and the like."""
+        """A template with the values of @NAME@ and the like."""
         return filled(folder, name, self._values)
 
     @property
@@ -166,15 +164,15 @@ class Project:
 
 
 def filled(folder: str, name: str, values: Mapping[str, str]) -> str:
-    """The text of a template, with the values of its places."""
+    """The text of a template, with these values for its places."""
     template = files("hypcheck.scaffold").joinpath("templates", folder, *name.split("/"))
     return _PLACE.sub(lambda place: values[place[1]], template.read_text(encoding="utf-8"))
 
 
 def safe_name(text: str) -> str:
-    """The name in letters, digits and . _ - alone, at most LONGEST_NAME of them; empty where nothing is left.
+    """The name in letters, digits and . _ - only, at most LONGEST_NAME of them; empty if nothing is left.
 
-    It ends up in JSON within five languages' string literals, so only characters that mean nothing there pass.
+    It is written into JSON within string literals of all languages, so only characters without a meaning there pass.
     """
     plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     return re.sub(r"[^A-Za-z0-9._]+", "-", plain).strip("-._")[:LONGEST_NAME].rstrip("-._")

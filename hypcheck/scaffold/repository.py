@@ -1,11 +1,8 @@
-"""The files of a repository that all languages share, and all files written together or not at all.
+"""The files that all languages of a repository share (settings, workflow, .gitignore), and all files written together.
 
-The files that all languages of a repository share: settings, workflow and .gitignore.
-
-The first `init` writes them. Another one, for another language, adds to them what it needs and leaves the rest as it
-stands, so that both are gated. What cannot be added to is refused, or told.
-
-Several files written as one: none over what is there unless that is wanted, and none half.
+The first `init` writes the shared files. A later one, for another language, adds what it needs and changes nothing
+else, so that both are gated. If nothing can be added to a file, it is refused, or a note says so. All files are written
+or none, and existing files are replaced only on demand.
 """
 
 from __future__ import annotations
@@ -31,39 +28,39 @@ WORKFLOW = ".github/workflows/hypcheck.yml"
 IGNORED = ".gitignore"
 
 _SPECS = re.compile(r"^specs[ \t]*=[ \t]*\[(?P<listed>.*|(?:.*\n)+?)\](?=[ \t]*(?:#.*)?$)", re.MULTILINE)
-"""A list of one line, or one whose closing bracket begins a line."""
-_KEPT = re.compile(r"^ *- name: Keep the report *$", re.MULTILINE)
-"""The step of a workflow before which those of a language stand."""
+"""A list on one line, or one whose closing bracket begins a line."""
+_KEEP_STEP = re.compile(r"^ *- name: Keep the report *$", re.MULTILINE)
+"""The step of a workflow before which init adds the steps of a language."""
 _WIDTH = 108
 
 
 def shared_files(
     root: Path, project: Project, wanted: Requirement | None, *, force: bool
 ) -> tuple[dict[str, str], list[str]]:
-    """Texts by path, of those that are to be written or changed, and sentences about what could not be added.
+    """The texts to write or change, by path, and notes about what could not be added.
 
-    With `force` settings and workflow are made anew, for all languages that have a folder there. Raises InputError
-    where a file is there to which nothing can be added.
+    With `force`, settings and workflow are written again for all languages that have a folder there. Raises InputError
+    if nothing can be added to an existing file.
     """
     before = {path: _text(root / path) for path in (IGNORED, *(() if force else (SETTINGS, WORKFLOW)))}
     others = [each for each in LANGUAGES.values() if each != project.language and (root / each.folder).is_dir()]
-    told: list[str] = []
+    notes: list[str] = []
     settings = before.get(SETTINGS) or filled("common", "hypcheck.toml", {})
     workflow = before.get(WORKFLOW) or filled("common", "workflow.yml", {"INSTALL": _install(None)})
     for each in (*(map(Project, others) if force else ()), project):
-        settings = _with_spec(settings, each, root / SETTINGS, told)
+        settings = _with_spec(settings, each, root / SETTINGS, notes)
         workflow = _with_steps(workflow, each, root / WORKFLOW)
-    workflow = _with_install(workflow, wanted, root / WORKFLOW, told)
+    workflow = _with_install(workflow, wanted, root / WORKFLOW, notes)
     after = {SETTINGS: settings, WORKFLOW: workflow, IGNORED: _with_ignored(before[IGNORED] or "")}
-    return {path: text for path, text in after.items() if text != before.get(path)}, told
+    return {path: text for path, text in after.items() if text != before.get(path)}, notes
 
 
 def _text(path: Path) -> str | None:
     return toml.text_of(str(path)) if path.exists() else None
 
 
-def _with_spec(text: str, project: Project, path: Path, told: list[str]) -> str:
-    """The settings with the SPEC among those of verify; unchanged, and told, where their text does not show how."""
+def _with_spec(text: str, project: Project, path: Path, notes: list[str]) -> str:
+    """The settings with the SPEC added to `specs`; unchanged, with a note, if it cannot be added."""
     try:
         content = toml.parsed(text, str(path))
     except InputError as error:
@@ -76,14 +73,14 @@ def _with_spec(text: str, project: Project, path: Path, told: list[str]) -> str:
     try:
         if toml.parsed(after, str(path)) == {**content, "specs": [*specs, spec]}:
             return after
-    except (InputError, TypeError):  # TypeError: specs that are no list
+    except (InputError, TypeError):  # TypeError: specs is no list
         pass
-    told.append(f"{path} was not changed: add {json.dumps(spec)} to its specs, or `hypcheck verify` leaves it out")
+    notes.append(f"{path} was not changed: add {json.dumps(spec)} to its specs, or `hypcheck verify` leaves it out")
     return text
 
 
 def _listed(text: str, project: Project) -> str:
-    """The text with the SPEC at the end of its list, on a line of its own below the command that builds it."""
+    """The text with the SPEC at the end of its list, on a line below a comment with its build command."""
 
     def longer(found: re.Match[str]) -> str:
         listed = found["listed"].rstrip()
@@ -95,30 +92,28 @@ def _listed(text: str, project: Project) -> str:
 
 
 def _with_steps(text: str, project: Project, path: Path) -> str:
-    """The workflow with the steps of the language before the one that keeps the reports."""
+    """The workflow with the steps of the language before the step that keeps the reports."""
     steps = project.filled("common", "steps.yml")
     if steps in text:
         return text
-    places = list(_KEPT.finditer(text))
+    places = list(_KEEP_STEP.finditer(text))
     if len(places) != 1:
         raise _taken(path, "has no step `Keep the report`, before which init adds steps")
     return f"{text[: places[0].start()]}{steps}{text[places[0].start() :]}"
 
 
-def _with_install(text: str, wanted: Requirement | None, path: Path, told: list[str]) -> str:
-    """The workflow with the step that installs what is wanted in place of the one that says that nothing was named."""
+def _with_install(text: str, wanted: Requirement | None, path: Path, notes: list[str]) -> str:
+    """The workflow with a step that installs `wanted`, in place of the step that fails because nothing was named."""
     nothing = _install(None)
     if wanted is None:
         if nothing in text:
-            told.append(f"nothing that can be installed was named: edit the step `Install hypcheck` in {path}")
+            notes.append(f"nothing to install was named: edit the step `Install hypcheck` in {path}")
         return text
     if shlex.quote(wanted.text) in text:
         return text
     after = text.replace(nothing, _install(wanted))
     if after == text:
-        told.append(
-            f"{path} installs something else than --from says, and still does: edit its first step to change it"
-        )
+        notes.append(f"{path} still installs something other than --from: edit its first step to change it")
     return after
 
 
@@ -135,7 +130,7 @@ def _install(wanted: Requirement | None) -> str:
 
 
 def _with_ignored(text: str) -> str:
-    """The list of what git ignores, with what runs write."""
+    """The .gitignore with the files that runs write."""
     title, *wanted = filled("common", "ignored", {}).splitlines()
     there = {line.strip().strip("/") for line in text.splitlines()}
     missing = [line for line in wanted if line.strip("/") not in there]
@@ -149,12 +144,11 @@ def _taken(path: Path, reason: str) -> InputError:
 
 
 def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Collection[str] = ()) -> None:
-    """Write each text to its path below `root`, which is made where it is not there.
+    """Write each text to its path below `root`, which is made if needed.
 
-    Files that are there are replaced only by `force`, or where their path is one of `replaced`.
-
-    Every text is on the disk, beside its place, before the first takes its place; an error leaves nothing new behind.
-    Raises InputError naming a path that is in the way or that the system refuses.
+    Existing files are replaced only with `force`, or if their path is in `replaced`. All texts are on the disk before
+    the first one takes its place, and an error leaves nothing new behind. Raises InputError naming a path that is in
+    the way, or that the system refuses.
     """
     targets = {root / path: text for path, text in texts.items()}
     there = [root / path for path in texts if os.path.lexists(root / path) and path not in replaced]
@@ -170,19 +164,19 @@ def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Co
 
 
 def _refuse(there: list[Path], *, force: bool) -> None:
-    """Raise InputError where one of the paths that are there must stay."""
+    """Raise InputError if one of these existing paths may not be replaced."""
     for path in there:
         if path.exists() and not path.is_file():
-            raise InputError(f"{path} is in the way; it must be a file, or not there")
+            raise InputError(f"{path} is in the way; it must be a file, or not exist")
     if there and not force:
         more = len(there) - 1
-        others = f", and so {'does' if more == 1 else 'do'} {counted(more, 'other file')} of init's" if more else ""
-        raise InputError(f"{there[0]} exists{others}; nothing was written; --force replaces what is there")
+        others = f", and {counted(more, 'other file')} that init writes" if more else ""
+        raise InputError(f"{there[0]} exists{others}; nothing was written; --force replaces existing files")
 
 
 @contextmanager
 def _folder(path: Path) -> Iterator[None]:
-    """A folder, made with those above it; after an error those that were made are gone."""
+    """Make a folder and those above it; after an error, remove those that were made."""
     made = [each for each in (path, *path.parents) if not os.path.lexists(each)]
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -199,7 +193,7 @@ def _folder(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _new(path: Path) -> Iterator[None]:
-    """A file that, if it was not there before, is not there after an error either."""
+    """Remove a new file after an error within the block."""
     there = os.path.lexists(path)
     try:
         yield

@@ -1,9 +1,8 @@
-"""What the workflow of `hypcheck init` installs: `--from` as pip reads it, naming one state of the source for ever.
+"""What the workflow of `hypcheck init` installs: `--from` as pip reads it, pinned to one state of its source.
 
-No package index is known to have hypcheck, and a name that nobody holds there is free for anyone to take.
-So nothing is installed that was not named, and what is named is pinned: a git repository by a commit, a file by its
-SHA-256, a release by its version. The text ends up in YAML and in a shell's command line, so only characters that mean
-nothing in either pass.
+No package index is known to have hypcheck, and anyone may take a free name there. So only what was named is installed,
+and it is pinned: a git repository by a commit, a file by its SHA-256, a release by its version. The text is written
+into YAML and a shell's command line, so only characters without a meaning in either pass.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ _ABBREVIATED = re.compile(r"[0-9a-f]{7,39}")
 _DIGEST = re.compile(r"#sha256=[0-9a-f]{64}")
 _ARCHIVES = (".whl", ".tar.gz", ".zip")
 _SECONDS = 15.0
-"""For a repository to say which commit a name stands for."""
+"""Time for a repository to answer which commit a name stands for."""
 
 RIGHT = (
     "a git URL such as https://host/owner/hypcheck.git@v1.2.0, a wheel or sdist (a path, or a URL), "
@@ -49,9 +48,11 @@ RIGHT = (
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """What pip is to install, as pip reads it; `says` are sentences about it, for the user and for the workflow.
+    """A requirement.
 
-    `repository` and `ref` are those of git, while the commit is still to be asked for.
+    text: as pip reads it.
+    says: sentences about it, for the user and for the workflow.
+    repository, ref: the git repository and its branch or tag, as long as the commit is not known.
     """
 
     text: str
@@ -61,10 +62,9 @@ class Requirement:
 
 
 def requirement(source: str, directory: Path) -> Requirement:
-    """What `--from` asks for, for a workflow of the repository in `directory`; a git repository is not asked yet.
+    """The requirement of `--from`, for a workflow of the repository in `directory`; git is not asked yet.
 
-    Raises InputError about anything that is not RIGHT, and about a URL that holds a password, which must not stand in a
-    workflow.
+    Raises InputError unless `source` is RIGHT, and about a URL with a password, which must not stand in a workflow.
     """
     if len(source) > _LONGEST:
         raise InputError(f"--from is longer than {_LONGEST} characters; it must be {RIGHT}")
@@ -83,10 +83,10 @@ def requirement(source: str, directory: Path) -> Requirement:
 
 
 def pinned(wanted: Requirement) -> Requirement:
-    """The same at the commit that its branch or tag is on now, told in `says`.
+    """The requirement at the current commit of its branch or tag, with a sentence about it.
 
-    A remote repository that cannot be asked is told of too. Raises InputError where a local one cannot, or has no such
-    branch or tag.
+    If a remote repository cannot be asked, a sentence says so. Raises InputError if a local one cannot be read, or has
+    no such branch or tag.
     """
     if not wanted.repository or _COMMIT.fullmatch(wanted.ref):
         return wanted
@@ -95,8 +95,8 @@ def pinned(wanted: Requirement) -> Requirement:
     if isinstance(refs, str):
         if wanted.repository.startswith("file:"):
             raise InputError(f"--from: git cannot read {wanted.repository}: {refs}")
-        told = f"{wanted.repository} could not be asked for the commit of {named} ({refs}); name one by @COMMIT"
-        return replace(wanted, says=(*wanted.says, f"not pinned: {told}"))
+        fault = f"{wanted.repository} could not be asked for the commit of {named} ({refs}); name one by @COMMIT"
+        return replace(wanted, says=(*wanted.says, f"not pinned: {fault}"))
     commit = next((refs[name] for name in _names(named) if name in refs), None)
     if commit is None and _ABBREVIATED.fullmatch(named):
         return wanted
@@ -111,16 +111,16 @@ def pinned(wanted: Requirement) -> Requirement:
 
 
 def _names(ref: str) -> tuple[str, ...]:
-    """What a name may stand for, in pip's order: a branch before a tag, and of an annotated tag its commit."""
+    """The refs that a name may mean, in pip's order: a branch before a tag, and for an annotated tag its commit."""
     return (ref, f"refs/heads/{ref}", f"refs/tags/{ref}^{{}}", f"refs/tags/{ref}")
 
 
 def _refs(repository: str) -> dict[str, str] | str:
-    """The commit of each name in a repository, or why they are not known."""
+    """The commit of each ref of a repository, or the reason why they are not known."""
     quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_SSH_COMMAND": "ssh -o BatchMode=yes"}
     words = ["git", "ls-remote", "--", repository]
     try:
-        done = subprocess.run(  # noqa: S603 - git of the PATH, and a URL whose characters were looked at
+        done = subprocess.run(  # noqa: S603 - git of the PATH, and a URL whose characters were checked
             words, env=quiet | os.environ, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS, check=False
         )
     except OSError as error:
@@ -135,8 +135,10 @@ def _refs(repository: str) -> dict[str, str] | str:
 
 
 def _of_index(project: str, version: str) -> Requirement:
-    told = f"pip takes {project} {version} from the package index that is set where the workflow runs, PyPI by default"
-    return Requirement(f"{project}=={version}", (f"{told}: see that this is the project you mean",))
+    where = (
+        f"pip takes {project} {version} from the package index of the machine that runs the workflow, by default PyPI"
+    )
+    return Requirement(f"{project}=={version}", (f"{where}: make sure that this is the project you mean",))
 
 
 def _of_url(project: str, url: str, source: str) -> Requirement:
@@ -150,7 +152,7 @@ def _of_url(project: str, url: str, source: str) -> Requirement:
         raise _wrong(source)
     if user is not None and (scheme == "https" or not _USER.fullmatch(user)):
         raise InputError(
-            "--from holds what may be a secret before its @, and the workflow is for all to read; "
+            "--from may hold a secret before its @, and everybody can read the workflow; "
             "it must be https://host/… without a user, or ssh://user@host/…"
         )
     if place.endswith(_ARCHIVES) and not found["git"] and scheme != "ssh":
@@ -163,7 +165,7 @@ def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement
     if end and not ref:
         raise _wrong(source)
     local = url.startswith("file:")
-    # pip before 24.1 takes `NAME @ git+file:///…` for a path, and the URL alone for what it is.
+    # pip before 24.1 reads `NAME @ git+file:///…` as a path, and the URL without a name correctly.
     text = f"git+{url}" if local and project == "hypcheck" else f"{project} @ git+{url}"
     return Requirement(f"{text}{end or ''}", (_here(url),) if local else (), url, ref["ref"] if ref else "")
 
@@ -174,19 +176,19 @@ def _of_archive(project: str, url: str, end: str, source: str) -> Requirement:
     if url.startswith("file:"):
         path = Path(unquote(url.removeprefix("file://")))
         return Requirement(f"{project} @ {url}{end or _digest(path)}", (_here(url),))
-    loose = "not pinned: add #sha256=DIGEST to its end, or another file may be installed that has its name one day"
+    loose = "not pinned: add #sha256=DIGEST to its end, or another file with this name may be installed one day"
     return Requirement(f"{project} @ {url}{end}", () if end else (loose,))
 
 
 def _of_path(path: Path, directory: Path) -> Requirement:
-    """A file or folder here: in the repository it is pinned by the repository; elsewhere by its digest or commit."""
+    """A file or folder of this machine: pinned by the repository if it is in it, else by its digest or commit."""
     whole = path.resolve()
     if not (whole.is_dir() or whole.name.endswith(_ARCHIVES)):
         raise InputError(f"--from is {str(path)!r}, which is neither a folder nor a wheel or sdist; it must be {RIGHT}")
     if whole.is_relative_to(directory.resolve()) and whole != directory.resolve():
         text = f"./{whole.relative_to(directory.resolve())}"
         if not _SAFE.fullmatch(text):
-            raise InputError(f"--from is {str(path)!r}; its path must be of letters, digits and . _ - / alone")
+            raise InputError(f"--from is {str(path)!r}; its path must consist of letters, digits and . _ - /")
         return Requirement(text, (f"{text} must be in the repository when the workflow runs",))
     return _of_url("hypcheck", f"{'git+' if whole.is_dir() else ''}file://{quote(str(whole))}", str(path))
 
@@ -208,4 +210,4 @@ def _here(url: str) -> str:
 
 def _wrong(source: str) -> InputError:
     path = "://" not in source and (source.startswith((".", "/", "~")) or source.endswith(_ARCHIVES))
-    return InputError(f"--from is {source!r}{', which is not there' if path else ''}; it must be {RIGHT}")
+    return InputError(f"--from is {source!r}{', which does not exist' if path else ''}; it must be {RIGHT}")

@@ -273,7 +273,7 @@ def test_a_full_output_is_told_in_one_line(arguments):
 def test_a_system_that_gives_no_more_is_no_fault_of_ours():
     ending = ending_of(OSError(errno.EMFILE, os.strerror(errno.EMFILE)))
     assert ending.code == Exit.USAGE
-    assert ending.lines == ("hypcheck: error: the system gives no more: too many open files; see `ulimit -a`",)
+    assert ending.lines == ("hypcheck: error: a limit of the system is reached: too many open files; see `ulimit -a`",)
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 143)])

@@ -30,7 +30,7 @@ def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_pa
     words = ["verify", function("right"), "--families=ring", "--count=10", f"--workers={workers}", f"--out={tmp_path}"]
     done = subprocess.run([sys.executable, "-c", LIMITED, *words], capture_output=True, text=True, check=False)
     assert done.stderr.splitlines()[-1] == (
-        "hypcheck: error: the system gives no more: too many open files; see `ulimit -a`"
+        "hypcheck: error: a limit of the system is reached: too many open files; see `ulimit -a`"
     )
     assert done.returncode == 2
 

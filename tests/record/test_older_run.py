@@ -54,7 +54,7 @@ def test_report_says_that_it_shows_an_older_run_and_how_to_go_on(killed, capsys)
     assert said.out.startswith("HELD")
     (line,) = said.err.splitlines()
     assert line.startswith(f"hypcheck: note: this is an older run: {killed / GROWING} is of a newer run")
-    assert f"--resume {killed} goes on with it" in line
+    assert f"--resume {killed} continues it" in line
 
 
 @pytest.mark.parametrize("words", [["report"], ["record", "check"]])

@@ -143,9 +143,9 @@ def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
         ('{"type": "header", "schema": "1.x"}\n', "its first line is no header with a schema such as 1.0.0"),
         (OLDER % "9.0.0", "has schema 9.0.0; this program reads 1.x"),
         (OLDER % "1.2.0", "is damaged in line 1, at byte 0: it has no checksum at its end"),
-        (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it stands behind the footer"),
+        (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it stands after the footer"),
         (OLDER % "1.0.0" + "{}\n", "in line 4, at byte 95: it is no object with a type"),
-        (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it stands behind the footer"),
+        (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it stands after the footer"),
         (
             (OLDER % "1.0.0").replace("3", "4"),
             "in line 3, at byte 64: it is a footer that counts 4 lines, but it is line 3",

@@ -55,7 +55,7 @@ def test_every_file_of_a_language_is_written_and_what_to_type_next_is_told(langu
     printed = capsys.readouterr().out
     *listed, nothing = printed.partition("\n\n")[0].splitlines()
     assert [line.split("   ")[0] for line in listed] == [str(tmp_path / path) for path in expected]
-    assert nothing.startswith("nothing that can be installed was named: edit the step")
+    assert nothing.startswith("nothing to install was named: edit the step")
     typed = [line.strip() for line in printed.splitlines() if line.startswith("    ")]
     assert typed == list(project.commands)
     assert f"in {tmp_path}:" in printed

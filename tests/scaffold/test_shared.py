@@ -119,10 +119,10 @@ def test_a_source_named_with_the_second_language_fills_the_step_that_had_none(in
     assert init("c") == 0
     assert init("go", "--from", "1.2.0") == 0
     assert steps(tmp_path)["Install hypcheck"] == "python -m pip install hypcheck==1.2.0"
-    assert "nothing that can be installed" not in capsys.readouterr().out.partition("hypcheck-go")[2]
+    assert "nothing to install" not in capsys.readouterr().out.partition("hypcheck-go")[2]
     assert init("rust", "--from", "1.3.0") == 0
     assert steps(tmp_path)["Install hypcheck"] == "python -m pip install hypcheck==1.2.0"
-    assert "installs something else than --from says, and still does" in capsys.readouterr().out
+    assert "still installs something other than --from" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
