@@ -26,8 +26,8 @@ from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import WORKLOADS, BenchPlan, Workload, chosen_names
 from hypcheck.geometry.rows import Floats, Positions, Rows
-from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.method import Answers
+from hypcheck.implementations.questions import Answered
 from hypcheck.processes import one_each, perform
 from hypcheck.record.fields import Unsigned
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken

@@ -91,7 +91,7 @@ def foreign_contenders(found: Iterable[ForeignMethod], limits: Limits) -> Iterab
         kind, words = parse_spec(each.spec).kind, parse_spec(each.spec).words
         if kind == "builtin":
             method = builtin(words[0])
-            yield of_method(method, "numpy", "algebraic", judged=method.most, timed=min(8192, each.timed))
+            yield of_method(method, "numpy", "algebraic", judged=method.max_rows, timed=min(8192, each.timed))
             continue
         yield Contender(
             name=each.name,

@@ -172,10 +172,10 @@ def _exit_code(run: Hunt) -> Exit:
     """The exit code. Raises NothingJudgedError if no row was answered, and the implementation is not at fault."""
     from hypcheck.runs.judge import Status
 
-    broken = not run.answered and set(run.faults) - {Status.NOT_RUN} == {Status.PROTOCOL}
-    if run.answered == run.counts[Status.ABSTAINED.value] and not run.faults:
+    broken = not run.answered and set(run.unanswered) - {Status.NOT_RUN} == {Status.PROTOCOL}
+    if run.answered == run.counts[Status.ABSTAINED.value] and not run.unanswered:
         raise NothingJudgedError("no row was answered: the domain leaves nothing to ask, or every answer was abstained")
-    wrong = bool(run.findings.worst_first() or run.faults)
+    wrong = bool(run.findings.worst_first() or run.unanswered)
     return first_that_applies([Exit.NOT_STARTED] * broken + [Exit.WRONG] * wrong)
 
 

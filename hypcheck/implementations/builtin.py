@@ -87,7 +87,7 @@ def _root_methods() -> list[Method]:
         "float64",
         alternatives.numpy_roots,
         Domain(),
-        most=400,
+        max_rows=400,
         measured=True,
     )
     many_digits = [
@@ -98,7 +98,7 @@ def _root_methods() -> list[Method]:
             "float64",
             partial(alternatives.mpmath_roots, digits=digits),
             Domain(),
-            most=SLOW_ROWS,
+            max_rows=SLOW_ROWS,
             measured=True,
         )
         for digits in DIGITS
@@ -113,7 +113,7 @@ def _exact_methods() -> list[Method]:
         ("nearest-point", "the nearest point, in double-double and then in exact enclosures", _nearest),
     )
     return [
-        Method(name, title, "position", "float64", answer, EVERYWHERE, exact=True, most=400, measured=True)
+        Method(name, title, "position", "float64", answer, EVERYWHERE, exact=True, max_rows=400, measured=True)
         for name, title, answer in named
     ]
 
@@ -170,7 +170,7 @@ def _formula_method(formula: Formula, precision: str) -> Method:
 
 
 def _fcl_method(name: str, title: str, answer: Callable[[Rows], Answers]) -> Method:
-    return Method(name, title, "position", "float64", answer, Domain(), most=FCL_ROWS)
+    return Method(name, title, "position", "float64", answer, Domain(), max_rows=FCL_ROWS)
 
 
 def fast_positions(rows: Rows) -> Answers:
@@ -220,14 +220,14 @@ def builtin(name: str) -> Method:
 class BuiltinSession:
     """A method of builtin_methods(). Raises InputError where there is none of that name."""
 
-    longest = LARGEST
+    max_batch = LARGEST
     scene = False
     evidence = ""
     stderr: tuple[str, ...] = ()
 
     def __init__(self, name: str) -> None:
         self.method = builtin(name)
-        self.most = self.method.most
+        self.max_rows = self.method.max_rows
         self.description = Description(
             name=self.method.name,
             version=VERSION,

@@ -15,26 +15,26 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, with_axis
-from hypcheck.implementations.asking import Answered, Asking, Vocabulary
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.frames import LARGEST
 from hypcheck.implementations.protocol import CommandSession
+from hypcheck.implementations.questions import AllowedAnswers, Answered, RowQuestions
 from hypcheck.implementations.session import (
     Allowance,
     FaultError,
+    GivenUpError,
     Limits,
-    NoMoreRunsError,
     Outcome,
-    Runs,
     Session,
     StartError,
+    Supervisor,
     TimingError,
 )
 from hypcheck.implementations.spec import Spec, parse_spec
 from hypcheck.implementations.worker_session import WorkerSession
 from hypcheck.messages import counted
 
-FAULTS = 1 << 14
+MAX_FAULTS = 1 << 14
 """Rows of one implementation that may be at fault without ending it: who always fails is not asked for every row."""
 
 _FIRST, _GROWTH = 64, 16
@@ -63,16 +63,16 @@ class Implementation:
         instead: Callable[[Description], Description],
     ) -> None:
         self.spec = spec
-        self._runs = Runs(start, Allowance(limits.restarts, FAULTS))
+        self._supervisor = Supervisor(start, Allowance(limits.restarts, MAX_FAULTS))
         try:
-            self.declared = self._runs.declared
+            self.declared = self._supervisor.declared
             self.description = instead(self.declared)
         except BaseException:
-            self._runs.kill()
+            self._supervisor.kill()
             raise
-        self._vocabulary = Vocabulary(self.description)
+        self._allowed = AllowedAnswers(self.description)
         self._limits = limits
-        self._batch = min(_FIRST, self._runs.longest)
+        self._batch = min(_FIRST, self._supervisor.max_batch)
 
     def __enter__(self) -> Implementation:
         return self
@@ -83,58 +83,58 @@ class Implementation:
         if kind is None:
             self.close()
         else:
-            self._runs.kill()
+            self._supervisor.kill()
 
     @property
-    def longest(self) -> int:
+    def max_batch(self) -> int:
         """Rows of one question, at most."""
-        return self._runs.longest
+        return self._supervisor.max_batch
 
     @property
-    def most(self) -> int | None:
+    def max_rows(self) -> int | None:
         """Rows of a family that it is fast enough for; None where nothing is known of that."""
-        return self._runs.most
+        return self._supervisor.max_rows
 
     @property
     def scene(self) -> bool:
         """Whether it can be asked by scene: one set of sizes, many centres."""
-        return self._runs.scene
+        return self._supervisor.scene
 
     @property
-    def stands(self) -> int:
+    def proven_batch(self) -> int:
         """Rows of one question that it has shown to answer well within its time."""
         return self._batch
 
     @property
     def allowance(self) -> Allowance:
         """What it may still cost."""
-        return self._runs.left
+        return self._supervisor.left
 
     def allow(self, allowance: Allowance) -> None:
         """From here on it may cost so much, whatever it has cost before."""
-        self._runs.left = allowance
+        self._supervisor.left = allowance
 
     @property
     def restarts(self) -> int:
         """Restarts that faults have cost, of those that the limits allow."""
-        return self._limits.restarts - self._runs.left.restarts
+        return self._limits.restarts - self._supervisor.left.restarts
 
     @property
     def stderr(self) -> tuple[str, ...]:
         """The last lines that the running process wrote on standard error, safe to print."""
-        return self._runs.stderr
+        return self._supervisor.stderr
 
-    def fresh(self) -> None:
+    def use_fresh_process(self) -> None:
         """Go on in a fresh process, which does not count as a restart."""
-        self._runs.close()
+        self._supervisor.close()
 
     def close(self) -> None:
         """Let the process leave, or end it where it does not."""
-        self._runs.close()
+        self._supervisor.close()
 
     def kill(self) -> None:
         """End the process now, whatever it is at."""
-        self._runs.kill()
+        self._supervisor.kill()
 
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
         """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
@@ -146,20 +146,20 @@ class Implementation:
         """
         rows = self._rows(rows)
         self._check_scene(rows, by_scene=by_scene)
-        asking = Asking(rows, self._runs, self._vocabulary, by_scene=by_scene)
+        asking = RowQuestions(rows, self._supervisor, self._allowed, by_scene=by_scene)
         try:
             self._ask_all(asking, len(rows), batch)
-        except NoMoreRunsError as error:
+        except GivenUpError as error:
             asking.leave(str(error))
         except BaseException:  # an interrupt leaves a question without its answer
-            self._runs.kill()
+            self._supervisor.kill()
             raise
         return asking.result
 
-    def _ask_all(self, asking: Asking, n: int, batch: int | None) -> None:
+    def _ask_all(self, asking: RowQuestions, n: int, batch: int | None) -> None:
         start = 0
         while start < n:
-            size = min(batch or self._batch, self._runs.longest)
+            size = min(batch or self._batch, self._supervisor.max_batch)
             stop = min(n, start + size)
             began = time.monotonic()
             asking.ask(start, stop)
@@ -173,7 +173,7 @@ class Implementation:
             self._batch = max(1, self._batch // 2)
         elif seconds < target / 2:
             growth = _GROWTH if seconds < target / _GROWTH else 2
-            self._batch = max(self._batch, min(self._runs.longest, rows * growth))
+            self._batch = max(self._batch, min(self._supervisor.max_batch, rows * growth))
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> int | None:
         """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.
@@ -190,18 +190,18 @@ class Implementation:
             asked = f"{counted(len(rows), 'row')} cannot be timed {counted(repeat, 'time')}"
             raise InputError(f"{asked}; {least} to {LARGEST} can, once or more")
         try:
-            session = self._runs.session()
+            session = self._supervisor.session()
             began = time.monotonic_ns()
             times = session.time(rows, repeat, by_scene=by_scene, each=each)
             took = time.monotonic_ns() - began
         except FaultError as fault:
-            reason = self._runs.note(fault)
-            self._runs.charge(fault, reason)
+            reason = self._supervisor.note_fault(fault)
+            self._supervisor.charge_fault(fault, reason)
             raise TimingError(f"{self.spec} could not be timed: {reason}") from None
-        except NoMoreRunsError as error:
+        except GivenUpError as error:
             raise TimingError(f"{self.spec} could not be timed: {error}") from None
         except BaseException:
-            self._runs.kill()
+            self._supervisor.kill()
             raise
         if times is None:
             return None
@@ -233,10 +233,10 @@ class Crashed:
     Of it a run uses what is here. It costs nothing of the allowance: no process of its own was lost that we know of.
     """
 
-    stands = 1
+    proven_batch = 1
 
     def __init__(self, most: int | None, reason: str, allowance: Allowance) -> None:
-        self.most = most
+        self.max_rows = most
         self.allowance = allowance
         self._reason = reason
 
@@ -244,7 +244,7 @@ class Crashed:
         """From here on it may cost so much."""
         self.allowance = allowance
 
-    def fresh(self) -> None:
+    def use_fresh_process(self) -> None:
         """There is no process to begin afresh."""
 
     def classify(self, rows: Rows, *, batch: int | None = None) -> Answered:  # noqa: ARG002 - however it is asked

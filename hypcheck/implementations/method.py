@@ -50,7 +50,7 @@ class Method:
     answer: Callable[[Rows], Answers] = field(repr=False)
     domain: Domain
     exact: bool = False
-    most: int | None = None
+    max_rows: int | None = None
     measured: bool = False
 
 

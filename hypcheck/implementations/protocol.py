@@ -197,7 +197,7 @@ first's was short or missing, and the implementation not slow."""
 class CommandSession:
     """A program that speaks the protocol. Raises StartError."""
 
-    most: int | None = None
+    max_rows: int | None = None
     scene = False
 
     def __init__(self, words: Sequence[str], limits: Limits) -> None:
@@ -211,7 +211,7 @@ class CommandSession:
         except BaseException:
             self._process.kill()
             raise
-        self.longest = LARGEST if self.description.binary else LARGEST_TEXT
+        self.max_batch = LARGEST if self.description.binary else LARGEST_TEXT
 
     def _meet(self) -> Description:
         try:

@@ -94,10 +94,10 @@ class Session(Protocol):
     """Questions raise FaultError; a fatal one leaves the session good for kill() alone. Beginning raises StartError."""
 
     description: Description
-    longest: int
+    max_batch: int
     """Rows of one question, at most."""
 
-    most: int | None
+    max_rows: int | None
     """Rows of a family that it is fast enough for; None where nothing is known of that."""
 
     scene: bool
@@ -133,11 +133,11 @@ class Session(Protocol):
         ...
 
 
-class NoMoreRunsError(Exception):
-    """No further run is possible; the text says why. Raised by Runs and caught where questions are asked."""
+class GivenUpError(Exception):
+    """No further run is possible; the text says why. Raised by Supervisor and caught where questions are asked."""
 
 
-HANGS = 3
+MAX_HANGS = 3
 """Questions in a row that an implementation may leave without an answer before it has answered any."""
 
 
@@ -154,7 +154,7 @@ class Allowance:
     restarts: int
     faults: int
     over: str = ""
-    hangs: int | None = HANGS
+    hangs: int | None = MAX_HANGS
     last: str = ""
 
     def after(self, task: Allowance, limits: Allowance) -> Allowance:
@@ -172,7 +172,7 @@ class Allowance:
         return Allowance(max(0, restarts), max(0, faults), over, None if self.hangs is None else task.hangs)
 
 
-class Runs:
+class Supervisor:
     """Holds the session that runs, and begins another where it was lost. Raises StartError where the first fails.
 
     `start` begins a session; it is given the number of sessions before. `left` is what is left of the allowance. A
@@ -187,15 +187,15 @@ class Runs:
         self._session: Session | None = start(0)
         self.declared = self._session.description
         self.scene = self._session.scene
-        self.most = self._session.most
-        self.longest = self._session.longest
+        self.max_rows = self._session.max_rows
+        self.max_batch = self._session.max_batch
 
     def session(self) -> Session:
-        """The session that runs, begun anew if need be; raises OverError where that is not possible any more."""
+        """The session that runs, begun anew if need be; raises GivenUpError where that is not possible any more."""
         if not self.left.over and self._session is None:
             self._session = self._begin()
         if self.left.over or self._session is None:
-            raise NoMoreRunsError(self.left.over)
+            raise GivenUpError(self.left.over)
         return self._session
 
     def _begin(self) -> Session | None:
@@ -214,12 +214,12 @@ class Runs:
     def _end(self, reason: str) -> None:
         self.left = replace(self.left, over=self.left.over or reason)
 
-    def heard(self) -> None:
+    def note_answer(self) -> None:
         """Take note that a question was answered."""
         if self.left.hangs is not None:
             self.left = replace(self.left, hangs=None)
 
-    def note(self, fault: FaultError) -> str:
+    def note_fault(self, fault: FaultError) -> str:
         """End the session that runs where the fault is fatal: what happened, with what was said on standard error."""
         session = self._session
         if not fault.fatal or session is None:
@@ -233,12 +233,14 @@ class Runs:
     def _count_hang(self, fault: FaultError, reason: str) -> None:
         if self.left.hangs is None:
             return
-        hangs = self.left.hangs - 1 if fault.outcome is Outcome.TIMEOUT else HANGS
+        hangs = self.left.hangs - 1 if fault.outcome is Outcome.TIMEOUT else MAX_HANGS
         self.left = replace(self.left, hangs=hangs)
         if not hangs:
-            self._end(f"not asked: it hung on {HANGS} questions in a row and never answered any; the last: {reason}")
+            self._end(
+                f"not asked: it hung on {MAX_HANGS} questions in a row and never answered any; the last: {reason}"
+            )
 
-    def charge(self, fault: FaultError, reason: str) -> None:
+    def charge_fault(self, fault: FaultError, reason: str) -> None:
         """Take note of a row that was found to be at fault."""
         if fault.fatal and self.left.restarts:
             self.left = replace(self.left, restarts=self.left.restarts - 1, last=reason)

@@ -42,8 +42,8 @@ _LANGUAGES = {"python": "python", "library": ""}
 class WorkerSession:
     """A Python function or a shared library in a process of its own. `run` counts the runs, to vary what may vary."""
 
-    longest = frames.LARGEST
-    most: int | None = None
+    max_batch = frames.LARGEST
+    max_rows: int | None = None
 
     def __init__(self, spec: Spec, limits: Limits, run: int) -> None:
         self._limits = limits

@@ -1,10 +1,7 @@
 """The cases of a conformance run, in chunks: frozen vectors of a family, or a range of its generated rows.
 
-The frozen vectors as a run asks them: read once, or taken from the process that has read them already.
-
-What an implementation is asked, cut into chunks: frozen vectors of a family, or a stretch of its generated rows.
-
-A chunk is a name for cases that can be made anywhere; who asks them, and in which order, makes no difference.
+A chunk names its cases, and any process can make them. The result depends neither on the process nor on the order.
+Frozen vectors are read once; the processes of a pool get them from their parent.
 """
 
 from __future__ import annotations
@@ -27,46 +24,46 @@ from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id
 from hypcheck.vectors.family import BLOCK, Family
 
 _SMALLEST = 1e-300
-"""Distances below are too near to where floats end for a frozen vector to say them well enough."""
+"""Below this distance the float in a frozen vector is too inaccurate."""
 
 
 @dataclass(frozen=True, slots=True)
 class FrozenVectors:
-    """The vectors of a family: ids, rows (n, 7 or 10), positions, int8 (n,), and of each its octave, float64 (n,).
+    """The vectors of a family: ids, rows (n, 7 or 10), positions, int8 (n,), and exponents, float64 (n,).
 
-    An octave is floor(log2) of the distance to the nearest other position; NaN where the vector cannot tell it.
+    An exponent is floor(log2) of the distance to the nearest other position; NaN if the vector's float is too small.
     """
 
     ids: tuple[str, ...]
     rows: Rows
     positions: Positions
-    octaves: NDArray[np.float64]
+    exponents: NDArray[np.float64]
 
 
 _LOADED: dict[str, FrozenVectors] = {}
 
 
 def frozen_vectors(name: str) -> FrozenVectors:
-    """The vectors of a family. Raises InputError where it has none."""
+    """The vectors of a family. Raises InputError if it has none."""
     if name not in _LOADED:
         found = vectors.frozen_rows(name)
-        octaves = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
-        _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, octaves)
+        exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
+        _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, exponents)
     return _LOADED[name]
 
 
 def loaded_vectors() -> Mapping[str, FrozenVectors]:
-    """All that were read by this process, for another one to take: a file is read slowly, being checked."""
+    """All vectors that this process has read, for another process: reading a file is slow, because it is checked."""
     return dict(_LOADED)
 
 
 def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
-    """Read these no more."""
+    """Use these vectors instead of reading their files."""
     _LOADED.update(some)
 
 
 def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
-    """From distances that are rounded up: above 2^k, and 2^(k+1) at most. NaN where floats end."""
+    """The exponent k of distances that are rounded up: above 2^k, and at most 2^(k+1). NaN below _SMALLEST."""
     nearest = min(flips.values()) if position is Position.CONTACT else flips[Position.CONTACT]
     if nearest == 0:
         return -math.inf
@@ -77,17 +74,17 @@ def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
 
 
 CHUNK_ROWS = 64 * BLOCK
-"""Generated rows of a chunk: as many as a question in binary may have."""
+"""Generated rows of a chunk: the most that a question in binary may have."""
 
 EXPONENTS_OF = 2000
-"""Cases of a family whose own distance to the nearest other position is recorded: the first ones."""
+"""The distance to the nearest other position is recorded of so many first cases of a family."""
 
 
 @dataclass(frozen=True, slots=True)
 class CaseChunk:
-    """Cases `start` to `stop` − 1 of a family: generated rows of a seed, or frozen vectors, where `seed` is None.
+    """Cases `start` to `stop` − 1 of a family: generated rows of a seed, or frozen vectors if `seed` is None.
 
-    Of the first `measured` of them the distance to the nearest other position is recorded.
+    The distance to the nearest other position is recorded of the first `measured` cases.
     """
 
     family: str
@@ -100,33 +97,33 @@ class CaseChunk:
         return self.stop - self.start
 
     def between(self, first: int, last: int) -> CaseChunk:
-        """Its cases `first` to `last` − 1 as a chunk of their own."""
+        """The cases `first` to `last` − 1 of this chunk as a chunk."""
         measured = min(max(self.measured - first, 0), last - first)
         return CaseChunk(self.family, self.seed, self.start + first, self.start + last, measured)
 
     @property
     def movement(self) -> int:
-        """So many consecutive cases follow one object from moment to moment; 1 where none do."""
+        """How many consecutive cases follow one object from moment to moment; 1 if cases are independent."""
         return 1 if self.seed is None else _family(self.family).movement
 
     @property
     def part(self) -> int:
-        """In which part of a round its cases are asked again: 0 at the beginning of a family, then 1 and 2 in turn."""
+        """The part of the retest with its cases: 0 for the first chunk of a family, then 1 and 2 alternately."""
         number = 0 if self.seed is None else self.start // CHUNK_ROWS
         return 1 + number % 2 if number else 0
 
     def place(self, index: int) -> CasePlace:
-        """Where its case stands in the family."""
+        """The place of a case in the family."""
         return int(self.seed is not None), self.start + index
 
     def name(self, index: int) -> str:
-        """The id of its case."""
+        """The id of a case."""
         if self.seed is None:
             return frozen_vectors(self.family).ids[self.start + index]
         return case_id(_family(self.family), self.seed, self.start + index)
 
     def find(self, name: str) -> int | None:
-        """Which of its cases has that id; None where none has."""
+        """The index of the case with that id, or None."""
         if self.seed is None:
             ids = frozen_vectors(self.family).ids[self.start : self.stop]
             return ids.index(name) if name in ids else None
@@ -147,12 +144,12 @@ class ChunkCases:
 
     @property
     def by_column(self) -> Rows:
-        """The rows, each column of which lies in memory as a whole: what works on columns is faster with it."""
+        """The rows with each column contiguous in memory, which is faster for work on columns."""
         return self.columns.T
 
 
 def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
-    """The frozen vectors of a family, then `count` generated rows, beginning after those that were frozen."""
+    """The frozen vectors of a family, then `count` generated rows after those that are frozen."""
     measured = EXPONENTS_OF
     known = frozen_count(family.name)
     if known:
@@ -167,12 +164,12 @@ def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
 
 
 def frozen_count(name: str) -> int:
-    """How many vectors of a family are frozen."""
+    """The number of frozen vectors of a family."""
     return len(frozen_vectors(name).rows) if name in vectors.NAMES else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:
-    """The frozen vectors that no family generates: the worst cancellations, which a search has found."""
+    """The frozen vectors that no family generates: the worst cancellations, which a search found."""
     for name in vectors.NAMES:
         if name not in FAMILIES and name not in TILTED_FAMILIES:
             known = len(frozen_vectors(name).rows)
@@ -180,12 +177,12 @@ def searched_chunks() -> Iterator[CaseChunk]:
 
 
 def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
-    """Its rows with the positions that they are certified with, or that are decided here."""
+    """The rows of a chunk, with certified positions of frozen vectors and positions of other rows decided now."""
     return cases_of_chunks((chunk,))[0]
 
 
 def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
-    """The cases of each of these chunks; decided together, which takes less time where each has few."""
+    """The cases of each chunk, decided together, which takes less time if chunks are small."""
     made = [(chunk, _columns(chunk)) for chunk in some]
     decided = iter(_decided([columns for chunk, columns in made if chunk.seed is not None]))
     found = []
@@ -216,7 +213,7 @@ def _columns(chunk: CaseChunk) -> NDArray[np.float64]:
 
 @lru_cache
 def first_unfrozen(family: Family, seed: int) -> int:
-    """How many rows a seed begins with that are all among the frozen vectors."""
+    """The number of first rows of a seed that are all frozen vectors."""
     if family.name not in vectors.NAMES:
         return 0
     known = {row.tobytes() for row in frozen_vectors(family.name).rows}
@@ -229,9 +226,9 @@ def first_unfrozen(family: Family, seed: int) -> int:
 
 
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
-    """floor(log2) of the distance to the nearest other position, of those of the (ascending) indices it is recorded of.
+    """floor(log2) of the distance to the nearest other position, for the (ascending) indices that record it.
 
-    A frozen vector says it itself. Of tilted spheroids no distance is recorded: to prove one takes too long.
+    Frozen vectors hold their distance. It is not recorded for tilted spheroids, because to prove it takes too long.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
     if len(made.columns) > len(COLUMNS):
@@ -240,7 +237,7 @@ def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np
         return np.empty(0)
     if chunk.seed is not None:
         return judge.flip_exponents(made.rows[measured])
-    flips = frozen_vectors(chunk.family).octaves[chunk.start + measured]
+    flips = frozen_vectors(chunk.family).exponents[chunk.start + measured]
     unknown = np.flatnonzero(np.isnan(flips))
     flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
     return flips

@@ -177,7 +177,9 @@ class ImplementationLines:
 
     def add(self, state: RunState, recorder: Recorder, *, finished: bool) -> None:
         """Record the state; in an unfinished run, pending cases are judged by their first answers."""
-        total = merged_result([replace(state.total, open=()), result_without_retest(state.total.open, self.rules)])
+        total = merged_result(
+            [replace(state.total, pending=()), result_without_retest(state.total.pending, self.rules)]
+        )
         groups = [self._group(family, tallied) for family, tallied in total.tallies.items()]
         for line in groups:
             recorder.add(line)
@@ -191,7 +193,7 @@ class ImplementationLines:
                 declared=recorded_description(self.declared),
                 used=recorded_description(self.used),
                 restarts=self.plan.limits.restarts - state.left.restarts,
-                again=total.again,
+                again=total.retest,
                 broke_protocol_throughout=total.broke_protocol_throughout,
                 troubles=list(self._troubles(total, groups)),
                 finished=UNSET if finished else False,
@@ -213,6 +215,6 @@ class ImplementationLines:
         if abstained > self.plan.max_abstained:
             allowed = f"at most {self.plan.max_abstained} are allowed"
             yield f"{self.used.name} abstained from {abstained} cases; {allowed}"
-        if self.plan.deterministic and total.again.within:
-            changed = f"changed {total.again.within} answers within the tolerance"
+        if self.plan.deterministic and total.retest.within:
+            changed = f"changed {total.retest.within} answers within the tolerance"
             yield f"{self.used.name} {changed} when asked again"

@@ -16,8 +16,8 @@ import numpy as np
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import allowed
-from hypcheck.implementations.implementation import FAULTS
-from hypcheck.implementations.session import HANGS, Outcome
+from hypcheck.implementations.implementation import MAX_FAULTS
+from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs import judge
@@ -26,7 +26,7 @@ from hypcheck.runs.judge import UNANSWERED, Mistake, Status
 from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
-from hypcheck.runs.tally import FAULTS_KEPT, WORST_KEPT, Tally, WorstCase
+from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
 from hypcheck.vectors import families, frozen
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)
@@ -92,13 +92,13 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
     waiting = _require_steps(state, steps)
     for trouble in (
         _of_allowance(state, plan),
-        *(_of_open(each, waiting, rules) for each in total.open),
+        *(_of_open(each, waiting, rules) for each in total.pending),
         *(_of_tally(family, each, rules) for family, each in total.tallies.items()),
         _of_result(total, rules),
     ):
         if trouble:
             raise ValueError(trouble)
-    places = [(each.chunk.family, each.chunk.seed, each.chunk.start) for each in total.open]
+    places = [(each.chunk.family, each.chunk.seed, each.chunk.start) for each in total.pending]
     if len(set(places)) < len(places):
         raise ValueError("cases of one chunk are pending twice")
 
@@ -106,7 +106,7 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
 def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
     """The chunks whose cases may be pending after the steps that are done; all other cases must be tallied."""
     counted = Counter({family: sum(tally.counts.values()) for family, tally in state.total.tallies.items()})
-    for each in state.total.open:
+    for each in state.total.pending:
         counted[each.chunk.family] += len(each.indices)
     done: Counter[str] = Counter()
     waiting: list[CaseChunk] = []
@@ -138,8 +138,8 @@ def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
 
 def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
     left = state.left
-    hangs = left.hangs is None or 0 <= left.hangs <= HANGS
-    if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= FAULTS and hangs):
+    hangs = left.hangs is None or 0 <= left.hangs <= MAX_HANGS
+    if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= MAX_FAULTS and hangs):
         return f"{left.restarts} restarts, {left.faults} faults and {left.hangs} hangs are left, which is impossible"
     stopped = any(tally.counts.get(Status.NOT_RUN.value) for tally in state.total.tallies.values())
     return "cases were not asked, though the implementation was not given up" if stopped and not left.over else ""
@@ -169,7 +169,7 @@ class _Sums:
     asked: int
     counts: Mapping[str, int]
     mistakes: Mapping[str, int]
-    octaves: Mapping[str, Mapping[str, int]]
+    exponents: Mapping[str, Mapping[str, int]]
     bins: tuple[Sequence[Sequence[int]], ...]
     worst: tuple[str, ...]
 
@@ -183,7 +183,7 @@ class _Sums:
     def of_tally(cls, tally: Tally) -> _Sums:
         statuses = tuple(case.status for case in tally.worst)
         bins = (tally.size_bins.as_lists(), tally.place_bins.as_lists())
-        return cls(tally.asked, tally.counts, tally.mistakes, tally.octaves, bins, statuses)
+        return cls(tally.asked, tally.counts, tally.mistakes, tally.exponents, bins, statuses)
 
 
 def _of_sums(family: str, sums: _Sums) -> str:
@@ -194,11 +194,11 @@ def _of_sums(family: str, sums: _Sums) -> str:
     off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
     asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
     if family == frozen.INVALID_NAME:
-        agree = not (sums.mistakes or sums.octaves or any(sums.bins) or sums.worst)
+        agree = not (sums.mistakes or sums.exponents or any(sums.bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
-        for octave in sums.octaves.values():
-            measured.update(octave)
+        for counted in sums.exponents.values():
+            measured.update(counted)
         binned = {(sum(row[2] for row in rows), sum(row[3] for row in rows)) for rows in sums.bins}
         agree = (
             sum(sums.mistakes.values()) == off
@@ -220,8 +220,8 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     if tally.dangerous > min(counts[Status.WRONG.value], tally.mistakes.get(Mistake.FALSE_CLEAR.value, 0)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
     faults = _UNANSWERED | ({Status.WRONG.value} if family == frozen.INVALID_NAME else set())
-    kept = Counter(fault.status for fault in tally.faults)
-    if kept != Counter({name: min(FAULTS_KEPT, counts[name]) for name in faults if counts[name]}):
+    kept = Counter(fault.status for fault in tally.unanswered)
+    if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):
         return f"{family} lists cases without an answer that its counts do not have"
     for case in tally.worst:
         if not _is_judged_so(case, rules):
@@ -244,8 +244,8 @@ def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
 def _of_result(total: CasesResult, rules: JudgingRules) -> str:
     """The numbers about all families together must agree."""
     counts: Counter[str] = sum((Counter(tally.counts) for tally in total.tallies.values()), Counter())
-    again, known = total.again, rules.known
-    answered = total.open or any(counts[each.value] for each in (Status.RIGHT, *_OFF, Status.ABSTAINED))
+    again, known = total.retest, rules.known
+    answered = total.pending or any(counts[each.value] for each in (Status.RIGHT, *_OFF, Status.ABSTAINED))
     outcomes = {outcome for outcome in _ENDED_AS if counts[outcome.label]} | ({Outcome.ANSWERED} if answered else set())
     if not outcomes <= total.outcomes:
         return "cases have a status with which no question ended"

@@ -79,7 +79,7 @@ def execution_on_cluster(
             raise executor.lost(f"it said nothing within {CONNECT} s") from None
         function = partial(_perform_opened, name)
         try:
-            yield TaskExecution(executor, function, workers, implementation.allowance, implementation.most, rules)
+            yield TaskExecution(executor, function, workers, implementation.allowance, implementation.max_rows, rules)
         finally:
             executor.shutdown()
             if client.status == "running":

@@ -231,7 +231,7 @@ def is_stopped(process: SpawnProcess) -> bool:
 def execution_here(implementation: Implementation, rules: JudgingRules) -> Iterator[TaskExecution]:
     """Performs tasks in this process."""
     function = partial(perform_task, implementation=implementation, rules=rules)
-    yield TaskExecution(SerialExecutor(), function, 0, implementation.allowance, implementation.most, rules)
+    yield TaskExecution(SerialExecutor(), function, 0, implementation.allowance, implementation.max_rows, rules)
 
 
 @contextmanager
@@ -243,7 +243,7 @@ def execution_in_pool(
     Of itself it must say in each of them what it says here: tasks raise StartError otherwise.
     """
     setup = partial(_opened, opening, rules, implementation.declared, code_fingerprint(), dict(loaded_vectors()))
-    limits, most = implementation.allowance, implementation.most
+    limits, most = implementation.allowance, implementation.max_rows
     with WorkerPool(workers, setup) as executor:
         yield TaskExecution(executor, _perform_opened, workers, limits, most, rules)
 

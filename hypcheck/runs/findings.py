@@ -30,9 +30,9 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answers
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.description import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
+from hypcheck.implementations.questions import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
@@ -163,7 +163,7 @@ def method_group(method: Method, batch: FamilyBatch, exponents: NDArray[np.float
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
     inside = claimed(batch.rows, method.domain, method.precision, extreme=batch.family.extreme)
-    places = inside[: method.most]
+    places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
     tallied = scored.tally(batch, places, exponents[places], skipped=len(batch.rows) - len(inside))

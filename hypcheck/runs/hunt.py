@@ -295,7 +295,7 @@ class Hunt:
     findings: HuntFindings = field(init=False)
     started: float = field(default_factory=time.monotonic)
     counts: Counter[str] = field(default_factory=Counter)
-    faults: dict[Status, UnansweredCase] = field(default_factory=dict)
+    unanswered: dict[Status, UnansweredCase] = field(default_factory=dict)
     piece: int = math.isqrt(PIECE)
     barren: bool = False
 
@@ -327,7 +327,7 @@ class Hunt:
     @property
     def over(self) -> bool:
         """Whether the budget is spent, there is nothing to ask, or the implementation cannot be asked any more."""
-        return self.spent >= 1 or self.barren or Status.NOT_RUN in self.faults
+        return self.spent >= 1 or self.barren or Status.NOT_RUN in self.unanswered
 
 
 def ask_rows(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
@@ -361,8 +361,8 @@ def _pieces(run: Hunt, rows: Rows, places: Indices) -> Iterator[tuple[Indices, S
         run.piece = max(1, run.piece // 2) if time.monotonic() - began > PIECE_SECONDS else min(PIECE, 2 * run.piece)
         for index, reason in scored.reasons.items():
             status = STATUSES[scored.status[index]]
-            if status not in run.faults:
+            if status not in run.unanswered:
                 row = tuple(scored.rows[index].tolist())
-                run.faults[status] = UnansweredCase((1, run.asked + index), "", row, status.value, reason)
+                run.unanswered[status] = UnansweredCase((1, run.asked + index), "", row, status.value, reason)
         run.counts.update(counts_of(scored.status))
         yield part, scored

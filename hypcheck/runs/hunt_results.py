@@ -74,7 +74,7 @@ def _finding(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
 
 
 def _unanswered(run: Hunt) -> Iterator[str]:
-    for status, fault in run.faults.items():
+    for status, fault in run.unanswered.items():
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
         if status is not Status.NOT_RUN:

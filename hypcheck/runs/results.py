@@ -1,10 +1,7 @@
 """The result of a chunk or of the invalid rows: an implementation is asked, its answers are judged and tallied.
 
-What came of a part of a run: a value that can be sent, kept and added to others in any order.
-
-The cases of a conformance run asked and scored: those of a chunk, and the invalid rows.
-
-What is final is judged and tallied. The last cases of each chunk stay open, to be asked again before they are judged.
+The last cases of each chunk stay pending: they are asked again before they are judged. A result is a value that can be
+sent, stored, and merged with others in any order.
 """
 
 from __future__ import annotations
@@ -33,9 +30,9 @@ from hypcheck.vectors.families import is_extreme
 
 @dataclass(frozen=True, slots=True)
 class PendingRetest:
-    """Cases that were answered and are to be asked again before they are judged.
+    """Cases that were answered and will be asked again before they are judged.
 
-    `indices` (n,) are theirs in the chunk, ascending, and `answers`, int8 (n,), what was answered at first.
+    `indices` (n,) are their places in the chunk, ascending; `answers`, int8 (n,), are the first answers.
     """
 
     chunk: CaseChunk
@@ -48,33 +45,33 @@ NO_RETEST = Retest(asked=0, within=0, beyond=0)
 
 @dataclass(frozen=True)
 class CasesResult:
-    """What came of some cases: a tally for each family, and `open` cases that no tally counts yet.
+    """The result of some cases: a tally for each family, and `pending` cases that no tally counts yet.
 
-    `outcomes` are all ways in which questions ended; `excusing` the numbers of the known failures that excused
-    something, `named` the cases that known failures name and that were asked.
+    `retest` counts cases that were asked again. `outcomes` are all ways in which questions ended. `excusing` are the
+    numbers of the known failures that excused a case, `named` the cases that known failures name and that were asked.
     """
 
     tallies: Mapping[str, Tally] = field(default_factory=dict)
-    open: tuple[PendingRetest, ...] = ()
-    again: Retest = NO_RETEST
+    pending: tuple[PendingRetest, ...] = ()
+    retest: Retest = NO_RETEST
     outcomes: frozenset[Outcome] = frozenset()
     excusing: frozenset[int] = frozenset()
     named: frozenset[str] = frozenset()
 
     @property
     def cases(self) -> int:
-        """How many it speaks of: asked, skipped and open."""
+        """The number of all its cases: asked, skipped and pending."""
         counted = sum(sum(tally.counts.values()) for tally in self.tallies.values())
-        return counted + sum(len(each.indices) for each in self.open)
+        return counted + sum(len(each.indices) for each in self.pending)
 
     @property
     def broke_protocol_throughout(self) -> bool:
-        """Whether no row was ever answered, and every one that was asked ended as PROTOCOL."""
+        """Whether every row that was asked ended as PROTOCOL."""
         return self.outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
 
 
 def merged_result(results: Iterable[CasesResult]) -> CasesResult:
-    """The result of all cases of these results; in whatever order they come, but for the order of the open ones."""
+    """The result of all cases of these results. Their order matters only for the order of the pending cases."""
     parts = tuple(results)
     tallies: dict[str, list[Tally]] = {}
     for part in parts:
@@ -82,30 +79,28 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
             tallies.setdefault(family, []).append(each)
     return CasesResult(
         tallies={family: tally.merged_tally(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
-        open=tuple(each for part in parts for each in part.open),
-        again=_added(part.again for part in parts),
+        pending=tuple(each for part in parts for each in part.pending),
+        retest=Retest(
+            asked=sum(part.retest.asked for part in parts),
+            within=sum(part.retest.within for part in parts),
+            beyond=sum(part.retest.beyond for part in parts),
+        ),
         outcomes=frozenset().union(*(part.outcomes for part in parts)),
         excusing=frozenset().union(*(part.excusing for part in parts)),
         named=frozenset().union(*(part.named for part in parts)),
     )
 
 
-def _added(retests: Iterable[Retest]) -> Retest:
-    counts = ((each.asked, each.within, each.beyond) for each in retests)
-    asked, within, beyond = map(sum, zip((0, 0, 0), *counts, strict=True))
-    return Retest(asked=asked, within=within, beyond=beyond)
-
-
 RETESTED_CASES = 32
-"""Cases of each chunk that are asked again at least; of large chunks, one in a hundred."""
+"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred."""
 
 RETESTED_MOVEMENTS = 8
-"""Movements of each chunk that are asked again at least, where its cases follow objects from moment to moment."""
+"""At least so many movements of each chunk are asked again if its cases follow objects from moment to moment."""
 
 
 @dataclass(frozen=True)
 class JudgingRules:
-    """What is asked of an implementation, how answers are judged, which failures are known, and the run's seed."""
+    """How an implementation is judged: the criterion, its domain, the known failures, and the seed of the run."""
 
     criterion: Criterion
     domain: Domain
@@ -115,22 +110,22 @@ class JudgingRules:
 
 @dataclass(frozen=True, slots=True)
 class InvalidRows:
-    """All of the invalid rows, of which an implementation says that it refuses them."""
+    """All invalid rows, which go to an implementation that declares that it refuses them."""
 
     def name(self, index: int) -> str:
         """The id of a case."""
         return frozen.load_invalid_rows().cases[index].id
 
     def place(self, index: int) -> CasePlace:
-        """Where it stands among them."""
+        """The place of a case among the invalid rows."""
         return 0, index
 
 
 def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
-    """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay open, to be asked again."""
+    """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
     made = cases_of_chunk(chunk)
-    extreme = is_extreme(chunk.family)
-    indices = claimed(made.by_column, rules.domain, rules.criterion.precision, extreme=extreme)[: implementation.most]
+    inside = claimed(made.by_column, rules.domain, rules.criterion.precision, extreme=is_extreme(chunk.family))
+    indices = inside[: implementation.max_rows]
     rows = made.rows if len(indices) == len(made.rows) else made.rows[indices]
     answered = implementation.classify(rows)
     part = as_slice(indices)
@@ -140,7 +135,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))
     result = result_of_final(made, indices[settled], scored.part(settled), rules, skipped=len(made.rows) - len(indices))
-    return replace(result, open=_pending(chunk, indices[kept], scored.answers[kept]), outcomes=answered.outcomes)
+    return replace(result, pending=_pending(chunk, indices[kept], scored.answers[kept]), outcomes=answered.outcomes)
 
 
 def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed) -> CasesResult:
@@ -155,14 +150,14 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
             columns = " and ".join(file.cases[index].columns)
             reasons[index] = f"answered {answer}; a row with an invalid {columns} must be refused: {REFUSED}"
     found = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)))
-    tally = Tally(asked=len(status), counts=counts_of(status), faults=found)
+    tally = Tally(asked=len(status), counts=counts_of(status), unanswered=found)
     return CasesResult(tallies={frozen.INVALID_NAME: tally}, outcomes=answered.outcomes)
 
 
 def result_of_final(
     made: ChunkCases, indices: Indices, scored: Score, rules: JudgingRules, *, skipped: int = 0
 ) -> CasesResult:
-    """The result of cases of a chunk, `indices` (n,), whose answers are final: known failures are excused."""
+    """The result of the cases `indices` (n,) of a chunk, whose answers are final. Known failures are excused."""
     excusing: set[int] = set()
     wrong = []
     for case in scored.judged():
@@ -178,7 +173,7 @@ def result_of_final(
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices) -> int:
-    """From where on the asked cases stay open: a vector loop's tail is among the last, and so are whole movements."""
+    """The first asked case that stays pending. The last cases hold the tail of a vector loop, and whole movements."""
     wanted = max(RETESTED_CASES, len(indices) // 100 + 1)
     if chunk.movement > 1:
         wanted = max(wanted, RETESTED_MOVEMENTS * chunk.movement)
@@ -197,7 +192,7 @@ def _pending(chunk: CaseChunk, indices: Indices, answers: NDArray[np.int8]) -> t
 
 
 def _excused(case: WrongCase, name: str, family: str, rules: JudgingRules) -> tuple[WrongCase, list[int]]:
-    """The case as known failures leave it, and the numbers of all that cover it."""
+    """The case, EXCUSED if known failures cover it, and the numbers of these."""
     if case.status is not Status.WRONG or not rules.known:
         return case, []
     error_u = judge.in_units(judge.measured(case, rules.criterion.question), rules.criterion.unit)
@@ -206,7 +201,7 @@ def _excused(case: WrongCase, name: str, family: str, rules: JudgingRules) -> tu
 
 
 def _named_cases(chunk: CaseChunk, indices: Indices, known: Sequence[KnownFailure]) -> Iterator[str]:
-    """Those of the cases that known failures name."""
+    """The ids of these cases that known failures name."""
     for entry in known:
         if entry.case is not None:
             index = chunk.find(entry.case)

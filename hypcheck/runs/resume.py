@@ -238,9 +238,9 @@ def saved_result(result: CasesResult) -> SavedResult:
         tallies={family: _saved_tally(tally) for family, tally in result.tallies.items()},
         open=[
             PendingCases(chunk=astuple(each.chunk), indices=_runs(each.indices), answers=each.answers.tobytes().hex())
-            for each in result.open
+            for each in result.pending
         ],
-        again=result.again,
+        again=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
         excusing=sorted(result.excusing),
         named=sorted(result.named),
@@ -251,8 +251,8 @@ def restored_result(content: SavedResult) -> CasesResult:
     """The result in a line of progress. Raises as restored_state does."""
     return CasesResult(
         tallies={family: _restored_tally(tally) for family, tally in content.tallies.items()},
-        open=tuple(map(_restored_open, content.open)),
-        again=content.again,
+        pending=tuple(map(_restored_open, content.open)),
+        retest=content.again,
         outcomes=frozenset(outcome for outcome in Outcome if outcome.label in content.outcomes),
         excusing=frozenset(content.excusing),
         named=frozenset(content.named),
@@ -276,11 +276,11 @@ def _saved_tally(tally: Tally) -> SavedTally:
         counts=dict(tally.counts),
         mistakes=dict(tally.mistakes),
         dangerous=tally.dangerous,
-        octaves={octave: dict(counts) for octave, counts in tally.octaves.items()},
+        octaves={exponent: dict(counts) for exponent, counts in tally.exponents.items()},
         size_bins=tally.size_bins.as_lists(),
         place_bins=tally.place_bins.as_lists(),
         worst=[SavedAnswer(**_saved_case(case)) for case in tally.worst],
-        faults=[SavedFault(**_saved_case(case)) for case in tally.faults],
+        faults=[SavedFault(**_saved_case(case)) for case in tally.unanswered],
     )
 
 
@@ -290,11 +290,11 @@ def _restored_tally(content: SavedTally) -> Tally:
         counts=content.counts,
         mistakes=content.mistakes,
         dangerous=content.dangerous,
-        octaves=content.octaves,
+        exponents=content.octaves,
         size_bins=Histogram.of_lists(content.size_bins),
         place_bins=Histogram.of_lists(content.place_bins),
         worst=tuple(WorstCase(**_restored_case(case)) for case in content.worst),
-        faults=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
+        unanswered=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
     )
 
 

@@ -1,9 +1,9 @@
-"""The retest: open cases asked again, later and otherwise (in a fresh process, another order and other questions).
+"""The retest: pending cases are asked again later, in a fresh process, in another order and in other batches.
 
-An implementation that answers many rows at once can be wrong about a place of a question alone: the rest that no vector
-holds, the first row of a thread, a block that is never begun. Such an answer is right by luck where it is the same as
-the truth. So cases are asked alone, in questions of every size, and in each place of a large question with each
-position in turn.
+An implementation that answers many rows at once can be wrong at one place of a batch only: in the tail that fills no
+vector, in the first row of a thread, in a block that is never computed. Such an answer is right by luck if it happens
+to equal the truth. Therefore cases are asked alone, in batches of every size, and at each place of a large batch with
+each position.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows, with_axis
-from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.implementation import Crashed, Implementation
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
 from hypcheck.runs import judge
@@ -29,61 +29,61 @@ from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
 
 RetestQuestion = tuple[Indices, int | None]
-"""Cases, and in questions of how many they are asked; None: of as many as can be."""
+"""Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
 
 ALONE, MANY = 32, 1100
-"""Cases that are asked one by one; and single questions to an implementation that takes at most QUICK over each, which
-are more than fit into a counter of 8 or of 10 bits."""
+"""Cases that are asked one by one; and single rows for an implementation that answers each within QUICK_S. The latter
+overflow a counter of 8 or 10 bits."""
 
 QUICK_S = 2e-3
-"""Seconds."""
+"""Seconds for one row."""
 
 SOON_S = 0.05
-"""Seconds. An implementation that answers full questions within them is asked the longest questions too, which take
-about a second then."""
+"""Seconds. An implementation that answers full batches within this time is asked the longest batches too, which then
+take about a second."""
 
 LENGTHS = (7, 3, 11, 2, 5, 13, 9, 6, 15, 10, 4, 14, 12, 8, 17, 16, 31, 33, 63, 65, 129, 127)
-"""Rows of small questions: each remainder by 2, 4, 8 and 16, and what is beside a power of two."""
+"""Rows of small batches: every remainder modulo 2, 4, 8 and 16, and the neighbours of powers of two."""
 
 IN_LENGTHS = 1536
-"""Cases asked in questions of LENGTHS at most, unless they are asked more than once."""
+"""At most so many cases are asked in batches of LENGTHS, unless they are asked more than once."""
 
 LENGTH_ROUNDS = 3
-"""Questions of each of LENGTHS to an implementation that stands LARGE rows, to which these cost nothing."""
+"""Batches of each of LENGTHS for an implementation that answers LARGE_QUESTION rows at once; they are cheap."""
 
 TWINS = 64
-"""Cases asked four times in one question, beside themselves and apart: an implementation may keep answers by rows."""
+"""Cases asked four times in one batch, next to each other and apart: an implementation may cache answers by row."""
 
 LARGE_QUESTION = 4096
 FULL_QUESTION = LARGE_QUESTION + 128 + 1
-"""Rows of a full question at least, where so many can be asked: cases are repeated, so that every thread, block and
-page has some if the implementation divides a question."""
+"""Rows of a full batch at least, if the implementation accepts so many. Cases are repeated, so that every thread, block
+and page has some if the implementation divides a batch."""
 
 PARTS = 3
-"""Parts of a round at most, each with an order of its own."""
+"""A round has at most so many parts, each with its own order."""
 
 SHORTER = (0, 0, 2)
-"""By how many rows full questions fall short, so that a vector's rest is not always the same; two are whole, so that
-an answer that is always the same in the last place is wrong in one of them."""
+"""Rows that full batches are shorter, so that the tail of a vector varies. Two have full length, so that an answer that
+is always the same in the last place is wrong in one of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class RetestTask:
-    """Open cases of some chunks, to be asked again together.
+    """Pending cases of some chunks, to be asked again together.
 
-    `number` counts the rounds of a run, which have up to three parts.
+    `number` counts the rounds of a run; `part` is the part of the round, of which there are up to PARTS.
     """
 
     number: int
     part: int
-    open: tuple[PendingRetest, ...]
+    pending: tuple[PendingRetest, ...]
 
 
 @dataclass(frozen=True)
 class _Sample:
-    """The cases of a round, in arrays: rows (n, 7 or 10), positions and first answers (n,).
+    """The cases of a round in arrays: rows (n, 7 or 10), positions and first answers (n,).
 
-    `moments` (n,) are the moments of the movement, of those that follow an object; −1 of others.
+    `moments` (n,) are the moments of cases that follow an object, and −1 of all others.
     """
 
     made: tuple[ChunkCases, ...]
@@ -94,17 +94,17 @@ class _Sample:
 
 
 ChangedAnswers = dict[int, tuple[Status, str]]
-"""How those end that were not answered as before, and why; TOLERATED where rounding may explain the change."""
+"""The status of cases with another answer than before, and the reason; TOLERATED if rounding can explain the change."""
 
 
 def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
-    """Ask the open cases again, and judge all; those that have changed end as what has become of them."""
-    if not asked.open:
+    """Ask the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
+    if not asked.pending:
         return CasesResult()
-    sample, changes, outcomes = _sample(asked.open), ChangedAnswers(), set[Outcome]()
-    implementation.fresh()
+    sample, changes, outcomes = _sample(asked.pending), ChangedAnswers(), set[Outcome]()
+    implementation.use_fresh_process()
     asking = retest_questions(
-        sample.truth, sample.moments, lambda: implementation.stands, rules.seed, asked.number, asked.part
+        sample.truth, sample.moments, lambda: implementation.proven_batch, rules.seed, asked.number, asked.part
     )
     for places, batch in asking:
         answered = implementation.classify(sample.rows[places], batch=batch)
@@ -120,12 +120,12 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: J
                     changes[place] = STATUSES[status[offset]], reason
     within = sum(status is Status.TOLERATED for status, _ in changes.values())
     beyond = sum(status is Status.NONDETERMINISTIC for status, _ in changes.values())
-    again = Retest(asked=len(sample.rows), within=within, beyond=beyond)
-    return replace(_judged(asked.open, sample, changes, rules), again=again, outcomes=frozenset(outcomes))
+    changed = Retest(asked=len(sample.rows), within=within, beyond=beyond)
+    return replace(_judged(asked.pending, sample, changes, rules), retest=changed, outcomes=frozenset(outcomes))
 
 
 def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) -> CasesResult:
-    """Judge open cases by their first answers: of a run that is interrupted before it could ask them again."""
+    """Judge pending cases by their first answers, for a run that was interrupted before their retest."""
     return _judged(some, _sample(some), {}, rules) if some else CasesResult()
 
 
@@ -154,21 +154,21 @@ def _moments(each: PendingRetest) -> NDArray[np.int64]:
 
 
 def _change(sample: _Sample, place: int, answer: int, criterion: Criterion) -> tuple[Status, str]:
-    """What another answer than the first means."""
+    """The status of a case whose answer differs from the first, and the reason."""
     pair = np.array([sample.before[place], answer], dtype=np.int8)
     if CANNOT_SAY not in pair:
         twice = np.stack([sample.rows[place]] * 2)
         wrong = judge.wrong_cases(twice, np.repeat(sample.truth[place], 2), pair, criterion)
         if all(case.status is Status.TOLERATED for case in wrong):
             return Status.TOLERATED, ""
-    reason = f"answered {pair[0]} at first and {pair[1]} when asked again, in another order and question"
+    reason = f"answered {pair[0]} at first and {pair[1]} when asked again, in another order and batch"
     return Status.NONDETERMINISTIC, reason
 
 
 def _judged(
     some: tuple[PendingRetest, ...], sample: _Sample, changes: ChangedAnswers, rules: JudgingRules
 ) -> CasesResult:
-    """All cases of the round, judged by their first answers unless these count no more."""
+    """The result of all cases of the round, judged by their first answers unless a change makes these invalid."""
     results, start = [], 0
     lost = {place: change for place, change in changes.items() if change[0] is not Status.TOLERATED}
     for made, each in zip(sample.made, some, strict=True):
@@ -184,18 +184,17 @@ def _judged(
 def retest_questions(
     truth: NDArray[np.int8],
     moments: NDArray[np.int64],
-    stands: Callable[[], int],
+    proven_batch: Callable[[], int],
     seed: int,
     number: int,
     part: int = 0,
 ) -> Iterator[RetestQuestion]:
-    """The questions about n cases with these positions, each case in one at least.
+    """The batches for n cases with these positions; each case is in at least one.
 
-    `moments` (n,) are those of movements, −1 of cases that follow no object: the same objects are asked moment by
-    moment, which shows an implementation that carries answers over from one question to the next. `stands` is the
-    largest question that it has answered well within its time so far. If that has LARGE rows, each case is asked many
-    times in the first part of the first round of a run, of which `number` and `part` are 0. Parts 1 and 2 share the
-    small questions.
+    `moments` (n,) are −1 for cases that follow no object. The others are asked moment by moment, which reveals an
+    implementation that carries answers over from one batch to the next. `proven_batch` returns the largest batch that
+    was answered well within the timeout so far. If that has LARGE_QUESTION rows, each case is asked many times in the
+    first part of the first round of a run, in which `number` and `part` are 0. Parts 1 and 2 share the small batches.
     """
     random = np.random.Generator(np.random.Philox((seed, PARTS * number + part)))
     order = random.permutation(np.flatnonzero(moments < 0))
@@ -209,13 +208,13 @@ def retest_questions(
     small = list(_of_every_length(rest[:some]))
     yield from small
     quick = time.monotonic() - began < QUICK_S * len(small)
-    yield _filled(rest[some:], order, FULL_QUESTION if stands() >= FULL_QUESTION else 0), None
-    if number == part == 0 and stands() >= LARGE_QUESTION and len(order):
+    yield _filled(rest[some:], order, FULL_QUESTION if proven_batch() >= FULL_QUESTION else 0), None
+    if number == part == 0 and proven_batch() >= LARGE_QUESTION and len(order):
         yield from _of_every_length(np.resize(order, LENGTH_ROUNDS * sum(LENGTHS)))
         began = time.monotonic()
-        yield from _in_every_place(order, truth, random, min(FULL_QUESTION, stands()))
+        yield from _in_every_place(order, truth, random, min(FULL_QUESTION, proven_batch()))
         if time.monotonic() - began < SOON_S:
-            yield from _in_every_place(order, truth, random, stands())
+            yield from _in_every_place(order, truth, random, proven_batch())
         if quick:
             yield np.resize(order, MANY), 1
     yield from _moment_by_moment(moments)
@@ -232,7 +231,7 @@ def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:
 
 
 def _filled(cases: Indices, order: Indices, least: int) -> Indices:
-    """The cases, repeated to make `least`."""
+    """The cases, repeated until there are at least `least`."""
     if len(order) and len(cases) < least:
         return np.resize(cases if len(cases) else order, least)
     return cases
@@ -241,7 +240,7 @@ def _filled(cases: Indices, order: Indices, least: int) -> Indices:
 def _in_every_place(
     order: Indices, truth: NDArray[np.int8], random: np.random.Generator, size: int
 ) -> Iterator[RetestQuestion]:
-    """Questions of about `size` rows, as many as there are positions among the cases: others in each at each place."""
+    """Batches of about `size` rows, one for each position among the cases: at each place another position in each."""
     parts = [part for position in Position if len(part := order[truth[order] == position])]
     which = random.integers(len(parts), size=size)
     for turn in range(len(parts)):

@@ -132,7 +132,7 @@ class RunState:
         """The state after one more step, whose task began with all of the limits."""
         before = self.total
         if isinstance(step, RetestStep):
-            before = replace(before, open=tuple(each for each in before.open if each.chunk.part != step.part))
+            before = replace(before, pending=tuple(each for each in before.pending if each.chunk.part != step.part))
         return RunState(self.left.after(done.left, limits), self.done + 1, merged_result([before, done.result]))
 
 
@@ -161,19 +161,19 @@ class TaskExecution:
     """An executor, and what it needs to perform tasks.
 
     It calls `function` with a `task` and its `allowance`, in `workers` processes; 0 where it is this one.
-    `limits` are what one task may spend. `most` and `rules` make the result of a task that no worker survives.
+    `limits` are what one task may spend. `max_rows` and `rules` make the result of a task that no worker survives.
     """
 
     executor: Executor
     function: Callable[..., TaskResult]
     workers: int
     limits: Allowance
-    most: int | None
+    max_rows: int | None
     rules: JudgingRules
 
     def crashed(self, task: Task, allowance: Allowance, reason: str) -> TaskResult:
         """The result of a task all of whose cases crash."""
-        return perform_task(task, Crashed(self.most, reason, allowance), self.rules, allowance)
+        return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
 
 def steps_of_chunks(chunks: Iterable[CaseChunk], *, refuses: bool) -> Iterator[Step]:
@@ -267,7 +267,7 @@ class _TaskQueue:
             self._entries.append(_QueuedStep(step, None if isinstance(step, RetestStep) else step))
         for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
             if isinstance(entry.step, RetestStep) and entry.task is None:  # only now all of its cases are there
-                entry.task = entry.step.of(state.total.open)
+                entry.task = entry.step.of(state.total.pending)
         return bool(self._entries)
 
     def due(self, state: RunState) -> list[_QueuedStep]:

@@ -1,7 +1,7 @@
-"""One score: rows that an implementation was asked, how each ended, and by how much its wrong answers are wrong.
+"""The score of rows that an implementation was asked: the status of each row, and the size of each wrong answer.
 
-Conformance runs, the self-check, hunts and bench all score what they ask. They differ in which rows they ask, and in
-what they keep: conformance and the self-check a tally of every case, a hunt the worst answers, bench the distances.
+Conformance runs, the self-check, hunts, replays and bench use the same score. They choose different rows and keep
+different parts: conformance and the self-check a tally of all cases, a hunt the worst answers, bench the distances.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows
-from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.tally import (
-    FAULTS_KEPT,
     STATUS_CODES,
     STATUSES,
+    UNANSWERED_KEPT,
     WORST_KEPT,
     CasePlace,
     StatusCodes,
@@ -43,24 +43,24 @@ _ENDED = np.array(
 
 
 class CaseSource(Protocol):
-    """Where rows are from: some cases of a family."""
+    """The origin of rows: some cases of a family."""
 
     def name(self, index: int) -> str:
         """The id of a case."""
         ...
 
     def place(self, index: int) -> CasePlace:
-        """Where it stands in the family."""
+        """The place of a case in the family."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Rows (n, 7) with their true positions (n,), as one implementation answered them.
+    """Rows (n, 7) with their true positions (n,), and the answers of one implementation.
 
-    `answers` (n,) hold CANNOT_SAY where no answer counts. `status` (n,) says in CODES how each row ended: WRONG of each
-    wrong answer, though `judged` may find it within the tolerance. `reasons` has a sentence for each row without an
-    answer that counts.
+    `answers` (n,) are CANNOT_SAY for rows without a valid answer. `status` (n,) holds STATUS_CODES; it is WRONG for
+    each wrong answer, which `judged` may find within the tolerance. `reasons` has a sentence for each row without a
+    valid answer.
     """
 
     criterion: Criterion
@@ -72,18 +72,18 @@ class Score:
 
     @cached_property
     def wrong(self) -> Indices:
-        """The places of the wrong answers, tolerated or not."""
+        """The indices of the wrong answers, tolerated or not."""
         return np.flatnonzero(self.status == STATUS_CODES[Status.WRONG])
 
     @property
     def answered(self) -> NDArray[np.bool_]:
-        """A mask (n,) of the rows that have an answer that counts, "cannot say" among them."""
+        """A mask (n,) of the rows with a valid answer, "cannot say" included."""
         answered = (STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG], STATUS_CODES[Status.ABSTAINED])
         return np.asarray(np.isin(self.status, answered))
 
     @property
     def mistakes(self) -> Counter[Mistake]:
-        """The wrong answers by what they mean."""
+        """The number of wrong answers by kind of mistake."""
         found: Counter[Mistake] = Counter()
         pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
         for (position, answer), number in Counter(pairs).items():
@@ -91,11 +91,11 @@ class Score:
         return found
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
-        """The wrong answers, or those at some of their places, each with its backward error and whether it passes."""
+        """The wrong answers, or those at the given indices, each with its backward error and whether it passes."""
         return judge.judged(self.rows, self.answers, self.wrong if wrong is None else wrong, self.criterion)
 
     def part(self, places: Indices) -> Score:
-        """The score of the rows at these places, which ascend."""
+        """The score of the rows at these ascending indices."""
         if len(places) == len(self.rows):
             return self
         chosen: slice | Indices = as_slice(places)
@@ -110,7 +110,7 @@ class Score:
         )
 
     def without(self, lost: Mapping[int, tuple[Status, str]]) -> Score:
-        """The score where the answers at these places do not count, with the status and the reason of each."""
+        """The score without the answers at these indices, each with its new status and the reason."""
         answers, status = self.answers.copy(), self.status.copy()
         for place, (ended, _) in lost.items():
             answers[place], status[place] = CANNOT_SAY, STATUS_CODES[ended]
@@ -128,8 +128,8 @@ class Score:
     ) -> Tally:
         """The tally of these rows, which are the cases `indices` (n,) of a source.
 
-        `exponents` are floor(log2) of the distances of the first rows to the nearest other position; `skipped` rows
-        were not asked. `wrong` are the judged cases where some of them are excused.
+        `exponents` are floor(log2) of the distances of the first rows to the nearest other position. `skipped` rows
+        were not asked. `wrong` are the judged cases if some of them are excused.
         """
         cases = list(self.judged()) if wrong is None else wrong
         status = self.status.copy()
@@ -141,18 +141,18 @@ class Score:
             counts=counts_of(status) | ({Status.SKIPPED.value: skipped} if skipped else {}),
             mistakes={mistake.value: number for mistake, number in self.mistakes.items()},
             dangerous=sum(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in cases),
-            octaves=by_exponent(exponents, status[: len(exponents)]),
+            exponents=by_exponent(exponents, status[: len(exponents)]),
             size_bins=tally.by_size(self.rows, amiss),
             place_bins=tally.by_place(self.rows, amiss),
             worst=self._worst(cases, source, indices),
-            faults=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
+            unanswered=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
         )
 
     def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> tuple[WorstCase, ...]:
         ranked = sorted(wrong, key=lambda case: (_exponent_first(case), case.index))
         chosen = ranked[:WORST_KEPT]
         if chosen and math.isfinite(chosen[-1].exponent):
-            # Among the cases of the last exponent that is kept, only the numbers themselves tell which are the worst.
+            # Cases with the same exponent as the last one kept are compared by their exact numbers.
             last = _exponent_first(chosen[-1])
             chosen += [case for case in ranked[WORST_KEPT:] if _exponent_first(case) == last]
         measured = (
@@ -172,14 +172,14 @@ class Score:
 
 
 def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
-    """Score what became of rows (n, 7) with these true positions, int8 (n,)."""
+    """The score of rows (n, 7) with these true positions, int8 (n,)."""
     status = status_of(answered)
     status[judge.is_wrong(truth, answered.answers, criterion.question)] = STATUS_CODES[Status.WRONG]
     return Score(criterion, rows, truth, answered.answers, status, answered.reasons)
 
 
 def status_of(answered: Answered) -> StatusCodes:
-    """How each row ended as far as that is known before it is judged: RIGHT where there is an answer to be judged."""
+    """The status codes of rows before they are judged: RIGHT for each row with an answer."""
     status = _ENDED.take(answered.status)
     status[(answered.answers == CANNOT_SAY) & answered.answered] = STATUS_CODES[Status.ABSTAINED]
     return status
@@ -188,11 +188,11 @@ def status_of(answered: Answered) -> StatusCodes:
 def unanswered_cases(
     rows: Rows, status: StatusCodes, reasons: Mapping[int, str], source: CaseSource, indices: Indices
 ) -> tuple[UnansweredCase, ...]:
-    """The first of the rows in `reasons` of each status, as many as a record can show."""
+    """The first rows in `reasons` of each status, at most UNANSWERED_KEPT."""
     if not reasons:
         return ()
     places = np.sort(np.fromiter(reasons, dtype=np.intp, count=len(reasons)))
-    first = (places[status[places] == code][:FAULTS_KEPT].tolist() for code in set(status[places].tolist()))
+    first = (places[status[places] == code][:UNANSWERED_KEPT].tolist() for code in set(status[places].tolist()))
     return kept_unanswered(
         UnansweredCase(
             source.place(int(indices[place])),
@@ -207,7 +207,7 @@ def unanswered_cases(
 
 
 def as_slice(indices: Indices) -> slice | Indices:
-    """The indices as a slice, which copies nothing, where none is left out between the first and the last."""
+    """The indices as a slice, which copies nothing, if they are consecutive."""
     if not len(indices) or indices[-1] - indices[0] != len(indices) - 1:
         return indices
     return slice(int(indices[0]), int(indices[-1]) + 1)

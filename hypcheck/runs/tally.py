@@ -1,11 +1,8 @@
-"""Tallies of cases: counts by status, histograms over sizes and places, and the worst cases; they add up in any order.
+"""Tallies of cases: counts by status, histograms over sizes and places, and the worst cases.
 
-Where cases lie: counts over the sizes of the bodies and over the place of the centre, added up part by part.
-
-The record's line about one implementation and one family: counts, distances, bins and the worst cases.
-
-A Tally is what such a line says of some of the cases. Tallies of parts add up to that of the whole in any order: counts
-are sums, and which cases are kept with their rows depends on their places in the family, not on who was judged first.
+Tallies of parts add up to that of the whole in any order: counts are sums, and the cases that are kept with their rows
+depend on their places in the family, not on the order in which they were judged. A tally of all cases of a family
+becomes a line of the record.
 """
 
 from __future__ import annotations
@@ -29,7 +26,7 @@ from hypcheck.runs.judge import Criterion, Status
 Integers = NDArray[np.int64]
 
 FAR = 63
-"""The last bin of a place, which holds everything beyond it too."""
+"""The last bin of a place, which also holds all places beyond it."""
 
 _LEAST, _GREATEST = 2.0**-1000, 2.0**1000
 _DENSE = 1 << 16
@@ -41,7 +38,7 @@ def _nothing() -> Integers:
 
 @dataclass(frozen=True, eq=False)
 class Histogram:
-    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these did not end as right."""
+    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these are not RIGHT."""
 
     table: Integers = field(default_factory=_nothing)
 
@@ -64,7 +61,7 @@ class Histogram:
 def by_size(rows: Rows, amiss: Mask) -> Histogram:
     """Bins (⌊log2 α/b⌋, ⌊log2 γ/d⌋)."""
     sizes = rows[:, :4]
-    if len(rows) > 1 and (sizes == sizes[0]).all():  # of a scene with one of each
+    if len(rows) > 1 and (sizes == sizes[0]).all():  # rows of a scene
         (first, second, *_), *_ = by_size(rows[:1], amiss[:1]).as_lists()
         return Histogram.of_lists([[first, second, len(rows), int(np.count_nonzero(amiss))]])
     with np.errstate(all="ignore"):
@@ -89,7 +86,7 @@ def added(parts: Iterable[Histogram]) -> Histogram:
 
 
 def _radius(rows: Rows) -> NDArray[np.float64]:
-    """√(x² + y²); by the slower hypot where a square leaves the range of floats."""
+    """√(x² + y²), by the slower hypot if a square leaves the range of float64."""
     x, y = rows[:, 4], rows[:, 5]
     square = x * x + y * y
     if len(rows) and _LEAST < square.min() and square.max() < _GREATEST:
@@ -129,10 +126,10 @@ def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
 
 
 WORST_KEPT = 3
-"""Worst cases a group keeps with their rows; its counts are always exact."""
+"""A group keeps so many worst cases with their rows; its counts are always exact."""
 
-FAULTS_KEPT = 5
-"""Cases that ended without an answer that counts which a group keeps with the reason; more, one of each status."""
+UNANSWERED_KEPT = 5
+"""A group keeps so many cases without a valid answer, with their reasons; more if it has more different statuses."""
 
 STATUSES = tuple(Status)
 STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate(STATUSES)}
@@ -140,12 +137,12 @@ STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate
 
 StatusCodes = NDArray[np.int8]
 CasePlace = tuple[int, int]
-"""Where a case stands in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
+"""The place of a case in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
 
 
 @dataclass(frozen=True, slots=True)
 class WorstCase:
-    """A wrong or tolerated answer that is kept: `error` is its backward error."""
+    """A wrong or tolerated answer that is kept with its row; `error` is its backward error."""
 
     place: CasePlace
     case: str
@@ -164,7 +161,7 @@ class WorstCase:
 
 @dataclass(frozen=True, slots=True)
 class UnansweredCase:
-    """A case that ended without an answer that counts, and why."""
+    """A case without a valid answer, and the reason."""
 
     place: CasePlace
     case: str
@@ -175,41 +172,43 @@ class UnansweredCase:
 
 @dataclass(frozen=True)
 class Tally:
-    """What came of some cases of one family.
+    """The results of some cases of one family, in numbers.
 
-    `counts` are by status, skipped rows among them though they are not `asked`; `mistakes` by what wrong and tolerated
-    answers mean; `dangerous` are wrong ones, beyond the tolerance and unexcused, that claim clear in contact; `octaves`
-    by the cases' own distance to the nearest other position, and there by status. `worst` and `faults` are in order.
+    `asked` does not include skipped rows. `counts` are by status, SKIPPED included. `mistakes` count wrong and
+    tolerated answers by kind. `dangerous` counts answers that claim clear in contact, beyond the tolerance and not
+    excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
+    `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
+    `unanswered` the first cases without a valid answer, by place.
     """
 
     asked: int = 0
     counts: Mapping[str, int] = field(default_factory=dict)
     mistakes: Mapping[str, int] = field(default_factory=dict)
     dangerous: int = 0
-    octaves: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    exponents: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     size_bins: Histogram = field(default_factory=Histogram)
     place_bins: Histogram = field(default_factory=Histogram)
     worst: tuple[WorstCase, ...] = ()
-    faults: tuple[UnansweredCase, ...] = ()
+    unanswered: tuple[UnansweredCase, ...] = ()
 
 
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
-    """The tally of all cases of these tallies, in whatever order they come."""
+    """The tally of all cases of these tallies, which may come in any order."""
     parts = tuple(tallies)
-    octaves: dict[str, Mapping[str, int]] = {}
+    exponents: dict[str, Mapping[str, int]] = {}
     for part in parts:
-        for key, counts in part.octaves.items():
-            octaves[key] = _added((octaves.get(key, {}), counts))
+        for key, counts in part.exponents.items():
+            exponents[key] = _added((exponents.get(key, {}), counts))
     return Tally(
         asked=sum(part.asked for part in parts),
         counts=_added(part.counts for part in parts),
         mistakes=_added(part.mistakes for part in parts),
         dangerous=sum(part.dangerous for part in parts),
-        octaves=octaves,
+        exponents=exponents,
         size_bins=added(part.size_bins for part in parts),
         place_bins=added(part.place_bins for part in parts),
         worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
-        faults=kept_unanswered(fault for part in parts for fault in part.faults),
+        unanswered=kept_unanswered(case for part in parts for case in part.unanswered),
     )
 
 
@@ -224,7 +223,7 @@ def group_line(
     spec: str | UnsetType = UNSET,
     failing: list[str] | UnsetType = UNSET,
 ) -> GroupLine:
-    """The record's line; of an implementation under test, whose SPEC it is and which statuses fail the run."""
+    """The record's line; for an implementation under test with its SPEC and the statuses that fail the run."""
     return GroupLine(
         method=method,
         spec=spec,
@@ -236,7 +235,7 @@ def group_line(
         asked=tallied.asked,
         counts=dict(sorted(tallied.counts.items())),
         mistakes=dict(sorted(tallied.mistakes.items())),
-        octaves={key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
+        octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
         worst=[_worst_line(case, criterion) for case in tallied.worst],
@@ -246,10 +245,10 @@ def group_line(
 
 
 def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
-    """The faults of the record's line: the first of each status, and the first of all up to FAULTS_KEPT."""
-    first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
-    others = [fault for fault in tallied.faults if fault not in first]
-    chosen = [*first, *others[: max(0, FAULTS_KEPT - len(first))]]
+    """The unanswered cases of the record's line: the first of each status, then the first up to UNANSWERED_KEPT."""
+    first = {fault.status: fault for fault in reversed(tallied.unanswered)}.values()
+    others = [fault for fault in tallied.unanswered if fault not in first]
+    chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
     return [
         lines.FaultPart(case=fault.case, **row_fields(fault.row), status=fault.status, reason=fault.reason)
         for fault in sorted(chosen, key=lambda fault: fault.place)
@@ -264,15 +263,15 @@ def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
 
 
 def counts_of(status: StatusCodes) -> dict[str, int]:
-    """How many cases ended in each way."""
-    other = status[status != STATUS_CODES[Status.RIGHT]]  # few, as a rule
+    """The number of cases by status."""
+    other = status[status != STATUS_CODES[Status.RIGHT]]  # usually few
     numbers = np.bincount(other, minlength=len(STATUSES)).tolist()
     numbers[STATUS_CODES[Status.RIGHT]] = len(status) - len(other)
     return {name.value: number for name, number in zip(STATUSES, numbers, strict=True) if number}
 
 
 def by_exponent(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, dict[str, int]]:
-    """How many cases ended in each way, by floor(log2) of their distance to the nearest other position, ascending."""
+    """The number of cases by floor(log2) of their distance to the nearest other position, ascending, and by status."""
     table = {}
     for exponent in sorted(set(exponents.tolist())):  # np.unique would load numpy.ma
         key = str(int(exponent)) if math.isfinite(exponent) else str(exponent)
@@ -281,12 +280,12 @@ def by_exponent(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str
 
 
 def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, ...]:
-    """The first of each status, as many as a line can show of it."""
+    """The first cases of each status, at most UNANSWERED_KEPT."""
     kept: list[UnansweredCase] = []
     seen: Counter[str] = Counter()
     for fault in sorted(faults, key=lambda fault: fault.place):
         seen[fault.status] += 1
-        if seen[fault.status] <= FAULTS_KEPT:
+        if seen[fault.status] <= UNANSWERED_KEPT:
             kept.append(fault)
     return tuple(kept)
 

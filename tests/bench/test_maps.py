@@ -117,4 +117,4 @@ def test_methods_that_are_mapped_can_answer_many_rows():
         "fcl-point-1000",
     }
     assert not {name for name in error_maps.place_methods(found) if name.endswith("-c")}
-    assert builtin("mpmath-roots-15").most is not None
+    assert builtin("mpmath-roots-15").max_rows is not None

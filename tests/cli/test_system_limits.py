@@ -54,7 +54,7 @@ def test_an_implementation_is_asked_without_a_null_device(monkeypatch):
     some = rows(lucky=True)
     with open_implementation(command("right"), LIMITS) as it:
         assert it.classify(some).answers.tolist() == truth(some).tolist()
-        assert it._runs.session()._process._guard is not None
+        assert it._supervisor.session()._process._guard is not None
 
 
 WITHOUT_NULL = """

@@ -23,7 +23,7 @@ def rows():
 @pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
 def test_a_method_answers_its_question_with_allowed_answers(name, rows):
     method = builtin(name)
-    some = rows if method.most is None else rows[:: 1 + 10 * len(rows) // (method.most * 28)]
+    some = rows if method.max_rows is None else rows[:: 1 + 10 * len(rows) // (method.max_rows * 28)]
     answers = method.answer(some)
     assert answers.dtype == np.int8
     assert answers.shape == (len(some),)

@@ -68,7 +68,7 @@ def test_a_right_command_is_right_in_questions_of_every_size(form):
     some = rows(5000)
     expected = truth(some)
     with open_implementation(command("right", form), LIMITS) as it:
-        assert it.longest == (4096 if form == "text" else 65536)
+        assert it.max_batch == (4096 if form == "text" else 65536)
         for n, batch in ((50, 1), (5000, 77), (5000, 100_000), (5000, None)):
             answered = it.classify(some[:n], batch=batch)
             assert answered.answered.all()
@@ -119,7 +119,7 @@ def test_who_answers_ever_so_slowly_is_not_waited_for_for_ever():
     with open_implementation(command("steady", "0.45"), QUICK) as it:
         began = time.monotonic()
         with pytest.raises(FaultError) as caught:
-            it._runs.session().classify(rows(lucky=True))
+            it._supervisor.session().classify(rows(lucky=True))
         assert time.monotonic() - began < 10 * QUICK.timeout
     assert caught.value.outcome == Outcome.TIMEOUT
     assert re.search(r"1 of 40 answers, and hardly one more within 0.7 s", caught.value.reason)
@@ -201,7 +201,7 @@ def test_faults_of_memory_are_not_mended_by_restarts_of_others():
         assert first.answers.tolist() == truth(some).tolist()
         it.classify(some, batch=20)
         assert it.classify(some).answers.tolist() == (-truth(some)).tolist()
-        it.fresh()
+        it.use_fresh_process()
         assert it.classify(some).answers.tolist() == truth(some).tolist()
         assert it.restarts == 0
 

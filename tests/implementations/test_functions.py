@@ -57,7 +57,7 @@ def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, se
 
 
 def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
-    monkeypatch.setattr("hypcheck.implementations.implementation.FAULTS", 200)
+    monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 200)
     with open_implementation(function("floats"), LIMITS) as it:
         answered = it.classify(rows(3000), batch=150)
     assert answered.status.tolist() == [Outcome.PROTOCOL] * 200 + [Outcome.NOT_RUN] * 2800
@@ -68,7 +68,7 @@ def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
 @pytest.mark.parametrize(("name", "restarts"), [("leaves", 3), ("raises", 0)])
 def test_what_faults_come_to_is_the_same_however_many_rows_are_asked_at_once(monkeypatch, name, restarts):
     """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
-    monkeypatch.setattr("hypcheck.implementations.implementation.FAULTS", 4)
+    monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 4)
     some = rows(9000, lucky=True)
     some[[70, 500, 1300, 5000, 5003, 8000]] = rows()[UNLUCKY]
     found = []
@@ -177,7 +177,7 @@ def test_addresses_differ_from_call_to_call_so_that_one_that_minds_them_is_seen(
     some = rows()
     with open_implementation(function("minds_alignment"), LIMITS) as it:
         answers = {bytes(it.classify(some).answers) for _ in range(8)}
-        it.fresh()
+        it.use_fresh_process()
         afresh = it.classify(some).answers
     assert len(answers) == 2
     assert bytes(afresh) in answers
@@ -187,7 +187,7 @@ def test_memory_of_a_function_ends_with_its_process():
     some = rows()
     with open_implementation(function("stateful"), LIMITS) as it:
         seen = [it.classify(some).answers.tolist() for _ in range(5)]
-        it.fresh()
+        it.use_fresh_process()
         assert it.classify(some).answers.tolist() == truth(some).tolist()
     assert seen == [truth(some).tolist()] * 3 + [(-truth(some)).tolist()] * 2
 
@@ -252,7 +252,7 @@ def test_many_rows_are_answered_in_their_order(tmp_path):
     some = rows(1 << 19)
     with open_implementation(f"python:{tmp_path / 'sign.py'}:f") as it:
         assert it.classify(some).answers.tolist() == np.sign(some[:, 4]).tolist()
-        assert it.stands == it.longest
+        assert it.proven_batch == it.max_batch
 
 
 def test_a_change_of_the_rounding_mode_is_seen_and_undone():

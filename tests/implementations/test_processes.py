@@ -336,7 +336,7 @@ from hypcheck.implementations.session import Limits
 from hypcheck.implementations.implementation import open_implementation
 from tests.tools.miniatures import rows
 with open_implementation(sys.argv[1], Limits(timeout=0.7, restarts=0)) as it:
-    print(it._runs.session()._process._popen.pid, flush=True)
+    print(it._supervisor.session()._process._popen.pid, flush=True)
     answered = it.classify(rows(lucky=True))
     print(answered.count(Outcome.ANSWERED), *answered.reasons.values(), flush=True)
 """

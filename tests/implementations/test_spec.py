@@ -109,11 +109,11 @@ def test_a_built_in_method_goes_through_the_same_door():
         assert answered.answered.all()
         assert answered.answers.tolist() == classify(some).tolist()
         assert it.time(some, 3) > 0
-        it.fresh()
+        it.use_fresh_process()
         assert it.classify(some, batch=7).answers.tolist() == answered.answers.tolist()
         assert (it.description.name, it.description.precision) == ("fast", "float64")
         assert it.description.domain == builtin("fast").domain
-        assert (it.most, it.scene, it.restarts, it.stderr) == (None, False, 0, ())
+        assert (it.max_rows, it.scene, it.restarts, it.stderr) == (None, False, 0, ())
     with pytest.raises(InputError, match="there is no built-in method 'slow'"):
         open_implementation("builtin:slow")
 
@@ -134,7 +134,7 @@ def test_questions_grow_while_answers_are_quick_and_shrink_when_they_are_not():
             (0.01, 600),
         ):
             it._adapt(seconds, rows)
-            sizes.append(it.stands)
+            sizes.append(it.proven_batch)
     assert sizes == [64, 64, 1024, 2048, 2048, 32768, 16384, 8192, 8192, 9600]
 
 

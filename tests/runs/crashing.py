@@ -52,8 +52,8 @@ def require_one_crash(found, expected, culprit, reason):
     counts = dict(found.tallies["uniform"].counts)
     assert counts.pop("crash") == len(culprit)
     assert counts == expected.tallies["uniform"].counts
-    assert found.again == expected.again
-    fault = found.tallies["uniform"].faults[0]
+    assert found.retest == expected.retest
+    fault = found.tallies["uniform"].unanswered[0]
     assert fault.case == culprit.name(0)
     assert reason in fault.reason
 

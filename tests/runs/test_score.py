@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import score
@@ -93,6 +93,6 @@ def test_a_tally_names_worst_cases_and_faults_by_their_indices_in_the_family(sco
     counts = {"right": 1, "wrong": 3, "tolerated": 1, "abstained": 1, "crash": 1, "skipped": 5}
     assert (tally.asked, tally.counts) == (7, counts)
     assert tally.mistakes == {"false-contact": 2, "false-clear": 2}
-    assert tally.octaves == {"-inf": {"tolerated": 1}, "-1": {"right": 1, "wrong": 1}}
+    assert tally.exponents == {"-inf": {"tolerated": 1}, "-1": {"right": 1, "wrong": 1}}
     assert {case.case for case in tally.worst} == {"mine/11", "mine/13", "mine/14"}
-    assert tally.faults == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)
+    assert tally.unanswered == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
@@ -136,6 +136,6 @@ def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
         UnansweredCase((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why")
         for n, name in enumerate(("crash", "timeout"))
     ]
-    tallied = tally.merged_tally([tally.Tally(faults=(fault,)) for fault in reversed(faults)])
+    tallied = tally.merged_tally([tally.Tally(unanswered=(fault,)) for fault in reversed(faults)])
     shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]

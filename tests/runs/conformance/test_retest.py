@@ -27,7 +27,7 @@ def test_answers_carried_over_from_moment_to_moment_are_found(tmp_path):
     assert code == 1
     (line,) = record.of(GroupLine)
     assert set(line.counts) == {"right", "nondeterministic"}
-    assert "when asked again, in another order and question" in line.faults[0].reason
+    assert "when asked again, in another order and batch" in line.faults[0].reason
     assert gate(tmp_path, "carries_over", "--families", "flight", "--count", "0")[0] == 0  # nothing moves
 
 

@@ -85,14 +85,14 @@ def test_results_add_up_in_any_order():
         rules = rules_of(it)
         some = [step for step in steps_of(["ring-neighbourhood", "ring"], 375) if not isinstance(step, RetestStep)]
         parts = [perform_task(step, it, rules, it.allowance).result for step in some]
-    whole = saved_result(replace(merged_result(parts), open=()))
+    whole = saved_result(replace(merged_result(parts), pending=()))
     assert len(parts) == 8
     assert whole.tallies["ring-neighbourhood"].counts["wrong"] > 100
     assert whole.excusing == [0]
     for seed in range(4):
         mixed = [parts[place] for place in np.random.default_rng(seed).permutation(len(parts))]
         together = merged_result([merged_result(mixed[:3]), merged_result(mixed[3:])])
-        assert saved_result(replace(together, open=())) == whole
+        assert saved_result(replace(together, pending=())) == whole
 
 
 def test_the_order_in_which_steps_are_performed_makes_no_difference():
@@ -107,8 +107,8 @@ def test_the_order_in_which_steps_are_performed_makes_no_difference():
         rules = rules_of(it)
         begun = RunState(it.allowance)
         expected = last(in_this_process(some, it, rules, begun))
-        assert expected.total.again.asked > 300
-        assert not expected.total.open
+        assert expected.total.retest.asked > 300
+        assert not expected.total.pending
         for seed in range(3):
             assert saved_state(last(perform_steps(some, shuffled(it, rules, seed), begun))) == saved_state(expected)
 
@@ -118,13 +118,13 @@ def test_every_open_case_is_asked_again_in_one_part_of_one_round():
     with RIGHT.open() as it:
         rules = rules_of(it)
         left = [
-            perform_task(step, it, rules, it.allowance).result.open
+            perform_task(step, it, rules, it.allowance).result.pending
             for step in some
             if isinstance(step, cases.CaseChunk)
         ]
         total = last(in_this_process(some, it, rules)).total
-    assert total.again.asked == sum(len(each.indices) for found in left for each in found)
-    assert not total.open
+    assert total.retest.asked == sum(len(each.indices) for found in left for each in found)
+    assert not total.pending
 
 
 def test_restarts_are_used_up_in_order_whoever_is_first():
@@ -259,7 +259,7 @@ def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_ch
         stopped = next(number for number, state in enumerate(passed) if state.left.over)
         assert some[stopped] == drawn[1]
         behind = sum(len(step) for step in some[stopped + 1 :] if isinstance(step, cases.CaseChunk))
-        waiting = sum(len(each.indices) for each in passed[stopped].total.open)
+        waiting = sum(len(each.indices) for each in passed[stopped].total.pending)
         assert only.counts["not-run"] == behind + waiting
         assert passed[-1].left.over == "not asked: 3 restarts are used up; the last row at fault: " + next(
             fault.reason for fault in only.faults if fault.status == "crash"
@@ -298,9 +298,9 @@ def test_a_result_comes_back_from_json():
         cases.CaseChunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8)
     )
     result = CasesResult(
-        tallies={"some": tally.Tally(3, {"wrong": 3}, worst=(worst,), faults=(fault,))},
-        open=(left,),
-        again=Retest(asked=9, within=2, beyond=1),
+        tallies={"some": tally.Tally(3, {"wrong": 3}, worst=(worst,), unanswered=(fault,))},
+        pending=(left,),
+        retest=Retest(asked=9, within=2, beyond=1),
         outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),
         excusing=frozenset({0, 7}),
         named=frozenset({"ring-0007"}),
@@ -309,7 +309,7 @@ def test_a_result_comes_back_from_json():
         decoded(json.loads(json.dumps(as_json(saved_result(result)), allow_nan=False)), SavedResult)
     )
     assert again.tallies["some"].worst == (worst,)
-    assert repr(again.tallies["some"].faults) == repr((fault,))
+    assert repr(again.tallies["some"].unanswered) == repr((fault,))
     assert saved_result(again) == saved_result(result)
     for name in ("again", "outcomes", "excusing", "named"):
         assert getattr(again, name) == getattr(result, name)

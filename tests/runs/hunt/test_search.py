@@ -11,9 +11,9 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, FixedSizes
-from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import hunt as hunting
 from hypcheck.runs import hunt_search
@@ -264,7 +264,7 @@ def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_h
     crashing = Hunt(target_of("double", Double(nothing, Outcome.CRASH)), HuntPlan(None, 1000))
     run_hunt(crashing)
     assert crashing.counts == {"crash": 1000}
-    assert crashing.faults[Status.CRASH].reason == "it left"
+    assert crashing.unanswered[Status.CRASH].reason == "it left"
     assert crashing.answered == 0
     lost = Hunt(target_of("double", Double(nothing, Outcome.NOT_RUN)), HuntPlan(None, 1000))
     run_hunt(lost)

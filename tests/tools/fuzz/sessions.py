@@ -76,7 +76,7 @@ def _command(data: bytes, random: Random) -> CommandSession:
     session._limits, session._sequence, session._known = LIMITS, 0, None
     session._process = Pipe(data, random)
     session.description = session._meet()
-    session.longest = 65536
+    session.max_batch = 65536
     return session
 
 

@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.implementations.asking import Answered
+from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Limits, Outcome
 from hypcheck.truth import exact
 

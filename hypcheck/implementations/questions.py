@@ -11,7 +11,7 @@ from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, Rows, invalid
 from hypcheck.implementations.description import Description, allowed
 from hypcheck.implementations.frames import UNWRITTEN
-from hypcheck.implementations.session import FaultError, IntegerAnswers, NoMoreRunsError, Outcome, Runs
+from hypcheck.implementations.session import FaultError, GivenUpError, IntegerAnswers, Outcome, Supervisor
 
 ALONE = 4096
 """Rows that are asked one by one to find one that ends the process; of more, parts of this size are asked first.
@@ -54,7 +54,7 @@ class Answered:
         return int(np.count_nonzero(self.status == outcome))
 
 
-class Vocabulary:
+class AllowedAnswers:
     """The answers that an implementation may give, by its question and by whether it refuses invalid rows."""
 
     def __init__(self, description: Description) -> None:
@@ -82,23 +82,23 @@ class Vocabulary:
         return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
 
 
-class Asking:
+class RowQuestions:
     """One call's rows and what became of them so far."""
 
-    def __init__(self, rows: Rows, runs: Runs, vocabulary: Vocabulary, *, by_scene: bool) -> None:
+    def __init__(self, rows: Rows, supervisor: Supervisor, allowed_answers: AllowedAnswers, *, by_scene: bool) -> None:
         n = len(rows)
         self._rows = rows
-        self._runs = runs
-        self._vocabulary = vocabulary
+        self._supervisor = supervisor
+        self._allowed = allowed_answers
         self._by_scene = by_scene
         self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
 
     def ask(self, start: int, stop: int) -> None:
-        """Ask rows [start, stop), together if that succeeds; raises OverError where no further process may begin."""
+        """Ask rows [start, stop), together if that succeeds; raises GivenUpError where no further process may begin."""
         try:
             self._question(start, stop)
         except FaultError as fault:
-            self._search(start, stop, fault, self._runs.note(fault))
+            self._search(start, stop, fault, self._supervisor.note_fault(fault))
 
     def leave(self, reason: str) -> None:
         """Note for the rows of which nothing was found out why that is so."""
@@ -107,13 +107,13 @@ class Asking:
 
     def _question(self, start: int, stop: int) -> None:
         rows = self._rows[start:stop]
-        answers = self._runs.session().classify(rows, by_scene=self._by_scene)
-        self._runs.heard()
-        understood = self._vocabulary.understood(answers, rows)
+        answers = self._supervisor.session().classify(rows, by_scene=self._by_scene)
+        self._supervisor.note_answer()
+        understood = self._allowed.understood(answers, rows)
         self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
         self.result.status[start:stop] = Outcome.ANSWERED
         for index in np.flatnonzero(~understood).tolist():
-            self._mark(start + index, Outcome.PROTOCOL, self._vocabulary.trouble_with(int(answers[index])))
+            self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index])))
 
     def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
         """Find the rows at fault by asking parts, and parts of those that fail.
@@ -124,7 +124,7 @@ class Asking:
             self._charge(start, fault, reason)
             return
         among = f"in a question of {stop - start} rows"
-        found, restarts = False, self._runs.left.restarts
+        found, restarts = False, self._supervisor.left.restarts
         size = _part(stop - start, fatal=fault.fatal)
         for first in range(start, stop, size):
             last = min(first + size, stop)
@@ -132,20 +132,20 @@ class Asking:
                 self._question(first, last)
             except FaultError as part:
                 found = True
-                self._search(first, last, part, self._runs.note(part))
-            except NoMoreRunsError:
+                self._search(first, last, part, self._supervisor.note_fault(part))
+            except GivenUpError:
                 if not found:
                     unknown = f"{among}, and it could not be asked further to find which: {reason}"
                     self._mark(first, fault.outcome, unknown)
                 raise
         if not found:
             self._charge(start, fault, f"{among} from this one on, though not in smaller ones: {reason}")
-        elif fault.fatal and self._runs.left.restarts == restarts:  # its parts failed, but ended no process
-            self._runs.charge(fault, reason)
+        elif fault.fatal and self._supervisor.left.restarts == restarts:  # its parts failed, but ended no process
+            self._supervisor.charge_fault(fault, reason)
 
     def _charge(self, index: int, fault: FaultError, reason: str) -> None:
         self._mark(index, fault.outcome, reason)
-        self._runs.charge(fault, reason)
+        self._supervisor.charge_fault(fault, reason)
 
     def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
         self.result.answers[index] = CANNOT_SAY
