@@ -1,7 +1,7 @@
 """The executor of a cluster: tasks go to a dask scheduler, and a plugin holds the implementation on each worker.
 
-Dask gives the tasks of a worker that ended to others. It blames every task that was with such a worker, and gives up
-one that was blamed too often: that is a lost task here.
+If a worker dies, dask reassigns its tasks. It blames every task that the worker had, and gives a task up that it has
+blamed too often; such a task raises WorkerLost here.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ if TYPE_CHECKING:
     from distributed import Future as DaskFuture
 
 TICK = 1.0
-PATIENCE = 60
-"""Seconds without a result between two looks at the cluster, and looks in turn that may find no worker there."""
+MAX_CHECKS_WITHOUT_WORKER = 60
+"""Seconds without a result between two checks of the cluster, and how many checks in a row may find no worker."""
 
 SILENCES = 6
-"""Looks in turn to which the scheduler may say nothing within the seconds of CONNECT."""
+"""So many checks in a row may get no answer from the scheduler within CONNECT seconds."""
 
 IDLE = 60.0
-"""Seconds after which an implementation that nobody asks is closed; it is opened again when somebody does."""
+"""Seconds after which an idle implementation is closed; the next task opens it again."""
 
 _CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 
@@ -62,36 +62,36 @@ Arguments = ParamSpec("Arguments")
 
 @contextmanager
 def execution_on_cluster(
-    client: Client, opening: ImplementationOpener, rules: JudgingRules, implementation: Implementation
+    client: Client, opener: ImplementationOpener, rules: JudgingRules, implementation: Implementation
 ) -> Iterator[TaskExecution]:
-    """Performs tasks on the workers of a cluster. Tasks raise what a worker cannot begin with.
+    """Perform tasks on the workers of a cluster. A task raises the error of a worker that cannot start.
 
-    Raises InputError where the cluster is lost; so do tasks.
+    Raises InputError if the cluster is lost; so do tasks.
     """
     name = f"hypcheck-{uuid.uuid4().hex}"
-    files, module = files_to_ship(opening.spec), module_sha256(opening.spec)
-    job = ClusterJob(name, opening, rules, implementation.declared, files, module, code_fingerprint())
+    files, module = files_to_ship(opener.spec), module_sha256(opener.spec)
+    job = ClusterJob(name, opener, rules, implementation.declared, files, module, code_fingerprint())
     workers = max(1, sum(client.nthreads().values()))
     with DaskExecutor(client) as executor:
         try:
             call_with_timeout(CONNECT, lambda: client.register_plugin(ImplementationPlugin(job)))
         except TimeoutError:
-            raise executor.lost(f"it said nothing within {CONNECT} s") from None
+            raise executor.lost(f"it did not answer within {CONNECT} s") from None
         function = partial(_perform_opened, name)
         try:
             yield TaskExecution(executor, function, workers, implementation.allowance, implementation.max_rows, rules)
         finally:
             executor.shutdown()
             if client.status == "running":
-                with suppress(Exception):  # it is lost meanwhile, and workers close what is idle by themselves
+                with suppress(Exception):  # if it is lost meanwhile, workers close idle implementations themselves
                     call_with_timeout(CLOSE, lambda: client.unregister_worker_plugin(name))
 
 
 class DaskExecutor(Executor):
-    """Futures of a dask client as those of the standard library.
+    """A dask client as an executor of the standard library.
 
-    A future raises WorkerLost where dask gave its call up, and InputError where the cluster is lost: its scheduler is
-    gone or says nothing, or has had no worker for too long.
+    A future raises WorkerLost if dask gave its call up, and InputError if the cluster is lost: the scheduler is gone or
+    does not answer, or has had no worker for too long.
     """
 
     def __init__(self, client: Client) -> None:
@@ -110,7 +110,7 @@ class DaskExecutor(Executor):
         try:
             there = self._client.submit(function, *args, **kwargs, key=f"hypcheck-{uuid.uuid4().hex}", pure=False)
         except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
-            future.set_exception(self.lost("its scheduler is not there any more"))
+            future.set_exception(self.lost("its scheduler is gone"))
             return future
         self._running[future] = there
         future.add_done_callback(self._forget)
@@ -118,15 +118,15 @@ class DaskExecutor(Executor):
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: ARG002
-        """Forget the calls that are left; it is not waited for them."""
+        """Cancel the calls that are left, without waiting for them."""
         self._over.set()
         for future in list(self._running):
             future.cancel()
         self._running.clear()
 
     def lost(self, why: str) -> InputError:
-        """That there is no cluster any more."""
-        kept = "what was finished is in the record"
+        """The error that the cluster is lost."""
+        kept = "the record holds the finished part"
         return InputError(f"--cluster {self._address}: the cluster was lost: {why}; {kept}")
 
     def _forget(self, future: Future[Any]) -> None:
@@ -135,7 +135,7 @@ class DaskExecutor(Executor):
             there.release()  # does not wait for the scheduler, as cancel() would
 
     def _settle(self, future: Future[Any], there: DaskFuture) -> None:
-        """Give a future what became of its call."""
+        """Set the result or the error of a future."""
         if future.done():
             return
         try:
@@ -143,25 +143,25 @@ class DaskExecutor(Executor):
         except KilledWorker as killed:
             self._fail(future, WorkerLost("workers of the cluster", deaths=killed.allowed_failures + 1))
         except (*_CANCELLED, asyncio.TimeoutError, OSError) as error:
-            if there.status == "error":  # what the call itself ended with
+            if there.status == "error":  # the call itself raised it
                 self._fail(future, error)
             elif not isinstance(error, asyncio.TimeoutError):
-                self._fail(future, self.lost("its scheduler is not there any more"))
-            else:  # it was computed, but its worker is gone with it: it is computed again
+                self._fail(future, self.lost("its scheduler is gone"))
+            else:  # it was computed, but its worker is gone: dask computes it again
                 there.add_done_callback(partial(self._settle, future))
-        except Exception as error:  # noqa: BLE001 - it is raised where the result is asked for
+        except Exception as error:  # noqa: BLE001 - future.result() raises it
             self._fail(future, error)
         else:
             self._news.set()
-            with suppress(InvalidStateError):  # it was cancelled meanwhile
+            with suppress(InvalidStateError):  # if it was cancelled meanwhile
                 future.set_result(result)
 
     def _fail(self, future: Future[Any], error: BaseException) -> None:
-        with suppress(InvalidStateError):  # it was cancelled meanwhile
+        with suppress(InvalidStateError):  # if it was cancelled meanwhile
             future.set_exception(error)
 
     def _watch(self) -> None:
-        """Fail all calls where the cluster is lost: looked at while no results come."""
+        """Fail all calls if the cluster is lost, which is checked while no results arrive."""
         alone = silent = 0
         while not self._over.wait(TICK):
             if self._news.is_set() or not self._running:
@@ -175,11 +175,11 @@ class DaskExecutor(Executor):
             except TimeoutError:
                 silent += 1
             except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
-                trouble = "its scheduler is not there any more"
+                trouble = "its scheduler is gone"
             if silent == SILENCES:
-                trouble = f"its scheduler has said nothing for {SILENCES * CONNECT} s"
-            if alone > PATIENCE:
-                trouble = f"it has had no worker for {PATIENCE} s"
+                trouble = f"its scheduler has not answered for {SILENCES * CONNECT} s"
+            if alone > MAX_CHECKS_WITHOUT_WORKER:
+                trouble = f"it has had no worker for {MAX_CHECKS_WITHOUT_WORKER} s"
             if trouble:
                 for future in list(self._running):
                     self._fail(future, self.lost(trouble))
@@ -187,71 +187,71 @@ class DaskExecutor(Executor):
 
 @dataclass(frozen=True)
 class ClusterJob:
-    """What every worker is told once: a name for the run, what to open and how to judge.
+    """What every worker gets once: a name for the run, what to open, and how to judge.
 
-    `declared` is what the implementation must say of itself, `files` what its SPEC names, `module` the sha256 of its
-    Python module, `ours` that of our own files.
+    `declared` is the description that the implementation must declare. `files` are the files that its SPEC names,
+    `module` is the sha256 of its Python module, `fingerprint` that of hypcheck's own files.
     """
 
     name: str
-    opening: ImplementationOpener
+    opener: ImplementationOpener
     rules: JudgingRules
     declared: Description
     files: tuple[ShippedFile, ...]
     module: str
-    ours: str
+    fingerprint: str
 
 
 class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
-    """Given to the workers that there are and to those that come later."""
+    """The plugin that dask gives to all workers, present and later ones."""
 
     def __init__(self, job: ClusterJob) -> None:
         self.job = job
         self.name = job.name
 
     def setup(self, worker: Worker) -> None:
-        """Be ready; nothing is opened yet."""
+        """Prepare the worker; the first task opens the implementation."""
         keep_freed_memory()
         _OPENED[self.name] = _OpenedImplementation(self.job, worker.address, Path(worker.local_directory))
 
     def teardown(self, worker: Worker) -> None:  # noqa: ARG002 - dask's signature
-        """End what was opened."""
-        held = _OPENED.pop(self.name, None)
-        if held is not None:
-            held.close()
+        """Close the implementations of the worker."""
+        opened = _OPENED.pop(self.name, None)
+        if opened is not None:
+            opened.close()
 
 
 def _perform_opened(name: str, task: Task, allowance: Allowance) -> TaskResult:
-    """Perform a task of the run of that name, on whichever worker this is.
+    """Perform a task of the run with that name on this worker.
 
-    Raises InputError where the worker, which may have come later, has other files than where the run began.
+    Raises InputError if the worker has other files of hypcheck than the machine where the run began.
     """
-    if name not in _OPENED:  # it could not be made ready
+    if name not in _OPENED:  # its setup failed
         raise InputError(f"worker {get_worker().address} {OTHER_FILES}")
     return _OPENED[name].perform(task, allowance)
 
 
 class _OpenedImplementation:
-    """The implementations of one run on one worker, one for each task that is performed at the same time."""
+    """The implementations of one run on one worker: as many as it performs tasks at the same time."""
 
     def __init__(self, job: ClusterJob, worker: str, home: Path) -> None:
         self._job = job
         self._worker = worker
         self._home = home
         self._folder: Path | None = None
-        self._opening: ImplementationOpener | None = None
+        self._opener: ImplementationOpener | None = None
         self._idle: list[tuple[float, Implementation]] = []
         self._lock = threading.Lock()
         self._over = threading.Event()
         threading.Thread(target=self._close_idle, name="hypcheck-idle", daemon=True).start()
 
     def perform(self, task: Task, allowance: Allowance) -> TaskResult:
-        """Perform it with an implementation that is idle, or another one."""
+        """Perform a task with an idle implementation, or a new one."""
         with self._lock:
             implementation = self._idle.pop()[1] if self._idle else None
-            opening = self._opening = self._opening or self._opening_here()
+            opener = self._opener = self._opener or self._opener_here()
         if implementation is None:
-            implementation = self._open(opening)
+            implementation = self._open(opener)
         try:
             done = perform_task(task, implementation, self._job.rules, allowance)
         except BaseException as error:
@@ -263,8 +263,8 @@ class _OpenedImplementation:
             self.close()
         return done
 
-    def _open(self, opening: ImplementationOpener) -> Implementation:
-        implementation = opening.open()
+    def _open(self, opener: ImplementationOpener) -> Implementation:
+        implementation = opener.open()
         try:
             require_same_description(implementation, self._job.declared)
         except HypcheckError as error:
@@ -272,16 +272,16 @@ class _OpenedImplementation:
             raise
         return implementation
 
-    def _opening_here(self) -> ImplementationOpener:
+    def _opener_here(self) -> ImplementationOpener:
         job = self._job
-        spec = job.opening.spec
-        if code_fingerprint() != job.ours:
+        spec = job.opener.spec
+        if code_fingerprint() != job.fingerprint:
             raise InputError(f"worker {self._worker} {OTHER_FILES}")
         if job.module:
             require_same_sha256(f"the module of {spec}", job.module, module_sha256(spec), self._worker)
         try:
             self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
-            return replace(job.opening, spec=spec_on_worker(spec, job.files, self._worker, self._folder))
+            return replace(job.opener, spec=spec_on_worker(spec, job.files, self._worker, self._folder))
         except OSError as error:
             reason = system_reason(error)
             raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
@@ -295,7 +295,7 @@ class _OpenedImplementation:
                 implementation.close()
 
     def close(self) -> None:
-        """End them now, and remove the files that were put here."""
+        """End all implementations now, and remove the files that were sent here."""
         self._over.set()
         with self._lock:
             idle, self._idle = self._idle, []
@@ -306,4 +306,4 @@ class _OpenedImplementation:
 
 
 _OPENED: dict[str, _OpenedImplementation] = {}
-"""By the name of the run: a task runs in any thread that is free, and finds here what its worker holds."""
+"""By the name of the run: a task runs in any free thread, and finds the implementations of its worker here."""

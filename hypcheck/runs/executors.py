@@ -40,9 +40,9 @@ from hypcheck.runs.schedule import (
 
 LOOK_S = 1.0
 STOPPED_LOOKS = 60
-"""Seconds between two looks at a process, and looks in turn that may find it stopped before it is ended.
+"""Seconds between two checks of a process, and how many checks in a row may find it stopped before it is killed.
 
-While the machine sleeps this process does not look either, so that the time does not count.
+While the machine sleeps, this process does not check either, so that time does not count.
 """
 
 _KEPT = 24 << 20
@@ -54,26 +54,27 @@ Initializer = Callable[[], AbstractContextManager[object]]
 
 
 class SerialExecutor(Executor):
-    """Calls each function in this process, when it is submitted."""
+    """Calls each function in this process at once."""
 
     def submit(
         self, function: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
     ) -> Future[Result]:
-        """Call it; a future that is done."""
+        """A future that is done."""
         future: Future[Result] = Future()
         try:
             future.set_result(function(*args, **kwargs))
-        except Exception as error:  # noqa: BLE001 - it is raised where the result is asked for
+        except Exception as error:  # noqa: BLE001 - future.result() raises it
             future.set_exception(error)
         return future
 
 
 class WorkerPool(Executor):
-    """Processes, each with a thread here that starts it, hands it one call after the other, and replaces it if it ends.
+    """A pool of processes. For each, a thread starts the process, sends it calls, and replaces it if it ends.
 
-    A process begins by entering what `initializer` returns, and leaves that when it ends. A future raises WorkerLost
-    where its process ended, and what a process could not begin with. Unlike the standard library's pool this one needs
-    no semaphores, knows which task a process ended with, and ends processes that were stopped by a signal.
+    A process starts by entering the context that `initializer` returns, and leaves the context at its end. A future
+    raises WorkerLost if its process ended, and the error of a process that could not start. Unlike the pool of the
+    standard library, this one needs no semaphores, knows the call with which a process ended, and kills processes that
+    a signal has stopped.
     """
 
     def __init__(self, workers: int, initializer: Initializer) -> None:
@@ -83,7 +84,7 @@ class WorkerPool(Executor):
         self._over = False
         self.processes: list[SpawnProcess] = []
         self._threads = [threading.Thread(target=self._drive, daemon=True) for _ in range(workers)]
-        with interrupts_held():  # threads hold them as long as they live, and so do the processes that they start
+        with interrupts_held():  # for the lifetime of the threads, and in the processes that they start
             for thread in self._threads:
                 thread.start()
 
@@ -93,13 +94,13 @@ class WorkerPool(Executor):
     def submit(
         self, function: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
     ) -> Future[Result]:
-        """Put a call in line for the first process that is free."""
+        """Queue a call for the first process that is free."""
         future: Future[Result] = Future()
         self._calls.put((future, partial(function, *args, **kwargs)))
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Let the processes leave once all calls are done; with `cancel_futures`, end them now."""
+        """Let the processes end once all calls are done; with `cancel_futures`, end them now."""
         with suppress(Empty):
             while cancel_futures:
                 waiting = self._calls.get_nowait()
@@ -112,19 +113,19 @@ class WorkerPool(Executor):
         with self._lock:
             self._over = True
             for process in self.processes:
-                process.kill()  # one that was stopped would not hear that it is to end
+                process.kill()  # a stopped process would not end by itself
         for thread in self._threads:
             thread.join()
 
     def _drive(self) -> None:
-        """Hand out calls to one process, and to others in its place, until there are no more."""
+        """Send calls to one process, and to its replacements, until there are no more."""
         worker = self._begun()
         while (call := self._calls.get()) is not None:
             future, function = call
             if future.set_running_or_notify_cancel():
                 try:
                     future.set_result(worker.call(function))
-                except BaseException as error:  # noqa: BLE001 - it is raised where the result is asked for
+                except BaseException as error:  # noqa: BLE001 - future.result() raises it
                     future.set_exception(error)
                     worker = self._begun()
         worker.leave()
@@ -132,7 +133,7 @@ class WorkerPool(Executor):
     def _begun(self) -> _Worker:
         """A worker that is ready, or knows why it is not."""
         worker = _Worker()
-        with self._lock:  # the threads share what multiprocessing knows of its children
+        with self._lock:  # multiprocessing's list of children is shared by the threads
             if not self._over:
                 worker.start()
                 self.processes += [] if worker.process is None else [worker.process]
@@ -141,7 +142,7 @@ class WorkerPool(Executor):
 
 
 class _Worker:
-    """A process, and the line to it; or why there is none, which each call raises then."""
+    """A process and the connection to it; or the reason why there is no process, which each call raises."""
 
     def __init__(self) -> None:
         self.process: SpawnProcess | None = None
@@ -149,7 +150,7 @@ class _Worker:
 
     def start(self) -> None:
         """Start the process."""
-        context = get_context("spawn")  # forking would copy locks, threads and open pipes
+        context = get_context("spawn")  # a fork would copy locks and open pipes
         self._line, theirs = context.Pipe()
         process = context.Process(target=_serve, args=(theirs,), daemon=True)
         try:
@@ -161,7 +162,7 @@ class _Worker:
             theirs.close()
 
     def prepare(self, initializer: Initializer) -> None:
-        """Let the process begin."""
+        """Let the process enter its context."""
         try:
             self.call(initializer)
         except WorkerLost as lost:
@@ -170,22 +171,22 @@ class _Worker:
             self._trouble, self.process = error, None
 
     def call(self, function: Callable[[], object]) -> object:
-        """What the function returns in the process. Raises what it raises, and WorkerLost where the process ends."""
+        """The function's result in the process. Raises what the function raises, and WorkerLost if the process ends."""
         if self.process is None:
             raise self._trouble
         try:
             self._line.send(function)
             self._wait(self.process)
-            said = self._line.recv()
+            result = self._line.recv()
         except (EOFError, OSError):
             self.process.join()
             raise WorkerLost("processes of hypcheck", f"the last with status {self.process.exitcode}") from None
-        if isinstance(said, BaseException):
-            raise said
-        return said
+        if isinstance(result, BaseException):
+            raise result
+        return result
 
     def _wait(self, process: SpawnProcess) -> None:
-        """Wait until it says something, or has ended; end it where it was stopped by a signal and is not continued."""
+        """Wait until the process replies or ends; kill it if a signal stopped it and it is not continued."""
         stopped = 0
         while not self._line.poll(LOOK_S):
             stopped = stopped + 1 if is_stopped(process) else 0
@@ -201,70 +202,71 @@ class _Worker:
 
 
 def _serve(line: Connection) -> None:
-    """In a process of a pool: enter the first call's context, and answer others, until the parent is done or gone."""
+    """The program of a process of the pool: enter a context, then answer calls until the parent is done or gone."""
     end_with_parent()
     try:
         with line.recv()():
             line.send(None)
             while (call := line.recv()) is not None:
                 line.send(call())
-        os._exit(0)  # Python takes a tenth of a second to clear what ends with the process anyway
+        os._exit(0)  # Python's own exit takes a tenth of a second longer
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
     except HypcheckError as error:
         line.send(error)
-    except Exception as error:  # noqa: BLE001 - whatever it is, the parent tells it
+    except Exception as error:  # noqa: BLE001 - the parent reports any error
         line.send(limit_reached(error) or RuntimeError(f"{type(error).__name__}: {error}\n{traceback.format_exc()}"))
 
 
 def is_stopped(process: SpawnProcess) -> bool:
-    """Whether a child of this process was stopped by a signal, as by kill -STOP, where the system tells."""
+    """Whether a signal has stopped a child of this process, such as kill -STOP; False if the system cannot tell."""
     if sys.platform != "linux" or process.pid is None:
         return False
     try:
         return os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOHANG | os.WNOWAIT) is not None
-    except ChildProcessError:  # it has ended
+    except ChildProcessError:  # it ended
         return False
 
 
 @contextmanager
 def execution_here(implementation: Implementation, rules: JudgingRules) -> Iterator[TaskExecution]:
-    """Performs tasks in this process."""
+    """Perform tasks in this process."""
     function = partial(perform_task, implementation=implementation, rules=rules)
     yield TaskExecution(SerialExecutor(), function, 0, implementation.allowance, implementation.max_rows, rules)
 
 
 @contextmanager
 def execution_in_pool(
-    workers: int, opening: ImplementationOpener, rules: JudgingRules, implementation: Implementation
+    workers: int, opener: ImplementationOpener, rules: JudgingRules, implementation: Implementation
 ) -> Iterator[TaskExecution]:
-    """Performs tasks in so many processes, each of which opens the implementation for itself.
+    """Perform tasks in so many processes, each of which opens the implementation.
 
-    Of itself it must say in each of them what it says here: tasks raise StartError otherwise.
+    A task raises StartError if the implementation describes itself otherwise there than here.
     """
-    setup = partial(_opened, opening, rules, implementation.declared, code_fingerprint(), dict(loaded_vectors()))
-    limits, most = implementation.allowance, implementation.max_rows
+    setup = partial(_opened, opener, rules, implementation.declared, code_fingerprint(), dict(loaded_vectors()))
     with WorkerPool(workers, setup) as executor:
-        yield TaskExecution(executor, _perform_opened, workers, limits, most, rules)
+        yield TaskExecution(
+            executor, _perform_opened, workers, implementation.allowance, implementation.max_rows, rules
+        )
 
 
-_OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("held")
-"""What a process of a pool holds."""
+_OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("opened")
+"""The implementation that a process of a pool has opened, and the rules by which its answers are judged."""
 
 
 @contextmanager
 def _opened(
-    opening: ImplementationOpener,
+    opener: ImplementationOpener,
     rules: JudgingRules,
     declared: Description,
-    program: str,
+    fingerprint: str,
     frozen: dict[str, FrozenVectors],
 ) -> Iterator[None]:
     keep_freed_memory()
     keep_loaded(frozen)
-    if code_fingerprint() != program:
+    if code_fingerprint() != fingerprint:
         raise WorkersLostError("hypcheck's own files were changed while an implementation was asked")
-    with opening.open() as implementation:
+    with opener.open() as implementation:
         require_same_description(implementation, declared)
         _OPENED.set((implementation, rules))
         yield
@@ -275,15 +277,16 @@ def _perform_opened(task: Task, allowance: Allowance) -> TaskResult:
 
 
 def require_same_description(implementation: Implementation, declared: Description) -> None:
-    """Raise StartError where it says something else of itself than it is declared to."""
+    """Raise StartError if the implementation declares another description than before."""
     if implementation.declared != declared:
-        raise StartError(f"{implementation.spec} describes itself otherwise in each process")
+        raise StartError(f"{implementation.spec} declares another description in each process")
 
 
 def keep_freed_memory() -> None:
-    """Let the C library keep what numpy frees.
+    """Let the C library keep memory that numpy frees.
 
-    glibc gives memory back to the system at once, and clears it again when it is asked for the next time, unless so
-    large a piece was freed before; arrays that come and go would cost more time so than what is computed in them.
+    glibc returns large pieces of memory to the system at once, and the system clears them when they are allocated
+    again. That would cost more time than the work on short-lived arrays. glibc keeps all pieces up to the size of the
+    largest one that was ever freed.
     """
     np.empty(_KEPT, dtype=np.uint8)

@@ -1,18 +1,11 @@
-"""The cases of a self-check, what the formulas get wrong on them (exactly and in floats), and the map of the tower.
+"""The plan and the cases of a self-check, the errors of formulas on them, and the map of the cooling tower.
 
-What one run of verify is asked to do, and the cases it works on.
+A mathematical finding is an error in exact rationals, where only the formula can be wrong. Known findings have a
+reason. A complete run fails if a finding is not known, and if a known finding no longer occurs.
 
-What the formulas get wrong: in exact rationals, where only the mathematics is to blame, and in floats.
-
-The known mathematical findings: what the paper's procedures get wrong even in exact arithmetic, and why.
-
-The list bites both ways in a complete run: a finding that is not listed and a listed one that no longer occurs both
-fail it.
-
-The picture of a scene: exact positions over the half plane (r, z), and where a method in low precision is wrong.
-
-On it one sees the ring: at z = 0, far outside the surface, the discriminant vanishes, and a plain evaluation says
-"contact" where nothing is (docs/mathematics.md, "The ring").
+The map shows exact positions over the half plane (r, z), and the errors of a method in low precision. It shows the
+ring: at z = 0, far outside the surface, the discriminant vanishes, and a plain evaluation says "contact" though both
+bodies are far apart (docs/mathematics.md, "The ring").
 """
 
 from __future__ import annotations
@@ -49,12 +42,12 @@ ALL_BUT_EXTREME: tuple[str, ...] = ()
 
 @dataclass(frozen=True, slots=True)
 class SelfCheckPlan:
-    """Options of a run.
+    """Options of a self-check.
 
-    `families` are names and globs (none: all but the extreme ones); `count` rows of each family are asked of the exact
-    and the nearest-point oracle, and `judged` of them of every method; `roots` and `meshes` rows in all go to the two
-    slow oracles, and `exact_formulas` rows of each family through every formula in exact arithmetic. `workers` 1 means
-    this process.
+    `families` are names and globs (none: all families but the extreme ones). The exact and the nearest-point oracle are
+    asked `count` rows of each family, and every method the first `judged` of these. The two slow oracles are asked
+    `roots` and `meshes` rows in total. Every formula is evaluated in exact arithmetic on `exact_formulas` rows of each
+    family. `workers` processes ask the oracles; 1 means this process.
     """
 
     families: tuple[str, ...] = ALL_BUT_EXTREME
@@ -70,7 +63,7 @@ class SelfCheckPlan:
 
     @property
     def complete(self) -> bool:
-        """Whether this is the whole default run, whose findings must be exactly the known ones."""
+        """Whether this run has at least the cases of the default, so that its findings must be the known ones."""
         default = SelfCheckPlan()
         enough = min(self.count, self.exact_formulas) >= default.exact_formulas
         return enough and (self.families, self.seed) == (default.families, default.seed)
@@ -95,18 +88,13 @@ class FamilyBatch:
         return case_id(self.family, self.seed, index)
 
     def place(self, index: int) -> CasePlace:
-        """Where a case stands in the family."""
+        """The place of a case in the family."""
         return 1, index
 
 
-def self_check_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
-    """The families of the plan. Raises InputError naming one that does not exist."""
-    return select(plan.families)
-
-
-def batches(plan: SelfCheckPlan, families: Sequence[Family]) -> tuple[FamilyBatch, ...]:
-    """The cases of every family, decided exactly."""
-    return tuple(_batch(family, plan) for family in families)
+def batches(plan: SelfCheckPlan) -> tuple[FamilyBatch, ...]:
+    """The cases of every family, decided exactly. Raises InputError naming a family that does not exist."""
+    return tuple(_batch(family, plan) for family in select(plan.families))
 
 
 def _batch(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
@@ -117,9 +105,9 @@ def _batch(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
 
 
 def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckPlan) -> list[FindingLine]:
-    """What the formula gets wrong in exact rationals on the first rows of a family, by side of its regimes and cause.
+    """A formula's errors in exact rationals on the first rows of a family, by cause, inside and outside its regimes.
 
-    No reason is given yet. `asked` counts the rows on that side.
+    The lines have no reason yet. `asked` counts all rows inside or outside the regimes.
     """
     head = batch.head(plan.exact_formulas)
     given = [int(answers(formula, EXACT, dict(zip(COLUMNS, row, strict=True)))) for row in head.rows.tolist()]
@@ -144,7 +132,7 @@ def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckP
 
 
 def cause(batch: FamilyBatch, place: int) -> str:
-    """What is special about a case, among the things that printed statements are known to forget."""
+    """The special property of a case that printed statements often forget."""
     if batch.decisions[place].kind is Kind.EXTERIOR_RING:
         return "ring"
     g = cubic(Pair.from_row(batch.rows[place].tolist()).lengths)
@@ -154,7 +142,7 @@ def cause(batch: FamilyBatch, place: int) -> str:
 
 
 def exact_formulas() -> list[Formula]:
-    """The formulas that answer from a pair alone, so that exact arithmetic can run them."""
+    """The formulas that take a pair only, so that exact arithmetic can evaluate them."""
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
@@ -177,7 +165,7 @@ KNOWN_FINDINGS_FILE = "known_findings.toml"
 
 @dataclass(frozen=True, slots=True)
 class KnownFinding:
-    """An expected finding: the formula errs inside its stated regimes for this cause, on these families at least."""
+    """An expected finding: the formula errs inside its stated regimes for this cause, at least on these families."""
 
     formula: str
     cause: str
@@ -186,7 +174,7 @@ class KnownFinding:
 
 
 def known_findings() -> tuple[KnownFinding, ...]:
-    """The shipped list."""
+    """The known findings in the list that hypcheck installs."""
     text = resources.files("hypcheck.runs").joinpath(KNOWN_FINDINGS_FILE).read_text(encoding="utf-8")
     entries = toml.parsed(text, KNOWN_FINDINGS_FILE)["finding"]
     return tuple(
@@ -195,7 +183,7 @@ def known_findings() -> tuple[KnownFinding, ...]:
 
 
 def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | None:
-    """The listed reason of a finding; None for an unknown one, and where the formula claims nothing."""
+    """The reason of a known finding; None if it is unknown, or outside the regimes of the formula."""
     if not finding.inside:
         return None
     matching = (each.reason for each in known if (each.formula, each.cause) == (finding.formula, finding.cause))
@@ -203,9 +191,9 @@ def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | Non
 
 
 def finding_drift(found: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
-    """How the findings differ from the known ones, a sentence each.
+    """A sentence for each difference between the findings and the known ones.
 
-    Errors inside the stated regimes whose cause is not listed; and, in a complete run, listed ones that did not occur.
+    These are errors inside the stated regimes that are not known and, in a complete run, known ones that did not occur.
     """
     unknown = [each for each in found if each.inside and reason_for(each, known) is None]
     sentences = [
@@ -224,12 +212,12 @@ def finding_drift(found: Sequence[FindingLine], known: Sequence[KnownFinding], *
 
 
 LETTERS = {1: "e", 0: "c", -1: "i"}
-"""A grid point's letter: exterior, contact, interior; upper case where the method is wrong."""
+"""The letter of a grid point: exterior, contact, interior; upper case if the method is wrong there."""
 
 
 @dataclass(frozen=True, slots=True)
 class MapPanel:
-    """A rectangle of the half plane in metres, with `columns` × `lines` grid points."""
+    """A rectangle of the half plane (r, z) in metres, with `columns` × `lines` grid points."""
 
     name: str
     sizes: tuple[float, float, float, float]
@@ -243,7 +231,7 @@ TOWER = (2.0, 17.8, 0.25, 0.15)
 
 
 def tower_panels() -> tuple[MapPanel, MapPanel]:
-    """The cooling tower and its surroundings, and the neighbourhood of its ring, at r* = b √((c²+1)(a²+c²))/c."""
+    """The cooling tower with its surroundings, and the surroundings of its ring, at r* = b √((c²+1)(a²+c²))/c."""
     alpha, gamma, b, d = TOWER
     a, c = alpha / b, gamma / d
     ring = b * np.sqrt((c * c + 1) * (a * a + c * c)) / c

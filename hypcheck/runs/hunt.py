@@ -1,11 +1,8 @@
-"""A hunt: its plan, the rows that were asked, and the wrong answers found, grouped by the surfaces they lie on.
+"""A hunt: its plan, the rows that were asked, and the wrong answers found, grouped by the surfaces next to them.
 
-Where a row stands, in words: which of the surfaces that arguments trip over it is on, or next to.
-
-a = α/b, c = γ/d, r and z are the centre's distances from the axis and from the waist's plane in spheroid radii, and
-c1, c2, Δ belong to the cubic g (docs/mathematics.md).
-
-A hunt: what is hunted and for how long, how rows are asked, and which wrong answers were found.
+Wrong answers are likely on a few surfaces, where an argument about the pair changes its case. In their names a = α/b,
+c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii of the spheroid; c1,
+c2 and Δ belong to the cubic g (docs/mathematics.md).
 """
 
 from __future__ import annotations
@@ -33,13 +30,14 @@ from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.draw import Integers
 
 NEAR = Fraction(1, 64)
-"""Relative to the lengths at hand, what counts as next to a surface."""
+"""A row within this relative distance is next to a surface."""
 
 RING_NEAR, RING_CLEAR = 1 / 8, 1 / 256
-"""In spheroid radii, what counts as next to the ring, where that is clear enough not to be a border of contact too."""
+"""A row within RING_NEAR spheroid radii is next to the ring, if the ring's clearance is at least RING_CLEAR radii, so
+that the ring is not a border of contact."""
 
 LONG = 2.0**17
-"""A ratio α/b or γ/d beyond this, or below 1/LONG, is a long one."""
+"""A ratio α/b or γ/d above LONG or below 1/LONG is a long ratio."""
 
 OPEN = "no special place"
 RING = "the ring"
@@ -54,10 +52,10 @@ _OTHER_DOUBLE_ROOTS = (
 
 @dataclass(frozen=True, slots=True)
 class RowPlace:
-    """Where a row stands, for three purposes.
+    """The surfaces next to a row.
 
-    `kind` is the surface that explains most, by which findings are told apart; `words` name every surface; `cause` is
-    the same for rows that fail alike: a special surface, or else the regime.
+    `kind` is the surface that explains most; findings are grouped by it. `words` name every surface. `cause` is equal
+    for rows that fail for the same reason: a special surface, or else the regime.
     """
 
     kind: str
@@ -123,7 +121,7 @@ def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _off_the_ring(lengths: Lengths) -> float | None:
-    """About how far the centre is from the circle z = 0, r² = (c² + 1)(a² + c²)/c², in radii; None where not near."""
+    """The rough distance of the centre from the circle z = 0, r² = (c² + 1)(a² + c²)/c², in radii; None if not near."""
     a, c = _a(lengths), _c(lengths)
     if not a < c * c < math.inf:
         return None
@@ -154,17 +152,20 @@ def _ratio(top: int, bottom: int) -> float:
 
 
 PIECE = 4096
-"""Rows between two looks at the clock, at most; it begins with the square root of that."""
+"""At most so many rows between two checks of the budget; the first piece has the square root of that."""
 
 PIECE_SECONDS = 0.5
-"""The seconds that a piece may take before the next ones are made smaller."""
+"""If a piece takes longer, in seconds, the next pieces are smaller."""
 
 _ANSWERED = (Status.RIGHT, Status.WRONG, Status.ABSTAINED)
 
 
 @dataclass(frozen=True, slots=True)
 class HuntPlan:
-    """How long to hunt: seconds, queries, or whichever ends first; None is no limit. `seed` fixes all the rest."""
+    """The budget of a hunt in seconds, in queries, or in both, of which the first ends it; None is no limit.
+
+    `seed` determines the rows.
+    """
 
     seconds: float | None = 60.0
     queries: int | None = None
@@ -175,8 +176,8 @@ class HuntPlan:
 class HuntTarget:
     """An implementation with its SPEC, the criterion by which it is judged, and the domain in which it is asked.
 
-    `options` are the command line's, as name and value, that stand for what it declares: reports repeat them.
-    `extreme`: it is asked at the ends of the float formats too, where it has not declared otherwise.
+    `options` are options of the command line, as name and value, that replace what it declares; reports repeat them.
+    If `extreme`, it is also asked at the ends of the float formats, unless its domain excludes them.
     """
 
     spec: str
@@ -187,11 +188,11 @@ class HuntTarget:
     extreme: bool = False
 
     def claimed(self, rows: Rows) -> Indices:
-        """The places of the rows that the implementation claims to answer."""
+        """The indices of the rows that the implementation claims to answer."""
         return claimed(rows, self.domain, self.criterion.precision, extreme=self.extreme)
 
     def ask(self, rows: Rows) -> Score:
-        """The score of rows, which are asked now."""
+        """Ask these rows; their score."""
         answered = self.implementation.classify(rows)
         return score(rows, judge.exact_positions(rows), answered, self.criterion)
 
@@ -204,18 +205,18 @@ def target_of(
     tolerance: Fraction = DEFAULT_TOLERANCE,
     options: tuple[tuple[str, str], ...] = (),
 ) -> HuntTarget:
-    """The implementation as it describes itself; `regimes`, where given, stand for those it declares.
+    """The target with the implementation's own description; `regimes`, if given, replace those it declares.
 
-    Raises InputError where a regime is unknown or the tolerance negative.
+    Raises InputError if a regime is unknown or the tolerance is negative.
     """
-    said = implementation.description
-    domain = said.domain if regimes is None else replace(said.domain, regimes=regimes)
-    return HuntTarget(spec, implementation, Criterion(said.question, said.precision, tolerance), domain, options)
+    used = implementation.description
+    domain = used.domain if regimes is None else replace(used.domain, regimes=regimes)
+    return HuntTarget(spec, implementation, Criterion(used.question, used.precision, tolerance), domain, options)
 
 
 @dataclass(frozen=True, slots=True)
 class HuntFinding:
-    """A wrong answer, how far off it is (`error`, and in units u), where it stands, and what came upon it."""
+    """A wrong answer, its backward error (also in units u), the surfaces next to its row, and what found it."""
 
     case: WrongCase
     error: float
@@ -226,7 +227,7 @@ class HuntFinding:
 
 @dataclass(slots=True)
 class FindingCluster:
-    """Wrong answers of one kind: how many were met, beyond tolerance and within it, and the worst."""
+    """Wrong answers of one kind: the worst, and how many were found beyond the tolerance and within it."""
 
     worst: HuntFinding
     beyond: int = 0
@@ -234,7 +235,7 @@ class FindingCluster:
 
 
 ClusterKey = tuple[Mistake, Position, str]
-"""What tells kinds of wrong answers apart: the mistake, the truth, and the kind of place."""
+"""The kind of a wrong answer: the mistake, the truth, and the kind of the row's place."""
 
 
 @dataclass(slots=True)
@@ -245,7 +246,7 @@ class HuntFindings:
     clusters: dict[ClusterKey, FindingCluster] = field(default_factory=dict)
 
     def add(self, cases: Iterable[WrongCase], source: str) -> None:
-        """Take in judged cases that one stratum or one search came upon."""
+        """Add judged cases that one stratum or one search found."""
         for case in cases:
             place = place_of(Pair.from_row(case.row))
             key = (case.mistake, case.truth, place.kind)
@@ -262,7 +263,7 @@ class HuntFindings:
                 cluster.tolerated += 1
 
     def worst_first(self) -> list[FindingCluster]:
-        """The clusters with an answer beyond tolerance, the worst first."""
+        """The clusters with an answer beyond the tolerance, the worst first."""
         beyond = [cluster for cluster in self.clusters.values() if cluster.beyond]
         return sorted(beyond, key=lambda cluster: finding_rank(cluster.worst), reverse=True)
 
@@ -274,7 +275,7 @@ def measured_finding(case: WrongCase, criterion: Criterion, place: RowPlace, sou
 
 
 def finding_rank(finding: HuntFinding) -> tuple[bool, float]:
-    """What makes one finding worse than another: beyond tolerance, then the backward error."""
+    """The order of findings: beyond the tolerance or not, then the backward error."""
     return finding.case.status is Status.WRONG, finding.error
 
 
@@ -284,10 +285,11 @@ def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
 
 @dataclass
 class Hunt:
-    """A hunt as it goes on: what was found, how the rows that were asked ended, and the first fault of each status.
+    """The state of a hunt.
 
-    A tolerated answer counts as wrong. `piece` is how many rows are asked next; `barren` says that a whole round of
-    strata had no row that is claimed.
+    `counts` are rows by status; a tolerated answer counts as wrong. `unanswered` is the first case of each status
+    without a valid answer. `piece` is the number of rows to ask next. `barren` says that the implementation claimed no
+    row of a whole round of strata.
     """
 
     target: HuntTarget
@@ -309,31 +311,31 @@ class Hunt:
 
     @property
     def answered(self) -> int:
-        """Rows with an answer, "cannot say" among them."""
+        """Rows with an answer, "cannot say" included."""
         return sum(self.counts[status.value] for status in _ANSWERED)
 
     @property
     def seconds(self) -> float:
-        """Since the start."""
+        """Seconds since the start."""
         return time.monotonic() - self.started
 
     @property
     def spent(self) -> float:
-        """The part of the budget that is spent, 1 where all of it is."""
+        """The part of the budget that is spent, at most 1."""
         queries = self.asked / self.plan.queries if self.plan.queries else 0.0
         time_gone = self.seconds / self.plan.seconds if self.plan.seconds else 0.0
         return min(1.0, max(queries, time_gone))
 
     @property
     def over(self) -> bool:
-        """Whether the budget is spent, there is nothing to ask, or the implementation cannot be asked any more."""
+        """Whether the budget is spent, there is nothing to ask, or the implementation was given up."""
         return self.spent >= 1 or self.barren or Status.NOT_RUN in self.unanswered
 
 
 def ask_rows(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
-    """The wrong answers among those that the target gives to the claimed rows; their `index` counts the given rows.
+    """The target's wrong answers to the rows that it claims; their `index` is that of the given rows.
 
-    With `ladders`, (n,) numbers, only the last wrong one of each number is judged and given back.
+    With `ladders`, (n,) numbers, only the last wrong answer of each number is judged and returned.
     """
     places = run.target.claimed(rows)
     if run.plan.queries is not None:

@@ -1,26 +1,20 @@
-"""The search of a hunt: thin strata of rows first, then local search around the worst wrong answers.
+"""The search of a hunt: thin strata of rows first, then alternately local search and more of the strata.
 
-Bringing rows to the border of contact, where wrong answers are small, and leaving it by steps of known size.
+A stratum is a thin set of rows on which an argument about the pair changes its case. Each family of vectors is one:
+tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the
+regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each
+other and with the border of contact: rows exactly on them, and rows very close. An implementation with fixed sizes is
+asked only the families for these sizes.
 
-The position is monotone in every input (docs/mathematics.md, "Monotone in every input"), so along a factor on one
-length, or on x and y together, it changes twice at most, and a change is found by bisection on exact positions.
+Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
+(docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
+y together.
 
-Where to look first: thin sets of rows on which an argument about the pair changes its case.
-
-Each family of the casebook is one: tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the
-axis, the waist, the borders of the regimes, long ratios. To these come the crossings of four surfaces, z = 0, r = 0,
-a = 1 and c² = a, with one another and with the border of contact: on them exactly, and a hair beside.
-
-Whoever was made for given sizes is asked the families that are made for these, and nothing else.
-
-Local search: from a wrong answer to worse ones next to it, by a pattern search with halving steps.
-
-A climber stands on a row. Its neighbours have one of the six unknowns multiplied by 1 ± step (the logarithms of the
-sizes are what is searched), or stand on one of the surfaces exactly. Where floats fail they mostly do so in a thin
-layer at the border of contact, which a plain step would leave; so each neighbour is asked as it is and also brought to
-the border, and a ladder of ever larger steps off it is asked: the farthest rung with a wrong answer counts.
-
-The hunt: the strata first, then by turns local search around the worst that was found and more of the strata.
+Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
+have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
+Floats mostly fail in a thin layer at the border of contact, which a plain step would leave. Therefore each neighbour is
+asked, and also brought to the border, with a ladder of growing steps away from it: the farthest rung with a wrong
+answer counts.
 """
 
 from __future__ import annotations
@@ -49,15 +43,15 @@ MOVERS: dict[str, tuple[int, ...]] = {
     "b": (2,),
     "d": (3,),
 }
-"""What can be multiplied by one factor to reach the border, with its columns: the unknowns of a pair."""
+"""The unknowns of a pair with their columns; multiplied by one factor, each can reach the border of contact."""
 
 REACH = 2.0**12
-"""Factors from 1/REACH to REACH are looked at."""
+"""Factors from 1/REACH to REACH are tried."""
 
-OCTAVES = 46
-"""Rows are put up to 2^(OCTAVES − 1) ulp of the factor away from the border."""
+EXPONENTS = 46
+"""Rows are moved up to 2^(EXPONENTS − 1) ulp of the factor away from the border."""
 
-RUNGS = 4 ** np.arange(OCTAVES // 2, dtype=np.int64)
+RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
 """The rungs of a ladder, in ulp of the factor."""
 
 
@@ -70,22 +64,22 @@ def columns_of(movers: NDArray[np.str_]) -> Mask:
 
 
 def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
-    """The rows with the masked columns multiplied by each row's factor; what is beyond float64 becomes infinite."""
+    """The rows with the masked columns multiplied by each row's factor; numbers beyond float64 become infinite."""
     with np.errstate(all="ignore"):
         return np.where(mask, rows * factor[:, None], rows)
 
 
 def border_factors(rows: Rows, mask: Mask, far: Mask) -> Floats:
-    """The factor just before the position changes, (n,); NaN where it does not change within REACH.
+    """The factor just before the position changes, (n,); NaN if it does not change within REACH.
 
-    Of two changes the one at the greater factor is taken where `far` says so.
+    Of two changes the one with the greater factor is taken for the rows in `far`.
     """
     low, high = np.full(len(rows), 1 / REACH), np.full(len(rows), REACH)
     at_low, at_high = _positions(moved(rows, mask, low)), _positions(moved(rows, mask, high))
     changes = (at_low != at_high) & (at_low != UNUSABLE) & (at_high != UNUSABLE)
     rows, mask, far = rows[changes], mask[changes], far[changes]
     at_low, at_high = at_low[changes], at_high[changes]
-    # Halving bit patterns is halving the logarithm at first and the factor itself at the end.
+    # To halve bit patterns halves the logarithm at first, and the factor itself at the end.
     below, above = low[changes].view(np.int64), high[changes].view(np.int64)
     while (above - below).max(initial=0) > 1:
         middle = below + (above - below) // 2
@@ -101,7 +95,7 @@ UNUSABLE = 3
 
 
 def _positions(rows: Rows) -> Positions:
-    """Exact positions, and UNUSABLE where a length left the range of float64."""
+    """Exact positions, and UNUSABLE if a length left the range of float64."""
     usable = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
     found = np.full(len(rows), UNUSABLE, dtype=np.int8)
     found[usable] = float_filter.positions(rows[usable])
@@ -109,18 +103,18 @@ def _positions(rows: Rows) -> Positions:
 
 
 def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
-    """Each row brought to a border by its mover and off again by a random rung; rows without a border are left out."""
+    """Each row moved to a border by its mover, then away by a random rung; rows without a border are left out."""
     mask = columns_of(movers)
     factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
-    rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, OCTAVES - 1)).astype(np.int64)
+    rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, EXPONENTS - 1)).astype(np.int64)
     found = np.isfinite(factors)
     return moved(rows[found], mask[found], stepped(factors[found], rungs[found]))
 
 
 def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
-    """All rungs of every row that has a border, and the number of the ladder that each belongs to.
+    """All rungs of every row that has a border, and the number of the ladder of each rung.
 
-    Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs follow each other away from it.
+    Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs are ordered away from the border.
     """
     owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * len(RUNGS))
     steps = np.tile(np.concatenate([RUNGS, -RUNGS]), len(owners) // (2 * len(RUNGS)))
@@ -134,25 +128,25 @@ SURFACES = {
     "a = 1": ("alpha",),
     "c² = a": ("alpha",),
 }
-"""The four surfaces, and what cannot be moved without leaving each."""
+"""The four surfaces, each with the mover that would leave it."""
 
 CROSSING_BLOCK = 96
-"""Rows of a crossing made at a time: coming to the border costs more than a question."""
+"""Rows of a crossing that are made at a time: to reach the border costs more than a question."""
 
 VERSION = 1
-"""Of the crossings' generator: part of its seed."""
+"""The version of the generator of crossings, part of its seed."""
 
 
 @dataclass(frozen=True, slots=True)
 class HuntStratum:
-    """A set of rows: `rows(seed, number)` is its block of some rows with that number, all valid."""
+    """A set of rows: `rows(seed, number)` is its block with that number, of valid rows."""
 
     name: str
     rows: Callable[[int, int], Rows]
 
 
 def strata(settings: tuple[FixedSizes, ...] = ()) -> tuple[HuntStratum, ...]:
-    """All strata, the casebook's families first; where there are given sizes alone, the families made for them."""
+    """All strata, the families of vectors first; with fixed sizes only the families for them."""
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
@@ -169,7 +163,7 @@ def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
 
 
 def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
-    """At most n rows on, or a hair beside, these surfaces, each a random way off the border of contact."""
+    """At most n rows on these surfaces or very close, each at a random distance from the border of contact."""
     size = _sizes(draw, n, surfaces)
     height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
     radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
@@ -179,14 +173,14 @@ def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
 
 
 def _slack(draw: Draw, n: int, *, pinned: bool) -> Floats:
-    """What a distance is multiplied by: 1, or if it is to vanish 0 and 2⁻⁵⁰ … 2⁻³ by turns."""
+    """Factors of a distance: 1, or if `pinned` randomly 0 and 2⁻⁵⁰ … 2⁻³."""
     if not pinned:
         return np.ones(n)
     return np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -50, -3))
 
 
 def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
-    """Sizes of every regime; α = b, and α/b and γ/d the square of and the fraction itself, exactly or all but."""
+    """Sizes of every regime; on the surfaces α = b, or α/b is the square of γ/d, exactly or nearly."""
     top, bottom = np.floor(draw.log_uniform(n, 0, 12)), np.floor(draw.log_uniform(n, 0, 12))
     if "a = 1" in surfaces:
         top = bottom
@@ -199,12 +193,12 @@ def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
 
 
 def _nearly_one(draw: Draw, n: int) -> Floats:
-    """1, or 1 ± 2⁻⁵² … 2⁻³, by turns."""
+    """Factors 1 and 1 ± 2⁻⁵² … 2⁻³, at random."""
     return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
 
 
 def _movers(surfaces: tuple[str, ...]) -> list[str]:
-    """What can be moved to come to the border without leaving these surfaces."""
+    """The movers that reach the border without leaving these surfaces."""
     kept = {mover for surface in surfaces for mover in SURFACES[surface]}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]
 
@@ -221,14 +215,14 @@ _MOVES = [
     (3,),
     (4, 5),
     (6,),
-    (0, 2, 4, 5),  # the radial and the axial unit: nothing changes but the rounding
+    (0, 2, 4, 5),  # the radial and the axial unit of length: only the rounding changes
     (1, 3, 6),
 ]
 
 
 @dataclass(slots=True)
 class Climber:
-    """Where a search stands: the row, its backward error, and the step that is tried next."""
+    """The state of one local search: its row, the backward error there, and the next step."""
 
     row: Row
     error: float
@@ -236,15 +230,16 @@ class Climber:
 
     @property
     def resting(self) -> bool:
-        """Whether nothing worse was found down to the last step, or nothing can be."""
+        """Whether no worse answer was found down to the last step, or none can exist."""
         return self.step < LAST_STEP or not 0 < self.error < math.inf
 
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7) to be asked; the climber that each belongs to, and its ladder (a row on none is one of its own).
+    """Rows (n, 7) to ask; for each, (n,), the number of its climber and of its ladder.
 
-    The rungs of a ladder follow each other away from the border: of those with a wrong answer the last is the worst.
+    A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
+    wrong answer is the worst.
     """
 
     rows: Rows
@@ -253,8 +248,8 @@ class Neighbours:
 
 
 def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
-    """All that the climbers want to know next."""
-    with np.errstate(all="ignore"):  # what leaves float64 is not valid, and is not asked
+    """The neighbours of the climbers."""
+    with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
         around = [_around(climber) for climber in climbers]
     rows = np.concatenate(around)
     owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
@@ -288,15 +283,15 @@ FIRST_LOOK = 128
 """Rows of each stratum in the first round; whole blocks follow."""
 
 CLIMBERS_TOGETHER = 4
-"""Climbers at a time, each of a cluster of its own."""
+"""So many climbers are asked at the same time, each of another cluster."""
 
 Progress = Callable[[Hunt], object]
 
 
 def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
-    """Look for wrong answers until the budget is spent, and keep them in `run`; `progress` is told now and then.
+    """Search for wrong answers until the budget is spent, and keep them in `run`; `progress` is called now and then.
 
-    With a budget of queries alone, the same plan finds the same. What was found is there when the hunt is interrupted.
+    With a budget of queries only, the same plan finds the same answers. An interrupted hunt keeps its findings.
     """
     looking, climbing = _look(run), _climb(run)
     in_strata = 0
@@ -305,13 +300,13 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
         next(looking)
         in_strata += run.asked - before
         progress(run)
-        # Half of the questions go to each, once there is something to climb.
+        # Half of the rows go to each, once there is a wrong answer to start from.
         while not run.over and 2 * in_strata > run.asked and next(climbing):
             progress(run)
 
 
 def _look(run: Hunt) -> Iterator[None]:
-    """The strata without end: a first look at all of them, then block after block."""
+    """The strata, without end: first some rows of each, then block after block."""
     everywhere = strata(run.target.domain.settings)
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
@@ -333,7 +328,7 @@ def _take(run: Hunt, rows: Rows, source: str) -> None:
 
 
 def _climb(run: Hunt) -> Iterator[bool]:
-    """Local search around the worst of each cluster, a step of some climbers at a time; False where there are none."""
+    """Local search around the worst answer of each cluster, one step of some climbers at a time; False without any."""
     climbers: dict[ClusterKey, Climber] = {}
     number = 0
     while True:
@@ -350,9 +345,9 @@ def _climb(run: Hunt) -> Iterator[bool]:
 
 
 def _climbers(findings: HuntFindings, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
-    """The climbers whose turn it is: the longest step first, then the worst.
+    """The climbers to ask next: those with the longest step, then the worst.
 
-    A climber stands where its cluster's worst is, and begins anew with the first step where that has become worse.
+    A climber is at the worst answer of its cluster. It starts again with the first step when that has become worse.
     """
     found = sorted(findings.clusters.items(), key=lambda item: finding_rank(item[1].worst), reverse=True)
     for key, cluster in found:

@@ -1,9 +1,9 @@
-"""Judging answers: right or not, and if not, by how much, in one number for every precision.
+"""Judging answers: right or wrong, and the size of the error in one number for every precision.
 
-The backward error of a wrong answer is the infimum of the ε for which changing each input by a relative ε at most makes
-that very answer right (truth/backward_error.py), counted in units u of the precision that the implementation declares.
-Of a tilted spheroid it lies between two proved ends (truth/tilted/backward_error.py): the answer is wrong if the lower
-end exceeds the tolerance, tolerated if the upper end does not, and undecided otherwise.
+The backward error of a wrong answer is the infimum of all ε for which a relative change of each input by at most ε
+makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For a tilted
+spheroid it is bracketed by two proved ends (truth/tilted/backward_error.py): the answer is wrong if the lower end
+exceeds the tolerance, tolerated if the upper end does not, and undecided otherwise.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from hypcheck.truth.tilted.batch import positions as tilted_positions
 from hypcheck.truth.tilted.pair import TiltedLengths
 
 DEFAULT_TOLERANCE = Fraction(8)
-"""Units u of backward error that a run tolerates unless told otherwise."""
+"""The backward error in units u that a run tolerates by default."""
 
 
 class Status(str, Enum):
@@ -58,11 +58,11 @@ UNANSWERED = (
     Status.NONDETERMINISTIC,
     Status.NOT_RUN,
 )
-"""How a case ends that has no answer that counts; each fails a run."""
+"""The statuses of cases without a valid answer; each fails a run."""
 
 
 class Mistake(str, Enum):
-    """What a wrong answer means to whoever relies on it."""
+    """The kinds of wrong answers, by their consequence."""
 
     FALSE_CLEAR = "false-clear"  # dangerous: something is touched
     FALSE_CONTACT = "false-contact"  # an invisible wall
@@ -71,7 +71,7 @@ class Mistake(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """What an implementation is asked and how strictly: `question` of QUESTIONS, `precision` of PRECISIONS."""
+    """How answers are judged: the question (of QUESTIONS), the precision (of PRECISIONS), and the tolerance in u."""
 
     question: str = "position"
     precision: str = "float64"
@@ -93,10 +93,10 @@ class Criterion:
 
 @dataclass(frozen=True, slots=True)
 class WrongCase:
-    """A wrong answer: its place in the batch, the row, truth and answer, what it means, and how far off it is.
+    """A wrong answer: its index in the batch, the row, the truth, the answer, the kind of mistake, and its size.
 
-    `exponent` is floor(log2) of the backward error (−inf: 0, inf: no change is enough), of a tilted spheroid log2 of an
-    estimate of it; measured() gives the number.
+    `exponent` is floor(log2) of the backward error (−inf: it is 0; inf: no change is enough); for a tilted spheroid it
+    is log2 of an estimate. measured() gives the number itself.
     """
 
     index: int
@@ -133,13 +133,13 @@ def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criteri
 
 
 def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
-    """The wrong answers at these places of a batch, judged one after the other."""
+    """The wrong answers at these indices of a batch, judged in order."""
     guess = -10
     for index in wrong.tolist():
         case = _judged(index, rows[index].tolist(), int(answers[index]), criterion, guess)
         yield case
         if math.isfinite(case.exponent):
-            guess = int(case.exponent)  # neighbours in a family are wrong alike
+            guess = int(case.exponent)  # neighbours in a family have similar errors
 
 
 def measured(case: WrongCase, question: str) -> float:
@@ -237,9 +237,9 @@ def _status_of_tilted(
 
 
 def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:
-    """The positions, other than the truth, of which a wrong answer would have been right.
+    """The positions other than the truth for which a wrong answer would be right.
 
-    "No" to a one-sided question is right of two positions; from a clear one, contact is on the way to the other.
+    "No" to a question about one position is right for two; from a clear one, contact is nearer than the other.
     """
     if question == "position":
         return (Position(answer),)
@@ -252,7 +252,7 @@ def right_positions(truth: Position, answer: int, question: str) -> tuple[Positi
 
 
 def tolerated(lengths: Lengths, truth: Decision, targets: Iterable[Position], criterion: Criterion) -> bool:
-    """Whether a change of at most T units u makes one of the targets true: one exact decision each, no estimate."""
+    """Whether a change of at most T units u makes one of the targets true, by one exact decision for each target."""
     change = criterion.tolerance * criterion.unit
     if change == 0:
         return False
@@ -265,14 +265,14 @@ def tolerated(lengths: Lengths, truth: Decision, targets: Iterable[Position], cr
 
 
 def in_units(error: float, unit: Fraction) -> float:
-    """A backward error in units u; inf of the precision "exact", where nothing wrong is excused by rounding."""
+    """A backward error in units u; inf for the precision "exact", where rounding excuses no wrong answer."""
     if error in (0, math.inf):
         return error
     return error / float(unit) if unit else math.inf
 
 
 def in_words(answer: int, question: str) -> str:
-    """An answer as people read it: a position's name, or yes or no to the question about one; else the number."""
+    """An answer in words: the position, or yes or no to the question; any other answer as its number."""
     meanings = {each.value: each.label for each in Position}
     if question != "position":
         meanings = {1: f"{question}: yes", 0: f"{question}: no"}
@@ -280,7 +280,7 @@ def in_words(answer: int, question: str) -> str:
 
 
 def mistake_of(truth: Position, answer: int, question: str) -> Mistake:
-    """What a wrong answer means; `answer` is neither right nor CANNOT_SAY."""
+    """The kind of a wrong answer, which is neither right nor CANNOT_SAY."""
     if question == "position":
         if truth is Position.CONTACT:
             return Mistake.FALSE_CLEAR

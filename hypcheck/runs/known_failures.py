@@ -5,7 +5,7 @@
     max_u = 1e6                     # the largest backward error that is excused, in units u; none: any
     reason = "the ring; fixed in 2.0"
 
-The list bites both ways: an entry whose cases are all right again fails the run.
+An entry that no longer excuses a case fails the run too.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ class KnownFailure:
 
     @property
     def subject(self) -> str:
-        """What the entry is about, as messages name it."""
+        """The subject of the entry in messages."""
         return f"case {self.case}" if self.case is not None else f"family {self.family}"
 
     def covers(self, case: str, family: str, error_u: float) -> bool:
-        """Whether a wrong answer is excused by this entry."""
+        """Whether this entry excuses a wrong answer."""
         return (case == self.case or family == self.family) and error_u <= self.max_u
 
 
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
-    """The entries of a file. Raises InputError naming file, entry and what would be right."""
+    """The entries of a file. Raises InputError naming the file, the entry, and what would be right."""
     try:
         content = toml.parsed(toml.text_of(str(path)), str(path))
     except FileNotFoundError:
@@ -82,7 +82,7 @@ def _overflows(number: float) -> bool:
 
 
 def render(entries: Iterable[KnownFailure]) -> str:
-    """The entries as the file has them."""
+    """The text of a file with these entries."""
     return "\n".join(_rendered(entry) for entry in entries)
 
 
@@ -102,9 +102,9 @@ def _quoted(text: str) -> str:
 
 
 def no_longer_failing(entries: Sequence[KnownFailure], used: AbstractSet[int], asked: AbstractSet[str]) -> list[str]:
-    """A sentence for each entry that excused nothing, though what it speaks of was asked.
+    """A sentence for each entry that excused no case, though its case or family was asked.
 
-    `used` are the numbers of entries that excused something, `asked` the families and case ids that were asked.
+    `used` are the numbers of the entries that excused a case; `asked` are the families and case ids that were asked.
     """
     return [
         f"the {entry.subject} no longer fails, but is listed as a known failure ({entry.reason})"
@@ -114,9 +114,10 @@ def no_longer_failing(entries: Sequence[KnownFailure], used: AbstractSet[int], a
 
 
 def update(path: Path, record: Record) -> str:
-    """Rewrite the file from a run of all families: entries that still excuse something stay, others go, new ones come.
+    """Rewrite the file from a run of all families, and return a sentence about it.
 
-    The sentence says what was done. New entries are by family, with the worst error seen, and ask for a reason.
+    Entries that still excuse a case stay, others are removed. New entries are by family, with the worst error of the
+    run, and their reason is to be written by a person.
     """
     kept = {entry.subject: entry for entry in (read_known_failures(path) if path.exists() else ())}
     failing: dict[str, float] = {}

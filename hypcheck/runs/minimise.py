@@ -1,11 +1,4 @@
-"""Minimisation: from a wrong answer to the simplest row nearby that is answered wrongly in the same way.
-
-How simple a row is to read, and the simplest rows there are.
-
-Rows next to a given one that are simpler to read: what minimise asks about.
-
-From a wrong answer to the simplest row next to it that is answered wrongly in the same way.
-"""
+"""Minimisation: from a wrong answer to the simplest row nearby that is answered wrongly in the same way."""
 
 from __future__ import annotations
 
@@ -34,10 +27,10 @@ Row = tuple[float, ...]
 Complexity = tuple[int, int, int]
 
 DIGITS = range(1, 17)
-"""Significant digits to which a number is tried to be rounded; 17 are the number itself."""
+"""Numbers of significant digits to which a number is rounded; 17 would be the number itself."""
 
 LARGEST_SUM = 1e15
-"""Sums of sizes beyond this are not told apart."""
+"""Larger sums of sizes count as equal."""
 
 
 @lru_cache(maxsize=1 << 16)
@@ -54,20 +47,20 @@ def characters(value: float) -> int:
 
 
 def complexity(row: Sequence[float]) -> Complexity:
-    """What is less for a simpler row: the characters of all its numbers, those of the longest, the sum of the sizes."""
+    """Less for a simpler row: the characters of all its numbers, those of the longest, the sum of the sizes."""
     lengths = [characters(value) for value in row]
     return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
 
 
 def simpler_than(rows: Iterable[Row], limit: Complexity) -> Rows:
-    """The different valid rows below a complexity, float64 (n, 7), the simplest first."""
+    """The distinct valid rows below a complexity, float64 (n, 7), the simplest first."""
     found = {row: complexity(row) for row in set(rows) if _valid(row)}
     chosen = sorted((row for row in found if found[row] < limit), key=lambda row: (found[row], row))
     return np.array(chosen, dtype=np.float64).reshape(-1, 7)
 
 
 def rounded(value: float) -> Iterator[float]:
-    """`value` to 1, 2, 3 … significant digits: the nearest, and its neighbours to both sides."""
+    """`value` to 1, 2, 3 … significant digits: the nearest number, and its neighbours on both sides."""
     for digits in DIGITS:
         text = f"{value:.{digits - 1}e}"
         unit = float(f"1{text[text.index('e') :]}") / 10 ** (digits - 1)
@@ -106,7 +99,7 @@ _SMALL = tuple(map(float, range(1, 7)))
 
 
 def same_pair(row: Row) -> Iterator[Row]:
-    """The pair in other coordinates: no signs, x and y exchanged or turned to one, other units of length."""
+    """The pair in other coordinates: without signs, x and y swapped or turned onto one axis, other units of length."""
     alpha, gamma, b, d, *center = row
     x, y, z = map(abs, center)
     yield (alpha, gamma, b, d, x, y, z)
@@ -118,7 +111,7 @@ def same_pair(row: Row) -> Iterator[Row]:
 
 
 def _units(lengths: list[float]) -> set[float]:
-    """Each length, and the greatest common divisor of all where it is one that float64 holds."""
+    """Each length, and the greatest common divisor of all lengths if float64 holds it."""
     numerators, denominators = zip(*(length.as_integer_ratio() for length in lengths), strict=True)
     shared = math.lcm(*denominators)
     whole = [
@@ -147,7 +140,7 @@ def brought_back(row: Row) -> Iterator[Row]:
         (each, max(columns, key=lambda column: abs(each[column])), name, far)
         for each, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
     ]
-    # Only where the other numbers leave room for one that is not 0.
+    # Only if the other numbers leave room for one that is not 0.
     ways = [way for way in ways if sum(map(characters, way[0])) - characters(way[0][way[1]]) + 1 < limit]
     rows = np.array([each for each, *_ in ways]).reshape(-1, 7)
     mask = columns_of(np.array([name for _, _, name, _ in ways]))
@@ -170,19 +163,19 @@ def _with(row: Row, values: dict[int, float]) -> Row:
 
 
 PIECE = 2048
-"""Rows a question."""
+"""Rows of a question."""
 
-MOST = 30_000
-"""Rows that are asked for one step at most: the simplest of those that could be."""
+MAX_ROWS = 30_000
+"""At most so many rows are asked for one step, the simplest ones."""
 
 
 Variants = Callable[[Row, Complexity], Rows]
-"""From a row to the rows below a complexity that could take its place, the simplest first."""
+"""From a row to the rows below a complexity that could replace it, the simplest first."""
 
 
 @dataclass
 class Minimised:
-    """The search as it goes on: the given row, every simpler one that was taken, the last being the answer."""
+    """The state of a minimisation: the given row, and each simpler one that replaced it, of which the last counts."""
 
     target: HuntTarget
     steps: list[HuntFinding] = field(default_factory=list)
@@ -190,19 +183,19 @@ class Minimised:
 
     @property
     def first(self) -> HuntFinding:
-        """The given row's."""
+        """The finding of the given row."""
         return self.steps[0]
 
     @property
     def last(self) -> HuntFinding:
-        """The simplest so far."""
+        """The finding of the simplest row so far."""
         return self.steps[-1]
 
 
 def minimise(target: HuntTarget, pair: Pair) -> Minimised:
-    """Simplify until nothing simpler fails in the same way. Raises InputError where the answer is not wrong.
+    """Simplify until no simpler row fails in the same way. Raises InputError if the answer is not wrong.
 
-    The same way: the same answer where the same is true, beyond tolerance, and for the same cause (place.Place).
+    The same way means: the same answer, the same truth, beyond the tolerance, and the same cause (RowPlace.cause).
     """
     run = Minimised(target)
     run.steps.append(_start(run, pair))
@@ -214,7 +207,7 @@ def minimise(target: HuntTarget, pair: Pair) -> Minimised:
 def _start(run: Minimised, pair: Pair) -> HuntFinding:
     rows = np.array([pair.row])
     if not len(run.target.claimed(rows)):
-        raise InputError("the implementation does not claim to answer this row; --regimes any asks it all the same")
+        raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
     scored = _ask(run, rows)
     for index, reason in scored.reasons.items():
         status = STATUSES[scored.status[index]]
@@ -228,9 +221,9 @@ def _start(run: Minimised, pair: Pair) -> HuntFinding:
 
 
 def _improve(run: Minimised, ways: Variants) -> bool:
-    """Take the simplest row of those ways that fails alike; False where there is none."""
+    """Take the simplest of these variants that fails in the same way; False if there is none."""
     row = run.last.case.row
-    candidates = ways(row, complexity(row))[:MOST]
+    candidates = ways(row, complexity(row))[:MAX_ROWS]
     for start in range(0, len(candidates), PIECE):
         rows = candidates[start : start + PIECE]
         rows = rows[run.target.claimed(rows)]
@@ -261,4 +254,4 @@ _VARIANTS: tuple[Variants, ...] = (
     lambda _, limit: simplest_below(limit),
     _next_to(brought_back),
 )
-"""Cheap ways first: each later one is tried only where those before it have nothing more to offer."""
+"""Cheap variants first: later ones are tried only if the earlier ones give no simpler row."""

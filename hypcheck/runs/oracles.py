@@ -1,8 +1,7 @@
 """The four oracles behind one interface, and the cross-check that compares each with the exact decision.
 
-The four oracles behind one door: each turns rows into opinions, and says so where it cannot tell.
-
-The oracles against each other, and the repaired coefficient rule in exact rationals against the root patterns.
+An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
+repaired coefficient rule in exact rationals.
 """
 
 from __future__ import annotations
@@ -20,12 +19,16 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Rows
+from hypcheck.record.fields import row_fields
+from hypcheck.record.lines import DisagreementPart
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan
+from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
+from hypcheck.truth.mesh_meridian import MeshOutcome
 
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """What an oracle says of one pair; None where it does not say. `stage` names the part of it that decided."""
+    """An oracle's opinion about one pair; None where it has none. `stage` names the part of the oracle that decided."""
 
     position: Position | None
     tangent: bool | None = None
@@ -35,7 +38,7 @@ class Opinion:
 
 @dataclass(frozen=True, slots=True)
 class Oracle:
-    """One way to the truth. `ask` maps rows (n, 7) to n opinions; `share` is the part of the cases it is asked."""
+    """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None."""
 
     name: str
     title: str
@@ -44,17 +47,13 @@ class Oracle:
 
 
 def ask_exact(rows: Rows) -> list[Opinion]:
-    """The exact decision, its certificate made and checked: an answer without a valid proof counts as undecided."""
-    from hypcheck.truth import exact  # noqa: PLC0415  an oracle that is not asked is not loaded
-    from hypcheck.truth.certificate import check_certificate  # noqa: PLC0415
-    from hypcheck.truth.prove import prove  # noqa: PLC0415
-
+    """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
     opinions = []
     for row in rows.tolist():
         pair = Pair.from_row(row)
         decision = exact.decide(pair.lengths)
-        certificate = prove(pair, decision)
-        proved = certificate.position is decision.position and check_certificate(pair, certificate)
+        found = prove.prove(pair, decision)
+        proved = found.position is decision.position and certificate.check_certificate(pair, found)
         opinions.append(
             Opinion(decision.position, decision.tangent, decision.kind.value, "proved")
             if proved
@@ -64,13 +63,10 @@ def ask_exact(rows: Rows) -> list[Opinion]:
 
 
 def ask_nearest(rows: Rows) -> list[Opinion]:
-    """The sign of the clearance to the nearest point, in floats with a bound, more digits where that cannot tell."""
-    from hypcheck.truth.nearest import positions  # noqa: PLC0415
-    from hypcheck.truth.nearest_exact import STAGES  # noqa: PLC0415
-
-    found = positions(np.ascontiguousarray(rows))
+    """The sign of the clearance to the nearest point: floats with a bound, then more digits until the bound decides."""
+    found = nearest.positions(np.ascontiguousarray(rows))
     return [
-        Opinion(Position(position), tangent, None, STAGES[stage])
+        Opinion(Position(position), tangent, None, nearest_exact.STAGES[stage])
         for position, tangent, stage in zip(
             found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True
         )
@@ -79,9 +75,7 @@ def ask_nearest(rows: Rows) -> list[Opinion]:
 
 def ask_roots(rows: Rows) -> list[Opinion]:
     """The pattern of the roots of g, after [10]."""
-    from hypcheck.truth.roots import classify_by_roots  # noqa: PLC0415
-
-    reports = [classify_by_roots(Pair.from_row(row)) for row in rows.tolist()]
+    reports = [roots.classify_by_roots(Pair.from_row(row)) for row in rows.tolist()]
     return [
         Opinion(
             report.position,
@@ -95,21 +89,14 @@ def ask_roots(rows: Rows) -> list[Opinion]:
 
 def ask_mesh(rows: Rows) -> list[Opinion]:
     """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
-    from hypcheck.truth.mesh import verdict  # noqa: PLC0415
-    from hypcheck.truth.mesh_meridian import MeshOutcome  # noqa: PLC0415
-
-    def opinion(row: list[float]) -> Opinion:
-        found = verdict(Pair.from_row(row))
-        position = Position.CONTACT if found.outcome is MeshOutcome.CONTACT else found.position
-        return Opinion(position, stage=found.outcome.name.lower())
-
-    return [opinion(row) for row in rows.tolist()]
-
-
-def _mesh_trouble() -> str | None:
-    from hypcheck.truth.mesh import availability  # noqa: PLC0415
-
-    return availability()
+    verdicts = [mesh.verdict(Pair.from_row(row)) for row in rows.tolist()]
+    return [
+        Opinion(
+            Position.CONTACT if found.outcome is MeshOutcome.CONTACT else found.position,
+            stage=found.outcome.name.lower(),
+        )
+        for found in verdicts
+    ]
 
 
 ORACLES = {
@@ -118,13 +105,13 @@ ORACLES = {
         Oracle("exact", "exact decision in integers, with a checked certificate", ask_exact),
         Oracle("nearest", "nearest point of the hyperboloid", ask_nearest),
         Oracle("roots", "root patterns after [10], re-derived; its text was not consulted", ask_roots),
-        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, _mesh_trouble),
+        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, mesh.availability),
     )
 }
 
 
 CHUNK = 100
-"""Rows a task: small enough for a smooth progress bar, large enough to be worth sending."""
+"""Rows of a task: few enough for a smooth progress bar, enough to be worth sending."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,19 +125,8 @@ class OracleTask:
 
 
 @dataclass(frozen=True, slots=True)
-class Disagreement:
-    """A case about which an oracle and the exact decision say different things."""
-
-    oracle: str
-    case: str
-    row: tuple[float, ...]
-    exact: str
-    opinion: str
-
-
-@dataclass(frozen=True, slots=True)
 class OracleTally:
-    """What came of asking one oracle about one family: counts of answers and of deciding stages, and its time."""
+    """The answers of one oracle about one family: counts, deciding stages, seconds, and disagreements by case."""
 
     oracle: str
     family: str
@@ -158,11 +134,11 @@ class OracleTally:
     undecided: int
     stages: dict[str, int]
     seconds: float
-    disagreements: tuple[Disagreement, ...]
+    disagreements: tuple[DisagreementPart, ...]
 
 
 def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[FamilyBatch]) -> list[OracleTask]:
-    """Every piece of work, the slow oracles first so that no long task is left for the end."""
+    """All tasks, those of slow oracles first, so that no long task is left for the end."""
     families = max(1, len(all_batches))
     shares = {
         "exact": plan.count,
@@ -201,7 +177,7 @@ def _unless_rule_differs(row: list[float], opinion: Opinion) -> Opinion:
 def perform_tasks(
     todo: Sequence[OracleTask], executor: Executor | None
 ) -> Iterator[tuple[OracleTask, list[Opinion], float]]:
-    """Each task with its opinions and seconds, as they are finished; without an executor, here and in order."""
+    """Each task with its opinions and seconds, as they finish; without an executor in this process and in order."""
     for task, (opinions, seconds) in processes.perform(ask_oracle, todo, executor):
         yield task, opinions, seconds
 
@@ -209,9 +185,15 @@ def perform_tasks(
 def compare_with_exact(
     task: OracleTask, opinions: Sequence[Opinion], batch: FamilyBatch, seconds: float
 ) -> OracleTally:
-    """The opinions against the exact decisions."""
+    """The tally of a task's opinions against the exact decisions."""
     disagreements = tuple(
-        Disagreement(task.oracle, batch.name(task.start + index), tuple(task.rows[index].tolist()), *words)
+        DisagreementPart(
+            oracle=task.oracle,
+            case=batch.name(task.start + index),
+            **row_fields(task.rows[index].tolist()),
+            exact=words[0],
+            opinion=words[1],
+        )
         for index, opinion in enumerate(opinions)
         if (words := _difference(batch, task.start + index, opinion)) is not None
     )
@@ -221,7 +203,7 @@ def compare_with_exact(
 
 
 def _difference(batch: FamilyBatch, index: int, opinion: Opinion) -> tuple[str, str] | None:
-    """How an opinion contradicts the exact decision, in words for both; None where it does not."""
+    """The exact decision and the opinion in words if they contradict each other, else None."""
     decision = batch.decisions[index]
     exact = f"{decision.position.label}, tangent: {decision.tangent}, {decision.kind.value}"
     if opinion.stage.startswith("coefficient rule") or opinion.stage == "certificate refused":
@@ -234,7 +216,7 @@ def _difference(batch: FamilyBatch, index: int, opinion: Opinion) -> tuple[str, 
 
 
 def merged_tallies(tallies: Sequence[OracleTally]) -> list[OracleTally]:
-    """One tally for each oracle and family, whatever the order in which their parts came."""
+    """One tally for each oracle and family; the order of the parts does not matter."""
     parts: dict[tuple[str, str], list[OracleTally]] = {}
     for tally in tallies:
         parts.setdefault((tally.oracle, tally.family), []).append(tally)

@@ -1,8 +1,6 @@
 """A replay: one case and one implementation; the truth, the answer, its backward error, and where its formula errs.
 
-The row that a CASE on the command line names: a case's id, seven numbers, or a case that a record has kept.
-
-One case and one implementation: what is true, what it answers, what that is worth, and where its formula errs.
+CASE on the command line is the id of a case, seven numbers, or a case that a record has kept.
 """
 
 from __future__ import annotations
@@ -51,14 +49,14 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class ReplayCase:
-    """A row to be replayed, of seven or ten numbers, and what it is called; they may be what no pair has."""
+    """A row to replay, of seven or ten numbers, and its name; the row may be invalid."""
 
     name: str
     row: Row
 
     @property
     def at_fault(self) -> tuple[str, ...]:
-        """The columns that keep the row from being a pair, so that it must be refused; none of a valid row."""
+        """The columns that make the row invalid, so that it must be refused; none of a valid row."""
         named = tuple(zip(columns_of(self.row), self.row, strict=True))
         axis = AXIS if len(self.row) > len(COLUMNS) and not any(self.row[len(COLUMNS) :]) else ()
         return (*(name for name, value in named if trouble_with(name, value)), *axis)
@@ -67,11 +65,11 @@ class ReplayCase:
 def case_of(text: str) -> ReplayCase:
     """The case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
 
-    RECORD:N is the N-th case of a record.jsonl, or of its run's folder, as reports number them (recorded_cases). The
-    row is as it was asked: a zero keeps its sign. Raises InputError saying what is wrong with the text.
+    RECORD:N is the N-th case of a record.jsonl or of its folder, as reports number them (recorded_cases). The row is
+    as it was asked: a zero keeps its sign. Raises InputError saying what is wrong with the text.
     """
     if begins_as_spec(text):
-        raise InputError(f"CASE is {text!r}, which names an implementation; replay takes CASE SPEC, minimise SPEC CASE")
+        raise InputError(f"CASE is {text!r}, which is a SPEC; the order is replay CASE SPEC and minimise SPEC CASE")
     recorded = _RECORDED.fullmatch(text)
     if recorded is not None:
         return _from_record(Path(recorded[1]), int(recorded[2][:19]))
@@ -100,7 +98,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 
 
 def _given_row(text: str) -> Row:
-    """Seven valid numbers, or ten, each of them decimal or hexadecimal."""
+    """Seven or ten valid numbers, decimal or hexadecimal."""
     parts = text.split(",")
     if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS)):
         wanted = f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}"
@@ -122,7 +120,7 @@ def _number(name: str, text: str) -> float:
 
 
 REPEATED_ROWS = 33
-"""How often the row is asked in one question, once it was answered alone; odd, so that vector loops have a tail."""
+"""So often the row is repeated in a batch, after it was answered alone; odd, so that vector loops have a tail."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +143,10 @@ class ProvedTruth:
 
 @dataclass(frozen=True, slots=True)
 class ReplayJudgement:
-    """How the case ended. `answer` is None where there was none, and `reason` says why, or what else is to be said.
+    """The status of the case. `answer` is None if there was none; `reason` then says why, or explains the status.
 
-    `mistake`, `error` (the backward error) and `error_u` (the same in units u) speak of a wrong answer, tolerated or
-    not, and are None, 0 and 0 of every other.
+    `mistake`, `error` (the backward error) and `error_u` (the same in units u) describe a wrong answer, tolerated or
+    not; otherwise they are None, 0 and 0.
     """
 
     status: Status
@@ -166,7 +164,7 @@ class ReplayJudgement:
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """What is known of a case under an implementation; `truth` and `choice` are None of a row that is no pair."""
+    """The result of a replay; `truth` and `choice` are None for an invalid row."""
 
     case: ReplayCase
     spec: str
@@ -180,23 +178,23 @@ class Replay:
 
 
 def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
-    """Ask, judge and compare. Raises InputError where the row is no pair and the implementation refuses none.
+    """Ask, judge and compare. Raises InputError if the row is invalid and the implementation refuses no rows.
 
-    Raises DisagreementError where the proof that was found does not hold.
+    Raises DisagreementError if the proof of the truth does not hold.
     """
     declared, used = implementation.declared, implementation.description
     rows = np.array([case.row])
-    told = (case, str(implementation.spec), declared, used, criterion)
+    known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
         if not used.refuses:
             raise InputError(
-                f"{case.name} is no pair ({', '.join(case.at_fault)}), and {used.name} does not declare that it refuses"
-                " such rows"
+                f"{case.name} is an invalid row ({', '.join(case.at_fault)}), and {used.name} does not declare that it "
+                "refuses such rows"
             )
-        return Replay(*told, None, _refused(implementation, rows), None, None)
+        return Replay(*known, None, _refused(implementation, rows), None, None)
     if rows.shape[1] > len(COLUMNS) and not used.tilt:
         raise InputError(
-            f'{case.name} has an axis, and {used.name} takes upright spheroids alone; its description must say "tilt": '
+            f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
             "true"
         )
     truth = truth_of(pair_of(case.row))
@@ -206,12 +204,12 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
         choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
-        raise InputError(f"--formula is {formula!r}, and {case.name} is about a tilted spheroid, of which none speaks")
-    return Replay(*told, truth, judgement, _skipped(case, used, criterion), choice)
+        raise InputError(f"--formula is {formula!r}, but {case.name} is about a tilted spheroid, which no formula takes")
+    return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice)
 
 
 def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:
-    """Decide, prove, and check the proof. Raises DisagreementError where it does not hold."""
+    """Decide, prove, and check the proof. Raises DisagreementError if it does not hold."""
     if isinstance(pair, TiltedPair):
         return _tilted_truth_of(pair)
     decision = exact.decide(pair.lengths)
@@ -245,7 +243,7 @@ def _usable(answer: int | None) -> int | None:
 
 
 def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, criterion: Criterion) -> ReplayJudgement:
-    """The answer to the row alone, judged; another answer to the row asked many times at once is a fault of its own."""
+    """The judged answer to the row alone; NONDETERMINISTIC if the answer changes in a batch of many copies."""
     positions = np.array([truth.decision.position], dtype=np.int8)
     scored = score(rows, positions, implementation.classify(rows, batch=1), criterion)
     alone, answer = _alone(scored), int(scored.answers[0])
@@ -282,11 +280,11 @@ def _refused(implementation: Implementation, rows: Rows) -> ReplayJudgement:
         return ReplayJudgement(status, None, answered.reasons.get(0, ""))
     if answer == REFUSED:
         return ReplayJudgement(Status.REFUSED, answer)
-    return ReplayJudgement(Status.WRONG, answer, f"a row that is no pair must be refused with {REFUSED}")
+    return ReplayJudgement(Status.WRONG, answer, f"an invalid row must be refused with {REFUSED}")
 
 
 def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str | None:
-    """Why a gating run would not ask the row; None where it would."""
+    """Why a conformance run would not ask the row; None if it would."""
     rows = np.array([case.row])
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"

@@ -1,9 +1,4 @@
-"""A replay as text at a terminal, and as one JSON object for a program.
-
-A replay for a program: one JSON object.
-
-A replay for a person at a terminal.
-"""
+"""The result of a replay as text at a terminal, and as one JSON object for a program."""
 
 from __future__ import annotations
 
@@ -21,11 +16,11 @@ from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement
 from hypcheck.tables.numbers import hex_of
 
 DIGITS = 17
-"""Of numbers in the table of values, which are texts: exact ones need not fit float64."""
+"""Digits of the numbers in the JSON table of values. They are texts, because exact ones need not fit float64."""
 
 
 def replay_as_json(done: Replay) -> str:
-    """The object, on one line; numbers that JSON has not are the strings "inf", "-inf" and "nan"."""
+    """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan"."""
     return json.dumps(
         plain(
             {
@@ -111,7 +106,8 @@ def replay_lines(done: Replay) -> Iterator[str]:
     for name, value in zip(columns_of(done.case.row), done.case.row, strict=True):
         yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
     if done.truth is None:
-        yield from _titled("truth", f"no pair, for {' and '.join(done.case.at_fault)}: to be refused with {REFUSED}")
+        columns = " and ".join(done.case.at_fault)
+        yield from _titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
     else:
         yield from _truth_lines(done.truth)
     yield ""
@@ -160,7 +156,7 @@ def _judged(judgement: ReplayJudgement, tolerance: float) -> str:
 
 
 def answer_said(answer: int, question: str) -> str:
-    """An answer to a question in words, with the number that was given."""
+    """An answer to a question, as its number and in words."""
     if answer == CANNOT_SAY:
         return f"{answer}, cannot say"
     if answer == REFUSED:
@@ -211,10 +207,10 @@ def _mark(compared: FormulaComparison, each: Intermediate) -> str:
 
 
 def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
-    """What the two columns say about the formula, in a sentence or two."""
+    """The difference between the two columns, in a few sentences."""
     question = compared.formula.question
     if compared.first_wrong is None:
-        yield f"every decision of {compared.formula.name} in {compared.format} is that of exact arithmetic"
+        yield f"every decision of {compared.formula.name} in {compared.format} is the same in exact arithmetic"
     else:
         wrong = compared[compared.first_wrong]
         decided = f"is {number_text(wrong.value)}, in exact arithmetic {number_text(wrong.exact)}"
@@ -228,7 +224,7 @@ def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
     yield f"the answer of {name} in {compared.format}: {rounded}; in exact arithmetic: {exactly}"
     right = int(truth) if question == "position" else int(truth is Position[question.upper()])
     if compared.exact_answer != right:
-        fault = "the formula is at fault, and not rounding alone"
+        fault = "the formula is wrong, not only its rounding"
         yield f"{name} errs in exact arithmetic too: {fault}; truth: {truth.label}"
 
 

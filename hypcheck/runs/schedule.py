@@ -1,13 +1,9 @@
-"""The tasks of a conformance run in order: which are submitted, which are retried, and how their results are merged.
+"""The steps of a conformance run in order: chunks, retests, the invalid rows; their tasks, retries and merged results.
 
-The tasks of a run, and the function that performs one wherever an implementation is open.
-
-The steps of a run: chunks, retests, the invalid rows. An executor performs them, and results are merged in order.
-
-Every task begins with all that the limits allow, and its result says what it spent. What tasks have spent together is
-decided when their results are merged, in the order of the steps: the step in which the limits run out is the last
-counted, and the implementation is not asked what lies behind it. So the state after each step is the same for any
-executor and any number of workers.
+An executor performs the tasks. Each task starts with the full limits, and its result says what is left of them. The
+sum over tasks is checked when results are merged, in the order of the steps: the step that exceeds the limits is the
+last that counts, and the cases of later steps are not asked. Therefore the state after each step does not depend on the
+executor or on the number of workers.
 """
 
 from __future__ import annotations
@@ -39,7 +35,7 @@ Task = CaseChunk | RetestTask | InvalidRows
 
 @dataclass(frozen=True, slots=True)
 class ImplementationOpener:
-    """How an implementation is opened: its SPEC, limits, and what stands for what it declares."""
+    """How an implementation is opened: its SPEC, its limits, and values that replace what it declares."""
 
     spec: str
     limits: Limits
@@ -48,7 +44,7 @@ class ImplementationOpener:
     domain: Domain | None = None
 
     def open(self) -> Implementation:
-        """It, running. Raises InputError and StartError as open_implementation does."""
+        """The running implementation. Raises InputError and StartError as open_implementation does."""
         return open_implementation(
             self.spec, self.limits, precision=self.precision, question=self.question, domain=self.domain
         )
@@ -65,7 +61,7 @@ class TaskResult:
 def perform_task(
     task: Task, implementation: Implementation | Crashed, rules: JudgingRules, allowance: Allowance
 ) -> TaskResult:
-    """Perform a task, which may spend the allowance; the result depends on nothing else but the answers."""
+    """Perform a task within the allowance. The result depends only on the answers and the allowance."""
     implementation.allow(allowance)
     if isinstance(task, CaseChunk):
         result = ask_chunk(task, implementation, rules)
@@ -77,36 +73,36 @@ def perform_task(
 
 
 RETEST_AFTER = 64 * CHUNK_ROWS
-"""Rows after which their open cases are asked again, so that no more than so many are ever kept.
+"""After so many rows their pending cases are asked again, which bounds how many are kept.
 
-A retest holds them all at once; twice as many would cost each process some 8 MB more.
+A retest holds them all at once; twice as many would cost each process about 8 MB more.
 """
 
 STEPS_AHEAD = 32
-"""Steps for each worker whose results may wait to be merged, so that no worker is idle during a retest."""
+"""Results of so many steps for each worker may wait to be merged, so that no worker is idle during a retest."""
 
 TASKS_PER_WORKER = 2
-"""Tasks for each worker that its executor holds: one that it performs, and the next. The others wait here in order."""
+"""Submitted tasks for each worker: the one that it performs, and the next. All others wait here in order."""
 
 MAX_WORKERS_LOST = 3
-"""Workers that one task may cost, and that may end one after the other before they are ready."""
+"""So many workers may die of one task, and so many in a row before they are ready."""
 
 _TICK = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class RetestStep:
-    """A step that asks the open cases of the chunks since the last round again: those in one part of it.
+    """A step that retests the pending cases of the chunks since the last round: those of one part.
 
-    Part 0 is of the chunks that begin a family; with it everything is asked that is asked once a run. Parts 1 and 2 are
-    of the others, so that two processes ask at the same time at the end, where nothing else is left to do.
+    Part 0 holds the first chunks of families, and everything that is asked once in a run. Parts 1 and 2 hold the other
+    chunks, so that two processes are busy at the end of a run.
     """
 
     number: int
     part: int = 0
 
     def of(self, some: tuple[PendingRetest, ...]) -> RetestTask:
-        """Its task, where these are open."""
+        """The task of the step, given all pending cases."""
         return RetestTask(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
 
 
@@ -115,9 +111,9 @@ Step = CaseChunk | RetestStep | InvalidRows
 
 @dataclass(frozen=True)
 class RunState:
-    """A run so far: how many steps are done, their merged result, and what the implementation may still spend.
+    """A run so far: what is left of the limits, how many steps are done, and their merged result.
 
-    From a state and the same steps the run goes on as if it had never paused.
+    From a state and the same steps, the run continues as if it had never paused.
     """
 
     left: Allowance
@@ -125,22 +121,22 @@ class RunState:
     total: CasesResult = field(default_factory=CasesResult)
 
     def allowance(self, limits: Allowance) -> Allowance:
-        """What the next task may spend: all of the limits, unless the implementation is asked no more."""
+        """The allowance of the next task: the full limits, unless the implementation was given up."""
         return replace(limits, over=self.left.over, hangs=self.left.hangs)
 
     def after(self, step: Step, done: TaskResult, limits: Allowance) -> RunState:
-        """The state after one more step, whose task began with all of the limits."""
+        """The state after one more step, whose task started with the full limits."""
         before = self.total
         if isinstance(step, RetestStep):
             before = replace(before, pending=tuple(each for each in before.pending if each.chunk.part != step.part))
         return RunState(self.left.after(done.left, limits), self.done + 1, merged_result([before, done.result]))
 
 
-class WorkerLost(Exception):  # noqa: N818 - it is an event, which costs the run nothing
-    """A worker ended while it performed a task: what every executor raises for it.
+class WorkerLost(Exception):  # noqa: N818 - it is an event that does not fail the run
+    """A worker ended while it performed a task; every executor raises this.
 
-    The text names the workers, and `last` says how the last one ended. The task has cost `deaths` of them; 0 where the
-    worker ended before it was ready, which is no task's fault.
+    `workers` names the kind of workers, and `last` says how the last one ended. The task has cost `deaths` workers; 0
+    if the worker ended before it was ready, which is the fault of no task.
     """
 
     def __init__(self, workers: str, last: str = "", deaths: int = 1) -> None:
@@ -151,7 +147,7 @@ class WorkerLost(Exception):  # noqa: N818 - it is an event, which costs the run
 
 
 class WorkersLostError(HypcheckError):
-    """Workers ended, one after the other, before they were ready, or are not of this program."""
+    """Several workers in a row ended before they were ready, or run other files of hypcheck."""
 
     exit_code = Exit.INTERNAL
 
@@ -160,8 +156,8 @@ class WorkersLostError(HypcheckError):
 class TaskExecution:
     """An executor, and what it needs to perform tasks.
 
-    It calls `function` with a `task` and its `allowance`, in `workers` processes; 0 where it is this one.
-    `limits` are what one task may spend. `max_rows` and `rules` make the result of a task that no worker survives.
+    It calls `function` with a `task` and its `allowance` in `workers` processes; 0 means this process. `limits` are the
+    allowance of one task. `max_rows` and `rules` make the result of a task that no worker survives.
     """
 
     executor: Executor
@@ -172,12 +168,12 @@ class TaskExecution:
     rules: JudgingRules
 
     def crashed(self, task: Task, allowance: Allowance, reason: str) -> TaskResult:
-        """The result of a task all of whose cases crash."""
+        """The result of a task if all of its cases crash."""
         return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
 
 def steps_of_chunks(chunks: Iterable[CaseChunk], *, refuses: bool) -> Iterator[Step]:
-    """The steps that ask these chunks; `refuses`: and the invalid rows."""
+    """The steps that ask these chunks, with their retests; if `refuses`, also the invalid rows."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
@@ -192,34 +188,38 @@ def steps_of_chunks(chunks: Iterable[CaseChunk], *, refuses: bool) -> Iterator[S
 
 
 def _retest_steps(number: int, parts: set[int]) -> Iterator[RetestStep]:
-    """Part 0, which takes the longest in the first round, stands last, so that the others are asked together."""
+    """Part 0, the longest in the first round, comes last, so that the others run at the same time."""
     return (RetestStep(number, part) for part in (1, 2, 0) if part in parts)
 
 
-def perform_steps(some: Iterable[Step], performing: TaskExecution, state: RunState) -> Iterator[tuple[Step, RunState]]:
-    """Perform the steps behind those that are done; each with the state after it.
+def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunState) -> Iterator[tuple[Step, RunState]]:
+    """Perform the steps that the state has not done; each with the state after it.
 
-    Raises LostError where workers end before they are ready, and whatever a task raises.
+    Raises WorkersLostError if workers end before they are ready, and whatever a task raises.
     """
-    line = _TaskQueue(islice(some, state.done, None), performing)
-    while line.look_ahead(state):
-        for entry in line.due(state):
-            allowance = state.allowance(performing.limits)
-            entry.future = performing.executor.submit(performing.function, task=entry.task, allowance=allowance)
-        if (found := line.take()) is None:
-            line.wait()
+    queue = _TaskQueue(islice(some, state.done, None), execution)
+    while queue.look_ahead(state):
+        for entry in queue.due(state):
+            allowance = state.allowance(execution.limits)
+            entry.future = execution.executor.submit(execution.function, task=entry.task, allowance=allowance)
+        if (found := queue.take()) is None:
+            queue.wait()
             continue
         step, done = found
-        stopped = state.left.over
-        state = state.after(step, done, performing.limits)
-        if state.left.over and not stopped:
-            line.drop()
+        given_up = state.left.over
+        state = state.after(step, done, execution.limits)
+        if state.left.over and not given_up:
+            queue.drop()
         yield step, state
 
 
 @dataclass
 class _QueuedStep:
-    """A step whose result is not merged yet. `deaths` are the workers that it has cost, which makes it a suspect."""
+    """A step whose result is not merged yet.
+
+    `task` is None until it can be made, `future` until it is submitted. `deaths` are the workers that died of it, which
+    makes it a suspect; `alone` says that it was submitted as the only task.
+    """
 
     step: Step
     task: Task | None = None
@@ -229,51 +229,51 @@ class _QueuedStep:
 
 
 class _TaskQueue:
-    """The steps that are next, in order. Decides which tasks are submitted, and what becomes of those that are lost.
+    """The next steps in order. Decides which tasks are submitted, and which are retried or given up.
 
-    A task whose worker ended is a suspect, and performed alone, so that none is blamed for another. One that has cost
-    DEATHS workers, the last of them alone, is given up: its cases crash.
+    A task whose worker ended is a suspect and runs alone, so that no task is blamed for another. A task of which
+    MAX_WORKERS_LOST workers have died, the last while it ran alone, is given up: its cases end as CRASH.
     """
 
-    def __init__(self, coming: Iterator[Step], performing: TaskExecution) -> None:
+    def __init__(self, coming: Iterator[Step], execution: TaskExecution) -> None:
         self._coming = coming
-        self._performing = performing
+        self._execution = execution
         self._entries: deque[_QueuedStep] = deque()
         self._unready = 0
 
     def take(self) -> tuple[Step, TaskResult] | None:
-        """The next step with its result; None where that is not there yet. Raises what the task raised."""
+        """The next step with its result, or None if there is no result yet. Raises what the task raised."""
         future = self._entries[0].future
         if future is None or not future.done() or isinstance(future.exception(), WorkerLost):
             return None
         return self._entries.popleft().step, future.result()
 
     def wait(self) -> None:
-        """Wait until something has come of a task that was submitted."""
+        """Wait until a submitted task is done, or for a moment."""
         wait(self._running, _TICK, FIRST_COMPLETED)
 
     def drop(self) -> None:
-        """Forget what was submitted: the implementation is to be asked no more."""
+        """Cancel all submitted tasks, because the implementation was given up."""
         for entry in self._entries:
             if entry.future is not None:
                 entry.future.cancel()
             entry.future, entry.deaths = None, 0
 
     def look_ahead(self, state: RunState) -> bool:
-        """See what became of the tasks, and take in steps that can be performed; whether any are left."""
-        self._settle(state.allowance(self._performing.limits))
-        steps = 1 if self._one_by_one(state) else self._performing.workers * STEPS_AHEAD
+        """Check submitted tasks, and queue the steps that can be performed next. False if none is left."""
+        self._settle(state.allowance(self._execution.limits))
+        steps = 1 if self._one_by_one(state) else self._execution.workers * STEPS_AHEAD
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
             self._entries.append(_QueuedStep(step, None if isinstance(step, RetestStep) else step))
         for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
-            if isinstance(entry.step, RetestStep) and entry.task is None:  # only now all of its cases are there
+            if isinstance(entry.step, RetestStep) and entry.task is None:  # all of its cases are pending only now
                 entry.task = entry.step.of(state.total.pending)
         return bool(self._entries)
 
     def due(self, state: RunState) -> list[_QueuedStep]:
-        """The earliest entries whose tasks can be submitted; a suspect alone, when no other is running."""
+        """The first entries whose tasks can be submitted now; a suspect only if no other task runs."""
         suspects = [entry for entry in self._entries if entry.deaths]
-        most = 1 if suspects or self._one_by_one(state) else self._performing.workers * TASKS_PER_WORKER
+        most = 1 if suspects or self._one_by_one(state) else self._execution.workers * TASKS_PER_WORKER
         ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.task is not None]
         due = ready[: max(0, most - len(self._running))]
         for entry in due:
@@ -281,7 +281,7 @@ class _TaskQueue:
         return due
 
     def _one_by_one(self, state: RunState) -> bool:
-        return not self._performing.workers or state.left.hangs is not None  # hangs are counted in order
+        return not self._execution.workers or state.left.hangs is not None  # hangs are counted in order
 
     @property
     def _running(self) -> list[Future[TaskResult]]:
@@ -289,7 +289,7 @@ class _TaskQueue:
         return [future for future in futures if future is not None and not future.done()]
 
     def _settle(self, allowance: Allowance) -> None:
-        """See which tasks were lost, and which suspects are cleared."""
+        """Retry tasks whose worker was lost, and clear suspects that succeeded."""
         for entry in self._entries:
             if entry.future is not None and entry.future.done():
                 lost = entry.future.exception()
@@ -304,7 +304,7 @@ class _TaskQueue:
             self._unready += 1
             if self._unready == MAX_WORKERS_LOST:
                 raise WorkersLostError(
-                    f"{MAX_WORKERS_LOST} {lost.workers} ended before they had asked anything, {lost.last}"
+                    f"{MAX_WORKERS_LOST} {lost.workers} ended before they had asked a case, {lost.last}"
                 )
             return
         entry.deaths += lost.deaths
@@ -312,5 +312,5 @@ class _TaskQueue:
             last = f", {lost.last}" if lost.last else ""
             reason = f"{entry.deaths} {lost.workers} ended while they asked these cases{last}"
             entry.future = Future()
-            entry.future.set_result(self._performing.crashed(entry.task, allowance, reason))
+            entry.future.set_result(self._execution.crashed(entry.task, allowance, reason))
             entry.deaths = 0

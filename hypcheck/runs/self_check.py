@@ -1,14 +1,12 @@
 """The self-check: derive, prove, cross-check, judge, draw, time; each result goes into the record at once.
 
-What verify times: the fast path beside the plain formula, general-purpose roots and FCL, on the cooling tower.
-
-One run of verify: derive, prove, cross-check, judge, time, draw; everything goes into the record as it comes.
+It times the fast path beside the plain formula, general-purpose roots and FCL, on the cooling tower.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import msgspec
@@ -25,10 +23,9 @@ from hypcheck.implementations.meshes import point_mesh
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, processes
 from hypcheck.record import Recorder, lines
-from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import TimingLine
 from hypcheck.runs import findings, judge, oracles
-from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batches, self_check_families
+from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batches
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES, OracleTally
 from hypcheck.vectors.families import FAMILIES
@@ -40,7 +37,7 @@ FAST, PLAIN = "fast path", "plain numpy formula"
 
 @dataclass(frozen=True)
 class TimedMethod:
-    """Something to be timed: `run` answers the first `count` rows of the workload it is given."""
+    """A method to time: `run` answers the first `count` rows of the workload."""
 
     name: str
     title: str
@@ -48,7 +45,7 @@ class TimedMethod:
     count: int
 
     def entry(self, rows: Rows) -> TimingEntry:
-        """It, ready to be timed on those rows."""
+        """The entry that times the method on these rows."""
         part = rows[: self.count]
         return TimingEntry(self.name, len(part), clocked(lambda: self.run(part)))
 
@@ -59,7 +56,7 @@ def timed_rows(seed: int) -> Rows:
 
 
 def timed_methods(*, meshes: bool) -> list[TimedMethod]:
-    """The methods to be timed; the slow ones on fewer rows. FCL is loaded only where `meshes` are asked for."""
+    """The methods to time, slow ones on fewer rows. FCL is loaded only with `meshes`."""
     found = [
         TimedMethod(FAST, "certified floats, integers where they cannot tell; exact", _fast, TIMED_ROWS),
         TimedMethod(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain, TIMED_ROWS),
@@ -76,7 +73,7 @@ def timed_methods(*, meshes: bool) -> list[TimedMethod]:
 
 
 def timing_line(contender: TimedMethod, timing: Samples) -> TimingLine:
-    """The record's line about one contender."""
+    """The record's line about one timed method."""
     return TimingLine(
         workload=WORKLOAD,
         median_ns=timing.median_ns,
@@ -114,139 +111,127 @@ def _mesh(rows: Rows) -> Answers:
 
 
 TIMING_ROUNDS = 9
-"""Timing rounds: enough for a median that one disturbed round does not move."""
+"""Enough rounds for a median that one disturbed round does not change."""
 
 MESH = "mesh"
-"""The oracle without which nothing of FCL is loaded."""
+"""The oracle that needs FCL; without it FCL is not loaded."""
+
+DISAGREEMENTS_KEPT = 20
+"""The record keeps so many disagreements of one oracle on one family."""
 
 
 def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tuple[Stage, ...]:
-    """The run's parts in order. Raises InputError where the plan names a family or an oracle that does not exist."""
-    families = self_check_families(plan)
-    all_batches = batches(plan, families)
-    available = builtin_methods() if MESH in plan.oracles else methods_without_meshes()
-    methods = tuple(method for method in available.values() if not method.measured)
-    todo = oracles.oracle_tasks(_with_available(plan, recorder), all_batches)
-    formulas = findings.exact_formulas()
-    return (
-        Stage("derivation", 2, lambda advance: _derive(recorder, outcome, advance)),
-        Stage("oracles", len(todo), lambda advance: _cross_check(plan, all_batches, todo, recorder, outcome, advance)),
-        Stage(
-            "mathematics of the formulas",
-            len(all_batches) * len(formulas),
-            lambda advance: _exact_findings(plan, all_batches, recorder, outcome, advance),
-        ),
-        Stage(
-            "methods in floats",
-            len(all_batches) * (len(methods) + 1),
-            lambda advance: _judge(plan, all_batches, methods, recorder, outcome, advance),
-        ),
-        Stage("map", 2, lambda advance: _draw(recorder, advance)),
-        Stage("timing", TIMING_ROUNDS, lambda advance: _time(plan, recorder, advance)),
-    )
+    """The stages of the run in order. Raises InputError naming a family that does not exist."""
+    return _SelfCheck(plan, recorder, outcome).stages()
 
 
-def _with_available(plan: SelfCheckPlan, recorder: Recorder) -> SelfCheckPlan:
-    """The plan without the oracles that cannot run here; the record says why."""
-    reasons = {name: ORACLES[name].available() for name in plan.oracles}
-    for name, reason in reasons.items():
-        if reason is not None:
-            recorder.add(lines.UnavailableLine(oracle=name, reason=reason))
-    present = tuple(name for name, reason in reasons.items() if reason is None)
-    return replace(plan, oracles=present)
+@dataclass
+class _SelfCheck:
+    """One self-check: its plan, the record that it writes, its outcome, and its cases by family."""
 
+    plan: SelfCheckPlan
+    recorder: Recorder
+    outcome: RunOutcome
+    batches: tuple[FamilyBatch, ...] = field(init=False)
 
-def _derive(recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
-    for equation in check_equations():
-        recorder.add(lines.EquationLine(**asdict(equation)))
-    advance(1)
-    for proof in prove_formulas():
-        recorder.add(lines.ProofLine(**asdict(proof)))
-        if not proof.holds:
-            outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
-    advance(1)
+    def __post_init__(self) -> None:
+        self.batches = batches(self.plan)
 
-
-def _cross_check(
-    plan: SelfCheckPlan,
-    all_batches: Sequence[FamilyBatch],
-    todo: Sequence[oracles.OracleTask],
-    recorder: Recorder,
-    outcome: RunOutcome,
-    advance: Advance,
-) -> None:
-    tallies: list[OracleTally] = []
-    with processes(plan.workers) as executor:
-        for task, opinions, seconds in oracles.perform_tasks(todo, executor):
-            tallies.append(oracles.compare_with_exact(task, opinions, all_batches[task.batch], seconds))
-            advance(1)
-    for tally in oracles.merged_tallies(tallies):
-        outcome.because[Exit.ORACLES_DISAGREE] += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
-        cases = [
-            lines.DisagreementPart(**{**asdict(case), **row_fields(case.row)}) for case in tally.disagreements[:20]
-        ]
-        recorder.add(
-            lines.OracleLine(
-                oracle=tally.oracle,
-                family=tally.family,
-                asked=tally.asked,
-                undecided=tally.undecided,
-                stages=dict(tally.stages),
-                seconds=tally.seconds,
-                disagreeing=len(tally.disagreements),
-                disagreements=cases,
-            )
+    def stages(self) -> tuple[Stage, ...]:
+        """The stages of the run in order; the record says which oracles are not available."""
+        available = builtin_methods() if MESH in self.plan.oracles else methods_without_meshes()
+        methods = tuple(method for method in available.values() if not method.measured)
+        tasks = oracles.oracle_tasks(self._with_available_oracles(), self.batches)
+        formulas = findings.exact_formulas()
+        return (
+            Stage("derivation", 2, self._derive),
+            Stage("oracles", len(tasks), lambda advance: self._cross_check(tasks, advance)),
+            Stage("mathematics of the formulas", len(self.batches) * len(formulas), self._find_exact_errors),
+            Stage(
+                "methods in floats",
+                len(self.batches) * (len(methods) + 1),
+                lambda advance: self._judge(methods, advance),
+            ),
+            Stage("map", 2, self._draw),
+            Stage("timing", TIMING_ROUNDS, self._time),
         )
 
+    def _with_available_oracles(self) -> SelfCheckPlan:
+        reasons = {name: ORACLES[name].available() for name in self.plan.oracles}
+        for name, reason in reasons.items():
+            if reason is not None:
+                self.recorder.add(lines.UnavailableLine(oracle=name, reason=reason))
+        return replace(self.plan, oracles=tuple(name for name, reason in reasons.items() if reason is None))
 
-def _exact_findings(
-    plan: SelfCheckPlan, all_batches: Sequence[FamilyBatch], recorder: Recorder, outcome: RunOutcome, advance: Advance
-) -> None:
-    found, listed = [], findings.known_findings()
-    for batch in all_batches:
-        for formula in findings.exact_formulas():
-            for finding in findings.mathematical_findings(formula, batch, plan):
-                found.append(finding)
-                recorder.add(msgspec.structs.replace(finding, reason=findings.reason_for(finding, listed)))
+    def _derive(self, advance: Advance) -> None:
+        for equation in check_equations():
+            self.recorder.add(lines.EquationLine(**asdict(equation)))
+        advance(1)
+        for proof in prove_formulas():
+            self.recorder.add(lines.ProofLine(**asdict(proof)))
+            if not proof.holds:
+                self.outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
+        advance(1)
+
+    def _cross_check(self, tasks: Sequence[oracles.OracleTask], advance: Advance) -> None:
+        tallies: list[OracleTally] = []
+        with processes(self.plan.workers) as executor:
+            for task, opinions, seconds in oracles.perform_tasks(tasks, executor):
+                tallies.append(oracles.compare_with_exact(task, opinions, self.batches[task.batch], seconds))
+                advance(1)
+        for tally in oracles.merged_tallies(tallies):
+            disagreeing = self.outcome.because[Exit.ORACLES_DISAGREE]
+            disagreeing += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
+            self.recorder.add(
+                lines.OracleLine(
+                    oracle=tally.oracle,
+                    family=tally.family,
+                    asked=tally.asked,
+                    undecided=tally.undecided,
+                    stages=dict(tally.stages),
+                    seconds=tally.seconds,
+                    disagreeing=len(tally.disagreements),
+                    disagreements=list(tally.disagreements[:DISAGREEMENTS_KEPT]),
+                )
+            )
+
+    def _find_exact_errors(self, advance: Advance) -> None:
+        found, known = [], findings.known_findings()
+        for batch in self.batches:
+            for formula in findings.exact_formulas():
+                for finding in findings.mathematical_findings(formula, batch, self.plan):
+                    found.append(finding)
+                    reason = findings.reason_for(finding, known)
+                    self.recorder.add(msgspec.structs.replace(finding, reason=reason))
+                advance(1)
+        for sentence in findings.finding_drift(found, known, complete=self.plan.complete):
+            self.recorder.add(lines.DriftLine(sentence=sentence))
+            self.outcome.because[Exit.WRONG].append(sentence)
+
+    def _judge(self, methods: Sequence[Method], advance: Advance) -> None:
+        for batch in (each.head(self.plan.judged) for each in self.batches):
+            exponents = judge.flip_exponents(batch.rows)
             advance(1)
-    for sentence in findings.finding_drift(found, listed, complete=plan.complete):
-        recorder.add(lines.DriftLine(sentence=sentence))
-        outcome.because[Exit.WRONG].append(sentence)
+            for method in methods:
+                line = findings.method_group(method, batch, exponents, self.plan)
+                self.recorder.add(line)
+                if method.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}:
+                    self.outcome.because[Exit.WRONG].append(f"{method.name} on {batch.family.name}")
+                advance(1)
 
-
-def _judge(
-    plan: SelfCheckPlan,
-    all_batches: Sequence[FamilyBatch],
-    methods: Sequence[Method],
-    recorder: Recorder,
-    outcome: RunOutcome,
-    advance: Advance,
-) -> None:
-    for batch in (each.head(plan.judged) for each in all_batches):
-        octaves = judge.flip_exponents(batch.rows)
-        advance(1)
-        for method in methods:
-            line = findings.method_group(method, batch, octaves, plan)
-            recorder.add(line)
-            if method.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}:
-                outcome.because[Exit.WRONG].append(f"{method.name} on {batch.family.name}")
+    def _draw(self, advance: Advance) -> None:
+        for panel in findings.tower_panels():
+            self.recorder.add(findings.map_line(panel, builtin("table-2-float32")))
             advance(1)
 
-
-def _draw(recorder: Recorder, advance: Advance) -> None:
-    for panel in findings.tower_panels():
-        recorder.add(findings.map_line(panel, builtin("table-2-float32")))
-        advance(1)
-
-
-def _time(plan: SelfCheckPlan, recorder: Recorder, advance: Advance) -> None:
-    rows, found = timed_rows(plan.seed), timed_methods(meshes=MESH in plan.oracles)
-    for _, timings in measure([each.entry(rows) for each in found], TIMING_ROUNDS):
-        advance(1)
-        for contender, timing in zip(found, timings, strict=False):
-            recorder.add(timing_line(contender, timing))
+    def _time(self, advance: Advance) -> None:
+        rows, methods = timed_rows(self.plan.seed), timed_methods(meshes=MESH in self.plan.oracles)
+        for _, timings in measure([each.entry(rows) for each in methods], TIMING_ROUNDS):
+            advance(1)
+            for method, timing in zip(methods, timings, strict=False):
+                self.recorder.add(timing_line(method, timing))
 
 
 def options(plan: SelfCheckPlan) -> Mapping[str, Any]:
-    """The plan as the record's header shows it."""
+    """The plan as the record's header has it."""
     return {**asdict(plan), "tolerance": float(plan.tolerance)}

@@ -1,4 +1,4 @@
-"""A run of verify as a whole: it ends well, and each thing that may go wrong ends it as it should."""
+"""A self-check as a whole: its exit code and its reports, and the exit code for each error that it can find."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def exit_code(tmp_path):
 
 @pytest.fixture(scope="module")
 def derived():
-    """The derivation is the same in every run: once for all tests here."""
+    """The derivation, made once for all tests here, because it is the same in every run."""
     return self_check.check_equations(), self_check.prove_formulas()
 
 
@@ -47,7 +47,7 @@ def shorten(monkeypatch, derived):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory, derived):
-    """The folder of a run in which nothing goes wrong, with all its reports."""
+    """The folder of a run without errors, with all its reports."""
     folder = tmp_path_factory.mktemp("whole")
     with pytest.MonkeyPatch.context() as patch:
         shorten(patch, derived)
@@ -60,7 +60,7 @@ def quick(monkeypatch, derived, text_reports):
     shorten(monkeypatch, derived)
 
 
-def test_a_run_ends_with_0_and_leaves_its_reports(whole):
+def test_self_check_ends_with_0_and_writes_its_reports(whole):
     assert exit_code(whole) == 0
     files = {path.name for path in whole.iterdir()}
     assert files >= {"record.jsonl", "summary.json", "report.md", "junit.xml", "report.html", "map.svg"}
@@ -69,14 +69,14 @@ def test_a_run_ends_with_0_and_leaves_its_reports(whole):
     assert set(summary["oracles"]) == {"exact", "nearest", "roots", "mesh"}
 
 
-def test_the_run_that_the_tests_below_disturb_ends_with_0(tmp_path):
+def test_undisturbed_small_run_ends_with_0(tmp_path):
     ended(tmp_path)
     assert exit_code(tmp_path) == 0
 
 
 @pytest.mark.parametrize("name", ["exact", "nearest", "roots", "mesh"])
-def test_a_wrong_oracle_ends_with_6_and_shows_the_case(tmp_path, monkeypatch, name):
-    """An oracle that calls one exterior case of the ring a contact."""
+def test_wrong_oracle_ends_the_run_with_6_and_its_case_is_printed(tmp_path, monkeypatch, name):
+    """The oracle says contact for exterior cases."""
     right = oracles.ORACLES[name]
 
     def lying(rows):
@@ -95,7 +95,7 @@ def test_a_wrong_oracle_ends_with_6_and_shows_the_case(tmp_path, monkeypatch, na
     assert any(line.disagreements[0].case in result.output for line in disagreeing), case
 
 
-def test_an_oracle_whose_tangencies_are_wrong_ends_with_6(tmp_path, monkeypatch):
+def test_oracle_with_wrong_tangencies_ends_the_run_with_6(tmp_path, monkeypatch):
     right = oracles.ORACLES["nearest"]
 
     def lying(rows):
@@ -106,13 +106,13 @@ def test_an_oracle_whose_tangencies_are_wrong_ends_with_6(tmp_path, monkeypatch)
     assert exit_code(tmp_path) == 6
 
 
-def test_a_refused_certificate_ends_with_6(tmp_path, monkeypatch):
+def test_refused_certificate_ends_the_run_with_6(tmp_path, monkeypatch):
     monkeypatch.setattr("hypcheck.truth.certificate.check_certificate", lambda pair, certificate: False)
     ended(tmp_path)
     assert exit_code(tmp_path) == 6
 
 
-def test_a_wrong_exact_method_ends_with_1(tmp_path, monkeypatch):
+def test_wrong_exact_method_ends_the_run_with_1(tmp_path, monkeypatch):
     methods = dict(builtin.builtin_methods())
     methods["fast"] = replace(methods["fast"], answer=lambda rows: np.zeros(len(rows), dtype=np.int8))
     monkeypatch.setattr(self_check, "builtin_methods", lambda: methods)
@@ -120,21 +120,21 @@ def test_a_wrong_exact_method_ends_with_1(tmp_path, monkeypatch):
     assert exit_code(tmp_path) == 1
 
 
-def test_a_finding_that_is_not_known_ends_with_1(tmp_path, monkeypatch):
+def test_unknown_finding_ends_the_run_with_1(tmp_path, monkeypatch):
     monkeypatch.setattr(self_check.findings, "known_findings", lambda: ())
     ended(tmp_path)
     assert exit_code(tmp_path) == 1
     assert any("not a known finding" in line.sentence for line in read(tmp_path / "record.jsonl").of(DriftLine))
 
 
-def test_a_formula_that_is_not_the_derivation_ends_with_6(tmp_path, monkeypatch):
+def test_formula_without_a_valid_proof_ends_the_run_with_6(tmp_path, monkeypatch):
     right = self_check.prove_formulas()
     monkeypatch.setattr(self_check, "prove_formulas", lambda: (replace(right[0], holds=False), *right[1:]))
     ended(tmp_path)
     assert exit_code(tmp_path) == 6
 
 
-def test_the_same_seed_gives_the_same_record_but_for_times(whole, tmp_path):
+def test_same_seed_gives_the_same_record_except_for_times(whole, tmp_path):
     def lines(folder):
         return [
             {key: value for key, value in as_json(line).items() if key != "seconds"}

@@ -44,7 +44,7 @@ def lost(tmp_path, out, strike):
 def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
     out = tmp_path / "out"
     said = lost(tmp_path, out, Cluster.kill_scheduler)
-    assert "the cluster was lost: its scheduler is not there any more; what was finished is in the record" in said
+    assert "the cluster was lost: its scheduler is gone; the record holds the finished part" in said
     assert f"the same command with --resume {out} continues" in said
     assert "Traceback" not in said
     assert ended(out, "--resume", str(out))[0] == CODE
@@ -54,7 +54,7 @@ def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
 def test_a_scheduler_that_stands_still_is_waited_for_and_then_lost(tmp_path):
     """Its system goes on to say that it is there."""
     said = lost(tmp_path, tmp_path / "out", Cluster.stop_scheduler)
-    assert "the cluster was lost: its scheduler has said nothing for 2 s; what was finished is in the record" in said
+    assert "the cluster was lost: its scheduler has not answered for 2 s; the record holds the finished part" in said
 
 
 def test_an_interrupted_run_on_workers_here_leaves_none_of_them_and_goes_on(tmp_path, whole, token):  # noqa: F811

@@ -196,7 +196,7 @@ def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_pat
     fickle = ImplementationOpener(f"python:{tmp_path / 'fickle.py'}:f", Limits())
     with (
         fickle.open() as it,
-        pytest.raises(StartError, match="describes itself otherwise"),
+        pytest.raises(StartError, match="declares another description"),
         execution_in_pool(2, fickle, rules_of(it), it) as performing,
     ):
         last(perform_steps(steps_of(["ring"], 10), performing, RunState(it.allowance)))
@@ -262,7 +262,7 @@ def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_ch
         waiting = sum(len(each.indices) for each in passed[stopped].total.pending)
         assert only.counts["not-run"] == behind + waiting
         assert passed[-1].left.over == "not asked: 3 restarts are used up; the last row at fault: " + next(
-            fault.reason for fault in only.faults if fault.status == "crash"
+            fault.reason for fault in only.unanswered if fault.status == "crash"
         )
         assert saved_state(last(perform_steps(some, shuffled(it, rules, 1), begun))) == expected
         for pause in (stopped - 1, stopped, stopped + 1):
@@ -311,7 +311,7 @@ def test_a_result_comes_back_from_json():
     assert again.tallies["some"].worst == (worst,)
     assert repr(again.tallies["some"].unanswered) == repr((fault,))
     assert saved_result(again) == saved_result(result)
-    for name in ("again", "outcomes", "excusing", "named"):
+    for name in ("retest", "outcomes", "excusing", "named"):
         assert getattr(again, name) == getattr(result, name)
     assert again.open[0].chunk == left.chunk
     assert again.open[0].indices.tolist() == left.indices.tolist()

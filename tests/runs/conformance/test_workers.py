@@ -61,7 +61,7 @@ def test_processes_that_cannot_begin_end_the_run(monkeypatch):
     with (
         KILLS.open() as it,
         pytest.raises(
-            WorkersLostError, match=r"3 processes of hypcheck ended before they had asked anything, .* status 9"
+            WorkersLostError, match=r"3 processes of hypcheck ended before they had asked a case, .* status 9"
         ),
         execution_in_pool(2, KILLS, rules_of(it), it) as performing,
     ):

@@ -226,7 +226,7 @@ def test_text_of_every_formula_can_be_printed(capsys):
         (["0x0p+0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0.0"),
         (
             ["builtin:fast", "ring-0007"],
-            "CASE is 'builtin:fast', which names an implementation; replay takes CASE SPEC",
+            "CASE is 'builtin:fast', which is a SPEC; the order is replay CASE SPEC",
         ),
         (["0x1p+2000,2,1,1,5,0,0", "builtin:fast"], "too large for float64"),
         (["0xg,2,1,1,5,0,0", "builtin:fast"], "it must be a number"),
