@@ -1,14 +1,7 @@
-"""What an implementation says of itself: name, precision, question, and the domain where it claims to be right.
+"""The description of an implementation: name, precision, question, and the domain where it claims to be right.
 
-What an implementation can be asked, how it may answer, and the precisions in which it can compute that.
-
-Checks of foreign values that a description and a domain share: each returns the value or raises InputError.
-
-Where an implementation claims to be right; rows elsewhere are skipped, not judged.
-
-A domain read from a mapping: regimes, ratio, magnitude, and the settings that a kernel for one scene has.
-
-What an implementation says of itself: name, precision, question, domain. A misspelt key is refused.
+Rows outside the domain are skipped, not judged. Descriptions come from foreign code as JSON; an unknown key or a wrong
+value raises InputError, which names the key, the value, and what would be right.
 """
 
 from __future__ import annotations
@@ -30,7 +23,7 @@ from hypcheck.messages import escaped
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 
 QUESTIONS = ("position", "exterior", "interior", "contact")
-"""The position itself, or whether it is one of the three."""
+"""The question for the position itself, or whether it is one of the three."""
 
 UNIT_ROUNDOFF = {
     "float16": Fraction(1, 2**11),
@@ -41,13 +34,13 @@ UNIT_ROUNDOFF = {
     "binary128": Fraction(1, 2**113),
     "exact": Fraction(0),
 }
-"""The unit u of each precision an implementation can declare: half the distance from 1 to the next number."""
+"""The unit u of each precision that an implementation can declare: half the distance from 1 to the next number."""
 
 PRECISIONS = tuple(UNIT_ROUNDOFF)
 
 
 def allowed(question: str) -> tuple[int, ...]:
-    """The answers that a question has."""
+    """The answers to a question."""
     return (-1, 0, 1) if question == "position" else (0, 1)
 
 
@@ -65,7 +58,7 @@ def two_numbers(value: object, where: str) -> tuple[float, float]:
 
 
 def checked_number(value: object, where: str) -> float:
-    """A number of float64; whole numbers are numbers, truth values are none."""
+    """A number of float64; integers are numbers, truth values are not."""
     try:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             return float(value)
@@ -75,7 +68,7 @@ def checked_number(value: object, where: str) -> float:
 
 
 REGIMES = ("a>=1", "c2>=a")
-"""The paper's hypotheses: α/b ≥ 1, and (γ/d)² ≥ α/b."""
+"""The hypotheses of the paper: α/b ≥ 1, and (γ/d)² ≥ α/b."""
 
 NORMAL_RANGE: dict[str, Range] = {
     "float16": (2.0**-14, 65504.0),
@@ -92,11 +85,11 @@ _CORNERS = np.array([(*sizes, *[center] * 6) for *sizes, center in product((0, 1
 
 @dataclass(frozen=True, slots=True)
 class Domain:
-    """The rows a method speaks of: every regime named holds, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
+    """The rows that a method claims: all `regimes` hold, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
 
-    Bounds are inclusive, as ranges.within has them. None is a range that was not declared: the ordinary one, or, where
-    more is asked for, every one. `settings` names the only sizes there are, each with the spans of its centre; no range
-    holds then that was not declared. Raises InputError where a regime is unknown or a range is empty.
+    Bounds are inclusive, as in rows.within. None is a range that was not declared: the ordinary range, or for extreme
+    families an unbounded one. `settings` are the only allowed sizes, each with the ranges of its centre; a range that
+    was not declared is then unbounded. Raises InputError if a regime is unknown or a range is empty.
     """
 
     regimes: tuple[str, ...] = ()
@@ -110,13 +103,14 @@ class Domain:
                 raise InputError(f"the domain names the regime {regime!r}; it must be one of {', '.join(REGIMES)}")
         for name, limits in (("ratio", self.ratio), ("magnitude", self.magnitude)):
             if limits is not None and not 0 <= limits[0] <= limits[1]:
-                told = f"[{limits[0]}, {limits[1]}]"
-                raise InputError(f"the domain's {name} is {told}; it must be two numbers with 0 ≤ low ≤ high")
+                shown = f"[{limits[0]}, {limits[1]}]"
+                raise InputError(f"the domain's {name} is {shown}; it must be two numbers with 0 ≤ low ≤ high")
 
     def holds(self, rows: Rows, *, extreme: bool = False) -> Mask:
         """A mask (n,) of the rows inside the domain.
 
-        `extreme`: they are of a family that is asked only when it is asked for, so what was not declared is unbounded.
+        `extreme` rows belong to a family that is asked only on request; then ranges that were not declared are
+        unbounded.
         """
         unbounded = extreme or self.settings
         ratio, magnitude = (UNBOUNDED, UNBOUNDED) if unbounded else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
@@ -138,7 +132,7 @@ def in_regime(rows: Rows, regime: str) -> Mask:
         return np.asarray(alpha >= b)
     with np.errstate(all="ignore"):
         left, right = (gamma / d) ** 2, alpha / b
-        # At most 4 roundings between the two sides, when nothing under- or overflows: outside 16u floats decide.
+        # At most 4 roundings between the two sides, if nothing under- or overflows: beyond 16u floats decide.
         trusted = (left > 2.0**-900) & (left < 2.0**900) & (right > 2.0**-900) & (right < 2.0**900)
         margin = 1 + 16 * 2.0**-53
         holds, fails = trusted & (left > margin * right), trusted & (right > margin * left)
@@ -149,7 +143,7 @@ def in_regime(rows: Rows, regime: str) -> Mask:
 
 
 def representable(rows: Rows, precision: str) -> Mask:
-    """A mask (n,) of the rows whose every number is zero or normal in the declared precision."""
+    """A mask (n,) of the rows in which every number is zero or normal in the declared precision."""
     limits = NORMAL_RANGE.get(precision)
     if limits is None:
         return np.ones(len(rows), dtype=bool)
@@ -158,7 +152,7 @@ def representable(rows: Rows, precision: str) -> Mask:
 
 
 def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False) -> NDArray[np.intp]:
-    """The places of the rows that lie in the domain and can be written in the declared precision, ascending.
+    """The ascending indices of the rows that lie in the domain and are representable in the declared precision.
 
     `extreme` is as in Domain.holds.
     """
@@ -173,8 +167,8 @@ def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False
 def _corners(rows: Rows) -> Rows:
     """Rows (32, 7 or 10) of the extremes of |rows|: all combinations of sizes, with the least and the greatest others.
 
-    Each condition of a domain, its settings apart, is monotone in each length, and so is what a precision can write,
-    a zero apart, which it always can: what holds of these rows holds of all.
+    Each condition of a domain except its settings is monotone in each length. So is the range of a precision, except
+    for zero, which is always representable. Hence a condition that holds for these rows holds for all.
     """
     lengths = np.abs(rows.T)
     least, greatest = lengths.min(axis=1, initial=np.inf), lengths.max(axis=1, initial=0.0)
@@ -185,11 +179,11 @@ def _corners(rows: Rows) -> Rows:
 
 
 def domain_of(value: object, where: str) -> Domain:
-    """The domain that a mapping describes, or that is one already; raises InputError naming key and value."""
+    """The domain in a mapping, or the value if it is a Domain; raises InputError naming key and value."""
     if isinstance(value, Domain):
         return value
-    said = object_of(value, where, tuple(_READERS), required=())
-    return Domain(**{key: _READERS[key](each, f"{where}'s {key}") for key, each in said.items()})
+    found = object_of(value, where, tuple(_READERS), required=())
+    return Domain(**{key: _READERS[key](each, f"{where}'s {key}") for key, each in found.items()})
 
 
 def _regimes(value: object, where: str) -> tuple[str, ...]:
@@ -201,14 +195,14 @@ def _regimes(value: object, where: str) -> tuple[str, ...]:
 def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
     if not isinstance(value, (list, tuple)) or not value:
         raise InputError(
-            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes and, at will, x, y, z"
+            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes, and optionally x, y, z"
         )
     return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
 
 
 def _setting(value: object, where: str) -> FixedSizes:
-    said = object_of(value, where, ("sizes", *CENTER), required=("sizes",))
-    sizes = said["sizes"]
+    found = object_of(value, where, ("sizes", *CENTER), required=("sizes",))
+    sizes = found["sizes"]
     if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
         raise InputError(f"{where}'s sizes is {shown_value(sizes)}; it must be four numbers, {', '.join(SIZES)}")
     alpha, gamma, b, d = (checked_number(each, f"{where}'s sizes") for each in sizes)
@@ -216,7 +210,7 @@ def _setting(value: object, where: str) -> FixedSizes:
         trouble = trouble_with(name, size)
         if trouble is not None:
             raise InputError(f"{where}'s sizes: {trouble}")
-    spans = {key: two_numbers(said[key], f"{where}'s {key}") for key in CENTER if key in said}
+    spans = {key: two_numbers(found[key], f"{where}'s {key}") for key in CENTER if key in found}
     for key, (low, high) in spans.items():
         if not low <= high:
             raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
@@ -230,14 +224,16 @@ _READERS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
 
 PROTOCOL = 1
 LONGEST = 1 << 16
-"""Bytes of a description."""
+"""The most bytes of a description."""
 
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """An implementation's claims. `refuses`: invalid rows are answered 127; `binary`, `time`: what a command offers.
+    """An implementation's description of itself.
 
-    `tilt`: it is asked in rows of ten numbers, the spheroid's axis behind the other seven.
+    `domain` is where it claims to be right. `refuses` says that it answers invalid rows with 127. `binary` and `time`
+    say what a command offers of the protocol. `tilt` says that it takes rows of ten numbers, the spheroid's axis after
+    the other seven.
     """
 
     name: str
@@ -254,7 +250,7 @@ class Description:
     def overridden(
         self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
     ) -> Description:
-        """The description with what the caller says instead; raises InputError where that is not possible."""
+        """The description with values of the caller; raises InputError if there is no such precision or question."""
         return replace(
             self,
             precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
@@ -264,9 +260,9 @@ class Description:
 
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
-    """The description that a mapping holds, completed from `defaults`; raises InputError naming key and value."""
-    said = object_of(raw, "the description", tuple(_KEYS), required)
-    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in said.items()}
+    """The description in a mapping, completed from `defaults`; raises InputError naming key and value."""
+    found = object_of(raw, "the description", tuple(_KEYS), required)
+    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in found.items()}
     values.pop("protocol", None)
     return replace(defaults, **values)
 
@@ -277,12 +273,12 @@ def described_by_json(text: str | bytes, defaults: Description, required: tuple[
 
 
 def parse_domain(text: str) -> Domain:
-    """A domain as the command line has it, in JSON; raises InputError."""
+    """The domain in a JSON text of the command line; raises InputError."""
     return domain_of(_json(text, "the domain"), "the domain")
 
 
 def _unbounded(text: str) -> float:
-    """Infinity, which Python and TOML write where a domain has no end; raises ValueError on NaN."""
+    """Infinity, which Python and TOML write for the end of an unbounded range; raises ValueError on NaN."""
     return refused_constant(text) if text == "NaN" else float(text)
 
 
@@ -331,7 +327,7 @@ def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
 
 def _protocol(value: object, where: str) -> int:
     if value != PROTOCOL or isinstance(value, bool):
-        raise InputError(f"{where} is {shown_value(value)}; it must be {PROTOCOL}, the only one there is")
+        raise InputError(f"{where} is {shown_value(value)}; it must be {PROTOCOL}, the only version")
     return PROTOCOL
 
 

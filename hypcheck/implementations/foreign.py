@@ -1,11 +1,6 @@
-"""Foreign code in the worker, behind one interface: a Python function or, by its C ABI, a shared library.
+"""Foreign code in the worker, behind one interface: a Python function, or a shared library with a C ABI.
 
-What the worker holds: foreign code, loaded, behind one interface.
-
-A Python function under test: `function(rows)`, C-contiguous float64 (n, 7) → n integers; (n, 10) where its description
-has "tilt": true. Runs in the worker.
-
-A shared library under test, by its C ABI. Runs in the worker.
+A Python function is `function(rows)`: C-contiguous float64 (n, 7) → n integers. A library exports
 
 void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
 
@@ -15,7 +10,7 @@ const char *hypcheck_describe(void);
 void hypcheck_classify_scene(const double sizes[4], size_t n, const double *x, const double *y, const double *z,
                              int8_t *positions);
 
-Where the description has "tilt": true, the functions that are called are
+If the description has "tilt": true, rows are (n, 10), and the functions of a library are
 
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
@@ -54,14 +49,14 @@ class LoadError(Exception):
 
 
 class ContractError(Exception):
-    """Foreign code that was called and did not do what the contract says; the text is a sentence about it."""
+    """Foreign code that did not keep the contract of a call; the text is a sentence about it."""
 
 
 class ForeignCode(Protocol):
     """Foreign code that can be asked. Calls raise ContractError, or whatever foreign code raises."""
 
     description: str
-    """JSON; empty where it says nothing of itself."""
+    """JSON; empty if it has no description."""
 
     entries: tuple[str, ...]
     """Those of frames.ENTRIES that a library exports."""
@@ -71,7 +66,7 @@ class ForeignCode(Protocol):
         ...
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """The same, of rows that share sizes and axis, through the entry for many centres."""
+        """Answers to rows with the same sizes and axis, by the entry for many centres."""
         ...
 
     def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
@@ -81,25 +76,25 @@ class ForeignCode(Protocol):
     def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
-        Of a library no rows stand for a call that does nothing.
+        For a library, no rows mean a call that does nothing.
         """
         ...
 
 
 def description_as_json(description: object) -> str:
-    """A description that code holds, as the text that goes to our process; raises LoadError."""
+    """A module's description as JSON; raises LoadError."""
     try:
         return json.dumps(dict(description) if isinstance(description, Mapping) else description)
     except (TypeError, ValueError, RecursionError):
         raise LoadError(
-            "its description holds what JSON cannot say; it must be a mapping of texts and numbers"
+            "its description holds a value that JSON cannot express; it must be a mapping of texts and numbers"
         ) from None
 
 
 def bytes_at(shift: int, size: int) -> NDArray[np.uint8]:
     """Bytes that begin `shift` bytes after a multiple of 64.
 
-    What depends on alignment must not pass because memory happened to be aligned alike each time.
+    The alignment varies, so that code that depends on it fails the tests.
     """
     room = np.empty(size + 128, dtype=np.uint8)
     start = -room.ctypes.data % 64 + shift % 64
@@ -111,11 +106,11 @@ _INT64 = np.iinfo(np.int64)
 _OURS = os.path.dirname(os.path.dirname(__file__)) + os.sep
 _INSTALLED = os.path.dirname(os.path.dirname(np.__file__)) + os.sep
 _NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
-"""Where lines of a traceback lie: this package, installed packages, Python itself."""
+"""The folders of lines of a traceback: this package, installed packages, Python itself."""
 
 
 class PythonFunction:
-    """A function of a file or a module, and the module's optional attribute `hypcheck`, a mapping. Raises LoadError."""
+    """A function of a file or a module; the module's attribute `hypcheck` may be its description. Raises LoadError."""
 
     entries: tuple[str, ...] = ()
 
@@ -129,18 +124,18 @@ class PythonFunction:
             raise LoadError(f"importing {target!r} {error_text(error)}") from None
         function = getattr(module, name, None)
         if not callable(function):
-            has = "nothing of that name" if function is None else f"a {type(function).__name__}"
+            has = "nothing with that name" if function is None else f"a {type(function).__name__}"
             raise LoadError(f"{target!r} has no function {name!r}; it has {has}")
         self._function: Callable[[Rows], Any] = function
-        said = getattr(module, "hypcheck", None)  # `import hypcheck` puts a module there
-        self.description = "" if said is None or isinstance(said, ModuleType) else description_as_json(said)
+        found = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
+        self.description = "" if found is None or isinstance(found, ModuleType) else description_as_json(found)
 
     def classify(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows; raises ContractError where the function returns something else."""
+        """Answers to rows; raises ContractError if the function returns no array of n integers."""
         return _integers(self._function(rows), len(rows))
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Not offered by a Python function; raises ContractError."""
+        """Raises ContractError, because a Python function has no entry for scenes."""
         raise ContractError(f"a Python function has no entry for scenes, and was asked for one with {len(rows)} rows")
 
     def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
@@ -166,7 +161,7 @@ class PythonFunction:
 
 
 def error_text(error: BaseException) -> str:
-    """What was raised, and where, as the end of a sentence."""
+    """The exception and its line, as the end of a sentence."""
     text = traceback.format_exception_only(type(error), error)[-1].strip()
     if isinstance(error, SyntaxError):
         return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
@@ -175,7 +170,7 @@ def error_text(error: BaseException) -> str:
         (file, line) for file, line in files if not file.startswith(_NOT_UNDER_TEST) or file.startswith(_INSTALLED)
     ]
     foreign = [(file, line) for file, line in foreign if not file.startswith(_OURS)]
-    # The last line of theirs, and not of what they call: where numpy raises, its line tells them nothing.
+    # The last line of the code under test, not of packages that it calls: a line of numpy would not help.
     written = [each for each in foreign if not each[0].startswith(_INSTALLED)] or foreign[:1]
     return f"raised {text}" + (f" ({os.path.basename(written[-1][0])}, line {written[-1][1]})" if written else "")
 
@@ -186,7 +181,7 @@ def _of_name(name: str) -> ModuleType:
 
 
 def _of_file(path: str) -> ModuleType:
-    """The file run as a module, with its folder first on the path, as when Python runs it as a script."""
+    """The file as a module, with its folder first on the path, as when Python runs it as a script."""
     if not os.path.isfile(path):
         raise LoadError(f"there is no file {path!r}")
     path = os.path.abspath(path)
@@ -235,7 +230,7 @@ _HINTS = (
 
 
 class Library:
-    """A library and its entries. Which of these is called depends on how many numbers rows have. Raises LoadError."""
+    """A library and its entries; rows of seven and of ten numbers have different entries. Raises LoadError."""
 
     def __init__(self, path: str) -> None:
         library = _loaded(path)
@@ -244,13 +239,13 @@ class Library:
         self.description = _description(library, path)
 
     def classify(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows; raises ContractError where it writes beside them."""
+        """Answers to rows; raises ContractError if it writes outside the positions."""
         positions = _Positions(rows)
         self._entry(rows)(len(rows), rows.ctypes.data, positions.address)
         return positions.written()
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows that share sizes and axis; raises ContractError where it writes beside them."""
+        """Answers to rows that share sizes and axis; raises ContractError if it writes outside the positions."""
         positions = _Positions(rows)
         parts = _scene(rows)
         self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), positions.address)
@@ -260,7 +255,7 @@ class Library:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         positions, n = _Positions(rows), len(rows)
         if by_scene:
-            parts = _scene(rows)  # held, since the pointers do not hold it
+            parts = _scene(rows)  # kept alive, because the pointers do not do that
             words: tuple[int, ...] = (*_scene_words(parts, n), positions.address)
         else:
             words = (n, rows.ctypes.data, positions.address)
@@ -274,13 +269,13 @@ class Library:
     def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
-        The calls are made by the compiled kernel where there is one. No rows stand for a call that does nothing: of a
-        function of ours, or, where calls are made by ctypes, of this library about no rows.
+        The compiled kernel makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
+        function of the kernel, or with ctypes of this library without rows.
         """
         positions = _Positions(rows)
         try:
             call_each = compiled().call_each
-        except (ImportError, AttributeError):  # not built at install, or built before there was a call_each
+        except (ImportError, AttributeError):  # not built, or built before it had call_each
             return self._seconds_by_ctypes(rows, repeat, positions)
         address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value if len(rows) else 0
         nothing = np.zeros((1, rows.shape[1])), np.zeros(1, dtype=np.int8)
@@ -315,7 +310,7 @@ def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...
 
 
 def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
-    """Sizes, of rows of ten the axis, x, y, z, each at an address of its own modulo 64, another when the rows' is."""
+    """Sizes, the axis of rows of ten, x, y, z, each with another address modulo 64, which varies with the rows'."""
     parts = []
     axis = [rows[0, 7:]] if _has_axis(rows) else []
     for index, part in enumerate((rows[0, :4], *axis, *rows[:, 4:7].T)):
@@ -326,7 +321,7 @@ def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
 
 
 class _Positions:
-    """Room for answers between two fences; its address modulo 64 is another when the rows' is."""
+    """Memory for answers between two fences; its address modulo 64 varies with the rows'."""
 
     def __init__(self, rows: Rows) -> None:
         self._n = len(rows)
@@ -336,12 +331,12 @@ class _Positions:
 
     @property
     def room(self) -> NDArray[np.int8]:
-        """Where the answers go."""
+        """The memory for the answers."""
         return self._room[_FENCE:-_FENCE]
 
     def written(self) -> NDArray[np.int8]:
         if (self._room[:_FENCE] != UNWRITTEN).any() or (self._room[-_FENCE:] != UNWRITTEN).any():
-            raise ContractError(f"it wrote outside of the {counted(self._n, 'position')} that it was given")
+            raise ContractError(f"it wrote outside the {counted(self._n, 'position')} that it was given")
         return self.room
 
 
@@ -350,10 +345,10 @@ def _loaded(path: str) -> ctypes.CDLL:
         raise LoadError(f"there is no file {path!r}")
     try:
         return ctypes.CDLL(os.path.abspath(path))  # with a bare name the loader would search elsewhere
-    except (OSError, UnicodeDecodeError) as error:  # the latter where the loader names a path that is no UTF-8
-        said = os.fsdecode(error.object) if isinstance(error, UnicodeDecodeError) else str(error)
-        hints = [hint for signs, hint in _HINTS if any(sign in said for sign in signs)]
-        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], said])}") from None
+    except (OSError, UnicodeDecodeError) as error:  # the latter if the loader names a path that is not UTF-8
+        reason = os.fsdecode(error.object) if isinstance(error, UnicodeDecodeError) else str(error)
+        hints = [hint for signs, hint in _HINTS if any(sign in reason for sign in signs)]
+        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], reason])}") from None
 
 
 _POINTER = ctypes.c_void_p
@@ -377,7 +372,7 @@ def _entry(function: Any, name: str) -> Any:  # noqa: ANN401 - ctypes' own is pr
 
 
 def _has(library: ctypes.CDLL, name: str) -> bool:
-    """Whether it exports this. What the loader says where it does not names the path, which may be no UTF-8."""
+    """Whether a library exports a name. The loader's error names the path, which may not be UTF-8."""
     try:
         return hasattr(library, name)
     except UnicodeDecodeError:
@@ -388,8 +383,8 @@ def _description(library: ctypes.CDLL, path: str) -> str:
     if not _has(library, "hypcheck_describe"):
         return ""
     library.hypcheck_describe.argtypes, library.hypcheck_describe.restype = (), ctypes.c_char_p
-    said: bytes | None = library.hypcheck_describe()
-    if said is None:
+    description: bytes | None = library.hypcheck_describe()
+    if description is None:
         raise LoadError(f"{path!r}: hypcheck_describe returned a null pointer; it must be a JSON text")
-    text = said.decode("utf-8", "replace")
+    text = description.decode("utf-8", "replace")
     return text if text.strip() else json.dumps("")

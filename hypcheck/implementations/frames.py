@@ -1,8 +1,6 @@
-"""What a foreign program sends us: rows and answers as bytes, and its own words, shortened and escaped.
+"""Data between hypcheck and foreign programs: rows and answers as bytes, and output that is safe to print.
 
-What a foreign program says about itself, kept short and made safe to print.
-
-The frames between us and our own worker: a fixed head, then bytes. Both sides run on one machine from one source.
+The frames between hypcheck and its worker have a fixed head, then bytes. Both sides run on one machine from one source.
 """
 
 from __future__ import annotations
@@ -17,14 +15,14 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.messages import escaped
 
 KEPT = 16_384
-"""Bytes of standard error that are kept: the last ones, since what a program says before it ends tells the most."""
+"""So many last bytes of standard error are kept: the output before a program's end says the most."""
 
 LINES, WIDTH = 3, 400
-"""What a sentence quotes of them."""
+"""Lines of standard error in a sentence, and characters of a text."""
 
 
 def quoted(data: bytes | bytearray, width: int = 80) -> str:
-    """Bytes that were not understood, as a sentence quotes them."""
+    """Bytes as a sentence quotes them."""
     return f"'{escaped(bytes(data[: 4 * width]).decode('utf-8', 'replace'), width)}'"
 
 
@@ -36,27 +34,27 @@ class OutputTail:
         self._fresh = 0
 
     def add(self, data: bytes) -> None:
-        """Take what came, and forget what that pushes out."""
+        """Append data, and drop the oldest bytes."""
         self._bytes += data
         self._fresh += len(data)
         if len(self._bytes) > 2 * KEPT:
             del self._bytes[:-KEPT]
 
     def mark(self) -> None:
-        """From here on `recent` speaks."""
+        """Begin what `recent` returns."""
         self._fresh = 0
 
     def lines(self) -> tuple[str, ...]:
-        """All that is kept, line by line, safe to print."""
+        """All lines that are kept, safe to print."""
         return _lines(self._bytes[-KEPT:])
 
     def recent(self) -> tuple[str, ...]:
-        """What of it came since the mark."""
+        """The lines since the mark, as far as they are kept."""
         return _lines(self._bytes[-min(self._fresh, KEPT) :]) if self._fresh else ()
 
 
 def stderr_excerpt(lines: Sequence[str]) -> str:
-    """The last lines of standard error as the end of a sentence; empty where there are none."""
+    """The last lines of standard error as the end of a sentence; empty if there are none."""
     return f"; stderr: {escaped(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
 
 
@@ -66,17 +64,17 @@ def _lines(data: bytearray) -> tuple[str, ...]:
 
 
 LARGEST = 65_536
-"""Rows of a question."""
+"""The most rows of a question."""
 
 REQUEST = struct.Struct("=4sIIQQ")
-"""What is asked, the numbers of a row, the number of rows, how often to repeat, and a mark that nobody can guess; then
-the rows."""
+"""The kind of request, the numbers of a row, the number of rows, the repetitions, and a mark that nobody can guess;
+then the rows."""
 
 REPLY = struct.Struct("=4sIQQ")
-"""What it is, the bytes that an answer takes (1 or 8), the bytes that follow, and the mark of the request.
+"""The kind of reply, the bytes of an answer (1 or 8), the bytes that follow, and the mark of the request.
 
-Without the mark, what foreign code wrote into our pipe would be taken for a reply, and the reply for that to the next
-question. The first reply, which comes unasked, has the mark 0.
+Without the mark, bytes that foreign code writes into the pipe would look like a reply, and the true reply like that to
+the next question. The first reply, which has no request, has the mark 0.
 """
 
 CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE, TIME_EACH = b"clas", b"scen", b"time", b"tims", b"each"
@@ -100,11 +98,11 @@ TIMES = struct.Struct("=qq")
 """Nanoseconds and the sum of the answers."""
 
 UNWRITTEN = -86
-"""What a library's positions hold before it is called; no question has this answer."""
+"""The value of a library's positions before it is called; no question has this answer."""
 
 
 def row_bytes(rows: Rows) -> memoryview:
-    """Rows (n, 7 or 10) as little-endian bytes, not copied where they already are."""
+    """Rows (n, 7 or 10) as little-endian bytes, without a copy if they have that layout."""
     return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
 
 

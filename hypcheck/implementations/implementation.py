@@ -1,9 +1,4 @@
-"""An implementation under test in any language: opened from a SPEC, asked about rows, timed, restarted.
-
-An implementation under test, whatever it is written in: asked about rows, timed, and begun afresh.
-
-From a SPEC to an implementation that can be asked.
-"""
+"""An implementation under test in any language: opened from a SPEC, asked about rows, timed, restarted."""
 
 from __future__ import annotations
 
@@ -35,24 +30,25 @@ from hypcheck.implementations.worker_session import WorkerSession
 from hypcheck.messages import counted
 
 MAX_FAULTS = 1 << 14
-"""Rows of one implementation that may be at fault without ending it: who always fails is not asked for every row."""
+"""So many rows may fail without ending the process. An implementation that always fails is not asked every row."""
 
 _FIRST, _GROWTH = 64, 16
 _SHARE = 10
-"""Questions begin small and grow until one takes this part of the timeout: who is slow is asked less at once, and is
-not taken for one that hangs."""
+"""The first batch is small. Batches grow until one takes this part of the timeout, so that a slow implementation gets
+small batches, and does not look like one that hangs."""
 
-_SLACK_NS, _UNSEEN = 5_000_000_000, 20
-"""What a timed question may take by our clock: seconds for the way there and a warming up, and so often what it says.
+_SLACK_NS, _MAX_RATIO = 5_000_000_000, 20
+"""A timed question may take this time by our clock for transport and warm-up, and so many times the reported time.
 
-Whoever tells microseconds for nanoseconds would seem a thousand times as fast, and be asked for as much more work.
+An implementation that reports microseconds as nanoseconds would look a thousand times as fast, and get that much more
+work.
 """
 
 
 class Implementation:
-    """A context manager; its process is started again after a fault, as often as the limits allow.
+    """An implementation under test, a context manager. Its process is restarted after faults, as the limits allow.
 
-    `declared` is what it says of itself, `description` that with what the caller says instead.
+    `declared` is its own description; `description` is the same with the values that the caller replaces.
     """
 
     def __init__(
@@ -87,12 +83,12 @@ class Implementation:
 
     @property
     def max_batch(self) -> int:
-        """Rows of one question, at most."""
+        """The most rows of one question."""
         return self._supervisor.max_batch
 
     @property
     def max_rows(self) -> int | None:
-        """Rows of a family that it is fast enough for; None where nothing is known of that."""
+        """The most rows of a family that it answers in reasonable time; None if that is not known."""
         return self._supervisor.max_rows
 
     @property
@@ -102,21 +98,21 @@ class Implementation:
 
     @property
     def proven_batch(self) -> int:
-        """Rows of one question that it has shown to answer well within its time."""
+        """Largest batch that it has answered well within the timeout so far."""
         return self._batch
 
     @property
     def allowance(self) -> Allowance:
-        """What it may still cost."""
+        """The faults that it may still have."""
         return self._supervisor.left
 
     def allow(self, allowance: Allowance) -> None:
-        """From here on it may cost so much, whatever it has cost before."""
+        """Replace the allowance."""
         self._supervisor.left = allowance
 
     @property
     def restarts(self) -> int:
-        """Restarts that faults have cost, of those that the limits allow."""
+        """The restarts after faults so far."""
         return self._limits.restarts - self._supervisor.left.restarts
 
     @property
@@ -125,15 +121,15 @@ class Implementation:
         return self._supervisor.stderr
 
     def use_fresh_process(self) -> None:
-        """Go on in a fresh process, which does not count as a restart."""
+        """Continue in a fresh process, which does not count as a restart."""
         self._supervisor.close()
 
     def close(self) -> None:
-        """Let the process leave, or end it where it does not."""
+        """Let the process end, or kill it if it does not."""
         self._supervisor.close()
 
     def kill(self) -> None:
-        """End the process now, whatever it is at."""
+        """Kill the process now."""
         self._supervisor.kill()
 
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
@@ -206,7 +202,7 @@ class Implementation:
         if times is None:
             return None
         questions = len(rows) if each else 1
-        if took > _SLACK_NS * max(1, questions) + _UNSEEN * times[0]:
+        if took > _SLACK_NS * max(1, questions) + _MAX_RATIO * times[0]:
             raise TimingError(f"{self.spec} says that it took {times[0]:,} ns for what took {took:,} ns by our clock")
         answered = self.classify(rows, by_scene=by_scene)
         total = int(answered.answers.sum(dtype=np.int64))
@@ -228,9 +224,10 @@ class Implementation:
 
 
 class Crashed:
-    """Stands for an implementation where asking it keeps ending our own processes: each row ends as CRASH.
+    """A stand-in that reports CRASH for every row, for an implementation that keeps killing our workers.
 
-    Of it a run uses what is here. It costs nothing of the allowance: no process of its own was lost that we know of.
+    It has the members that a run uses. It spends nothing of the allowance, since no process of its own is known to be
+    lost.
     """
 
     proven_batch = 1
@@ -241,14 +238,14 @@ class Crashed:
         self._reason = reason
 
     def allow(self, allowance: Allowance) -> None:
-        """From here on it may cost so much."""
+        """Replace the allowance."""
         self.allowance = allowance
 
     def use_fresh_process(self) -> None:
-        """There is no process to begin afresh."""
+        """Do nothing: there is no process."""
 
     def classify(self, rows: Rows, *, batch: int | None = None) -> Answered:  # noqa: ARG002 - however it is asked
-        """No row has an answer."""
+        """CRASH for every row."""
         n = len(rows)
         status = np.full(n, Outcome.CRASH, dtype=np.int8)
         return Answered(np.full(n, CANNOT_SAY, dtype=np.int8), status, dict.fromkeys(range(n), self._reason))
@@ -262,9 +259,9 @@ def open_implementation(
     question: str | None = None,
     domain: Domain | None = None,
 ) -> Implementation:
-    """The implementation that a SPEC names, running; `precision`, `question` and `domain` stand for what it declares.
+    """The implementation that a SPEC names, running; `precision`, `question` and `domain` replace what it declares.
 
-    Raises InputError where the SPEC is none, and StartError where the implementation cannot be started.
+    Raises InputError if the text is no SPEC, and StartError if the implementation cannot be started.
     """
     spec = parse_spec(text)
     limits = limits or Limits()
@@ -294,4 +291,4 @@ def _start_command(spec: Spec, limits: Limits, run: int) -> Session:  # noqa: AR
 STARTS: Mapping[str, Callable[[Spec, Limits, int], Session]] = MappingProxyType(
     {"builtin": _start_builtin, "python": WorkerSession, "library": WorkerSession, "command": _start_command}
 )
-"""How each kind of SPEC is started; spec.py says how each is written."""
+"""The session of each kind of SPEC."""

@@ -1,13 +1,10 @@
 """The processes that a program started, daemons included, and their memory, watched from outside.
 
-What a foreign program starts and lets go of: a daemon in a session of its own is in no group that we could end.
+A daemon in a session of its own is in no group that can be killed. It keeps the environment of its program, though, and
+a mark in that shows whose it is. Only Linux shows environments; on other systems a daemon outlives the run.
 
-It keeps the environment that its program was given, though, and there a mark tells whose it is. Only Linux shows us
-environments; elsewhere what detaches itself outlives the run.
-
-The memory of a program and of everything that it started, looked at from outside.
-
-An address-space limit would be simpler, but kills what reserves much and uses little: sanitizers, Go, the JVM.
+A limit of the address space would be simpler, but kills programs that reserve much and use little: sanitizers, Go, the
+JVM.
 """
 
 from __future__ import annotations
@@ -42,29 +39,29 @@ kill -s KILL -- "-$1"
 grep -ls "$2" /proc/[0-9]*/environ | while IFS=/ read -r _ _ each _; do kill -s KILL "$each"; done
 kill -s KILL 0
 """
-"""For a shell that leads a group: it reads until its standard input ends, which only we hold open, and then kills the
-group $1, whoever has the mark $2, and itself.
+"""The program of a guard, a shell that leads a group of its own. It reads until its standard input ends, which only
+hypcheck holds open; then it kills the group $1, all processes with the mark $2, and itself.
 
-Meanwhile it looks at us every $3 seconds. If it finds us stopped by the signal number $4 twice in turn, it lets us go
-on: the program may have sent it, and nobody else might ever undo it. The field `exit_code` of a `stat`, the 52nd, tells
-which signal stopped a process, until its parent has taken note of that, as a shell does at a terminal, where somebody
-can undo it (Linux 5.17 and later; earlier it is 0, and nothing is undone). Ctrl-Z is another signal.
+Meanwhile it checks hypcheck every $3 seconds. If two checks in a row find it stopped by the signal number $4, the guard
+continues it: the program may have sent the signal, and nobody else might undo it. The 52nd field of `stat` is the
+signal that stopped a process, until its parent has read it, as a shell at a terminal does, where a person can continue
+it (since Linux 5.17; before that it is 0, and nothing is undone). Ctrl-Z sends another signal.
 """
 
 LOOK = 5
-"""Seconds between two looks of a guard."""
+"""Seconds between two checks of a guard."""
 
 _ROUNDS = 5
-"""Looks for who was started while others were ended."""
+"""So many searches for processes that were started while others were killed."""
 
 
 def new_environment_mark() -> str:
-    """The name of a variable for an environment; with those of others it can stand in one."""
+    """The name of an environment variable; several marks may be in one environment."""
     return f"HYPCHECK_{secrets.token_hex(16)}"
 
 
 def end_marked(mark: str) -> None:
-    """Kill all processes that have the mark and that we may kill."""
+    """Kill all processes with the mark, as far as permissions allow."""
     for _ in range(_ROUNDS):
         found = list(_marked(mark))
         for process in found:
@@ -75,11 +72,11 @@ def end_marked(mark: str) -> None:
 
 
 def is_marked(process: int, mark: str) -> bool:
-    """Whether the environment of a process has the mark; never of another user's, or where the system does not tell."""
+    """Whether the environment of a process has the mark; False if the system does not show it."""
     try:
         with open(f"/proc/{process}/environ", "rb") as file:
             return f"{mark}=".encode() in file.read()
-    except OSError:  # it ended meanwhile, or is another's
+    except OSError:  # it ended meanwhile, or belongs to another user
         return False
 
 
@@ -94,12 +91,12 @@ def _marked(mark: str) -> Iterator[int]:
 _SOONEST = 0.05
 _SHARE = 20
 _FASTEST = 8 << 30
-"""Between two looks pass 50 ms, and 20 times what a look takes: it costs 5 % of one core at most. Nor is it looked
-before memory can have grown to the limit, by so many bytes a second, which is more than a system can clear."""
+"""Between two checks pass at least 50 ms, and 20 times the time of a check, so that they take at most 5 % of one core.
+There is no check before memory can reach the limit at so many bytes a second, faster than a system can clear it."""
 
 
 class _ProcessMemory(NamedTuple):
-    """A process of the system: `started` tells it from a later one of the same number; `resident` is in bytes."""
+    """A process of the system. A later one with the same `number` has another `started`; `resident` is in bytes."""
 
     number: int
     parent: int
@@ -114,10 +111,10 @@ class _ProcessMemory(NamedTuple):
 
 
 class MemoryWatch:
-    """Looks now and then at the memory of a program's processes, and raises a FaultError where it is beyond the limit.
+    """Checks the memory of a program's processes now and then, and raises FaultError if it exceeds the limit.
 
-    Its processes are those of the group and session that `leader` leads, those whose environment has the `mark` that
-    it was given, what any of these started, and whatever was one of them before, though its parent has ended since.
+    These are the processes of the group and the session of `leader`, those with the `mark` in their environment, all
+    children of these, and all processes that were among them before, even if their parents have ended.
     """
 
     def __init__(self, leader: int, mark: str, limit: int) -> None:
@@ -128,7 +125,7 @@ class MemoryWatch:
         self._known: dict[tuple[int, int], bool] = {}
 
     def look(self, now: float) -> None:
-        """Look, if it is time to; `now` is time.monotonic()."""
+        """Check if the time for it has come; `now` is time.monotonic()."""
         if now < self._next:
             return
         used = self.used()
@@ -139,10 +136,9 @@ class MemoryWatch:
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
     def used(self) -> int:
-        """Bytes that its processes hold; 0 where the system does not tell.
+        """Bytes that its processes use; 0 if the system does not tell.
 
-        What they share counts once where the sum of all that is resident is beyond the limit: to tell that, the system
-        goes through every page.
+        If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
         ours = list(self._ours(list(_all_processes())))
         resident = sum(each.resident for each in ours)
@@ -164,7 +160,7 @@ class MemoryWatch:
                     todo.append(child)
 
     def _is_ours(self, each: _ProcessMemory) -> bool:
-        """Whether a process is one of its processes, as far as it tells itself. Asked once: its environment stays."""
+        """Whether a process belongs to the program by its group, session or mark; checked once for each process."""
         if each.identity not in self._known:
             self._known[each.identity] = is_marked(each.number, self._mark)
         if self._leader in {each.group, each.session}:
@@ -182,7 +178,7 @@ def _by_proc() -> Iterator[_ProcessMemory]:
         try:
             with open(f"/proc/{name}/stat", "rb") as file:
                 stat = file.read()
-        except OSError:  # it ended meanwhile, or is hidden from us
+        except OSError:  # it ended meanwhile, or is hidden
             continue
         fields = stat[stat.rfind(b")") + 2 :].split()  # the name before ")" may hold anything
         parent, group, session, started, pages = (int(fields[place]) for place in (1, 2, 3, 19, 21))
@@ -190,7 +186,7 @@ def _by_proc() -> Iterator[_ProcessMemory]:
 
 
 def _by_ps() -> Iterator[_ProcessMemory]:
-    """For systems without /proc, such as macOS; ps counts in KiB."""
+    """The processes on systems without /proc, such as macOS; ps counts in KiB."""
     try:
         listing = subprocess.run(
             ("ps", "-A", "-o", "pid=", "-o", "ppid=", "-o", "pgid=", "-o", "rss="),  # noqa: S607 - not everywhere in the same place
@@ -207,12 +203,12 @@ def _by_ps() -> Iterator[_ProcessMemory]:
 
 
 def _proportional(each: _ProcessMemory) -> int:
-    """Bytes that a process holds, of each page that others hold too its share; all that is resident where not told."""
+    """Bytes that a process uses, with its share of shared pages; all resident bytes if the system does not tell."""
     try:
         with open(f"/proc/{each.number}/smaps_rollup", "rb") as file:
             for line in file:
                 if line.startswith(b"Pss:"):
                     return int(line.split()[1]) << 10
-    except OSError:  # it ended meanwhile, is not ours to look into, or the system is too old
+    except OSError:  # it ended meanwhile, belongs to another user, or the system is too old
         pass
     return each.resident

@@ -1,10 +1,8 @@
-"""The time that an implementation is given.
+"""A foreign program in a process group of its own: its three pipes, its end, and the clock for its timeouts.
 
-A foreign program in a process group of its own, and its three pipes.
-
-Writing, reading and listening to standard error happen in one loop, so that neither a large question nor a flood on
-standard error can bring both sides to wait for each other. The group is ended as a whole, with what has left it: by us,
-or, should we be killed ourselves, by a guard that notices.
+One loop writes, reads, and reads standard error, so that neither a large question nor much output on standard error can
+make both sides wait for each other. The whole group is killed at the end, with processes that have left it. If hypcheck
+itself is killed, a guard notices that and kills the group.
 """
 
 from __future__ import annotations
@@ -29,21 +27,21 @@ from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 
 STEP = 0.25
-"""What of a longer time between two looks counts: for the rest of it we were not there."""
+"""At most so many seconds count between two readings of the clock: during the rest this process did not run."""
 
 
 class Clock:
-    """Counts the seconds for which we have listened, or could have; whoever waits looks at it several times a second.
+    """Counts the seconds in which this process could read replies; it is read several times a second.
 
-    It stands still while we are stopped ourselves (Ctrl-Z, a debugger, a machine that sleeps or has no time for us).
-    What came meanwhile could not be read, so that it is no delay of whoever was asked.
+    It stops while this process is stopped (Ctrl-Z, a debugger, a machine that sleeps or is overloaded). A reply that
+    arrives meanwhile cannot be read, so that time is no delay of the implementation.
     """
 
     def __init__(self) -> None:
         self._counted, self._looked = 0.0, time.monotonic()
 
     def now(self) -> float:
-        """Seconds since the beginning."""
+        """Seconds since the start."""
         looked = time.monotonic()
         self._counted += min(looked - self._looked, STEP)
         self._looked = looked
@@ -65,24 +63,24 @@ ONE_THREAD = dict.fromkeys(
     ),
     "1",
 )
-"""One thread, in the languages of those who start more unasked."""
+"""Environment variables that limit libraries to one thread."""
 
 _TICK = 0.05
 _CHUNK = 1 << 16
 _ROOM = 1 << 18
-"""Bytes that a pipe holds where the system lets it: both sides wait for each other less often than with 64 KiB."""
+"""Bytes of a pipe's buffer if the system allows it: both sides wait for each other less often than with 64 KiB."""
 _TOGETHER = 1 << 12
-"""Bytes of a question that are written at one go even if they come in several parts."""
+"""So many bytes of a question are written at once, even if they come in several parts."""
 
 _SOON = 1e-4
-"""Seconds in which the answer to so small a question is awaited awake: to fall asleep and be awakened takes as long."""
+"""For so many seconds a busy loop waits for the answer to so small a question: sleeping and waking takes as long."""
 
 _GOODBYE = 1.0
 _LAST_WORDS = 0.5
 
 
 class Process:
-    """One run of a program. Raises StartError where the system cannot run it."""
+    """One run of a program. Raises StartError if the system cannot run it."""
 
     def __init__(self, words: Sequence[str], limits: Limits) -> None:
         self._mark = new_environment_mark()
@@ -104,16 +102,16 @@ class Process:
         self._outgoing: Iterator[bytes | memoryview] = iter(())
         self._part = memoryview(b"")
         self.sending = False
-        """Whether bytes still wait to be read by it."""
+        """Whether the program has not read all of the question."""
         self.sent = 0
-        """Bytes of the question that have left."""
+        """Bytes of the question that were written."""
         self._soon = 0.0
         self.now = Clock().now
         self._ended = False
         self._closed = False
         self._listen()
         self.incoming = bytearray()
-        """What came on standard output and was not taken yet."""
+        """Bytes of standard output that were not taken yet."""
 
     def _listen(self) -> None:
         self._pipes = [cast("IO[bytes]", pipe) for pipe in (self._popen.stdin, self._popen.stdout, self._popen.stderr)]
@@ -127,18 +125,18 @@ class Process:
             self._poll.register(pipe, select.POLLIN)
 
     def send(self, parts: Iterable[bytes | memoryview]) -> None:
-        """Put bytes in line for its standard input; they leave while pump() is called, and are made as they leave.
+        """Queue bytes for its standard input; pump() writes them, and makes each part only when it writes it.
 
-        So it can work on the first part while the second is made.
+        So the program can work on the first part while the second is made.
         """
         self._outgoing = chain(self._outgoing, parts)
         self.sending = True
         self._poll.register(self._in, select.POLLOUT)
 
     def pump(self, until: float) -> bool:
-        """Move bytes once, waiting a moment at most and not beyond `until` of now(); true where `incoming` grew.
+        """Read and write once, waiting at most a moment and not beyond `until` of now(); true if `incoming` grew.
 
-        Raises FaultError where the process ended, closed its standard output, or holds too much memory.
+        Raises FaultError if the process ended, closed its standard output, or uses too much memory.
         """
         if self._ended:
             raise self._ending()
@@ -170,14 +168,14 @@ class Process:
                 self.sent += written
         except BlockingIOError:
             return
-        except BrokenPipeError:  # it reads no more; whether it ended, or has a last word, the other pipes tell
+        except BrokenPipeError:  # it reads no more; the other pipes show whether it ended or still writes
             self._outgoing, self._part = iter(()), memoryview(b"")
         self.sending = False
         self._soon = time.monotonic() + _SOON if self.sent <= _TOGETHER else 0.0
         self._poll.unregister(self._in)
 
     def _next_part(self) -> bool:
-        """Take what is to be written next: what a question begins with in one piece, so that it awakens once."""
+        """Take the next bytes to write; the start of a question in one piece, so that the program wakes once."""
         together = bytearray()
         for some in self._outgoing:
             part = memoryview(some)
@@ -210,17 +208,17 @@ class Process:
         try:
             code = self._popen.wait(_LAST_WORDS)
         except subprocess.TimeoutExpired:
-            return FaultError(Outcome.PROTOCOL, "it closed its standard output and lives on", fatal=True)
-        return FaultError(Outcome.CRASH, _told_by(code), fatal=True)
+            return FaultError(Outcome.PROTOCOL, "it closed its standard output and did not end", fatal=True)
+        return FaultError(Outcome.CRASH, _end_of(code), fatal=True)
 
     def mark(self) -> None:
-        """From here on `recent` speaks: a question begins."""
+        """Begin a question, and what `recent` returns."""
         self._tail.mark()
         self.sent = 0
 
     @property
     def recent(self) -> tuple[str, ...]:
-        """The lines of its standard error since the mark, safe to print; the last ones, where they are many."""
+        """The last lines of its standard error since the mark, safe to print."""
         return self._tail.recent()
 
     @property
@@ -229,7 +227,7 @@ class Process:
         return self._tail.lines()
 
     def goodbye(self) -> None:
-        """End its input and give it a moment to leave by itself; then as kill()."""
+        """End its input and give it a moment to end by itself; then kill()."""
         if not self._closed:
             with contextlib.suppress(KeyError):
                 self._poll.unregister(self._in)
@@ -242,19 +240,19 @@ class Process:
         self.kill()
 
     def kill(self) -> None:
-        """End the whole group now, with what has left it, and leave neither a zombie nor an open pipe.
+        """Kill the whole group now, and processes that left it; leave neither a zombie nor an open pipe.
 
-        Nothing happens the second time.
+        A second call does nothing.
         """
         if self._closed:
             return
         self._closed = True
-        with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter is macOS's word for a zombie
+        with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter for a zombie on macOS
             os.killpg(self._popen.pid, signal.SIGKILL)
         end_marked(self._mark)
         if self._guard:
             _dismiss(self._guard)
-        with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the kernel; it will go when that lets it
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the system, and ends after that
             self._popen.wait(5)
         self._hear_the_rest()
         for pipe in self._pipes:
@@ -273,16 +271,16 @@ class Process:
 
 def _widen(pipe: int) -> None:
     if sys.platform == "linux":
-        with contextlib.suppress(OSError):  # a user may have no more room for pipes
+        with contextlib.suppress(OSError):  # the user's limit for pipes may be reached
             fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, _ROOM)
 
 
 def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
-    """The guard of a group; None where the system has no shell."""
+    """The guard of a group; None if the system has no shell."""
     try:
         return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
             ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark, str(LOOK), str(int(signal.SIGSTOP))),
-            stdin=subprocess.PIPE,  # it closes the others itself: the null device may be missing
+            stdin=subprocess.PIPE,  # the guard closes the others itself: the null device may be missing
             start_new_session=True,
         )
     except OSError:
@@ -290,7 +288,7 @@ def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
 
 
 def _dismiss(guard: subprocess.Popen[bytes]) -> None:
-    os.killpg(guard.pid, signal.SIGKILL)  # before its input ends, which it would take for our death
+    os.killpg(guard.pid, signal.SIGKILL)  # before its input ends, the sign that hypcheck was killed
     guard.communicate()
 
 
@@ -303,11 +301,11 @@ def _not_run(program: str, error: OSError) -> str:
         return f"the program {program!r} is not executable"
     if error.errno == errno.ENOEXEC:
         return f"{program!r} is no program for this machine: another architecture, or a script without a #! line"
-    return f"the program {program!r} was not run by the system: {system_reason(error)}"
+    return f"the system could not run the program {program!r}: {system_reason(error)}"
 
 
-def _told_by(code: int) -> str:
-    """What a return code says of a process's end."""
+def _end_of(code: int) -> str:
+    """How a process with this return code ended."""
     if code < 0:
         out_of_memory = "; the system does that too when memory runs out" if -code == signal.SIGKILL else ""
         return f"it was ended by {_signal_name(-code)}{out_of_memory}"

@@ -1,4 +1,4 @@
-"""Questions about rows, whatever becomes of them: a fault costs the row that causes it, and the others are answered."""
+"""Questions about rows: a fault costs only the row that causes it, which is found by asking smaller parts."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from hypcheck.implementations.frames import UNWRITTEN
 from hypcheck.implementations.session import FaultError, GivenUpError, IntegerAnswers, Outcome, Supervisor
 
 ALONE = 4096
-"""Rows that are asked one by one to find one that ends the process; of more, parts of this size are asked first.
+"""So many rows are asked one by one to find the row that ends the process; more rows are first asked in such parts.
 
-So finding it takes two processes besides its own at most, and one for each further such row among them. What ends no
-process is found by halving.
+Thus the search costs at most two more processes, and one for each further such row. Rows that end no process are found
+by halving.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """What became of n rows: `answers` int8 (n,), CANNOT_SAY where there is none; `status` int8 (n,), an Outcome each.
+    """The answers to n rows: `answers` int8 (n,), CANNOT_SAY for rows without one; `status` int8 (n,), an Outcome each.
 
     `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED.
     """
@@ -34,7 +34,7 @@ class Answered:
 
     @classmethod
     def of(cls, answers: NDArray[np.int8]) -> Answered:
-        """Where every row has an answer."""
+        """These answers, one for every row."""
         return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {})
 
     @property
@@ -50,12 +50,12 @@ class Answered:
         return frozenset(map(Outcome, np.unique(self.status).tolist()))
 
     def count(self, outcome: Outcome) -> int:
-        """How many rows ended so."""
+        """The number of rows with this outcome."""
         return int(np.count_nonzero(self.status == outcome))
 
 
 class AllowedAnswers:
-    """The answers that an implementation may give, by its question and by whether it refuses invalid rows."""
+    """The allowed answers of an implementation: those to its question, CANNOT_SAY, and REFUSED if it refuses rows."""
 
     def __init__(self, description: Description) -> None:
         self._refuses = description.refuses
@@ -64,7 +64,7 @@ class AllowedAnswers:
         self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
 
     def understood(self, answers: IntegerAnswers, rows: Rows) -> NDArray[np.bool_]:
-        """A mask (n,) of the answers that may be given to these rows."""
+        """A mask (n,) of the allowed answers; REFUSED is allowed for invalid rows only."""
         short = answers.astype(np.int8, copy=False)
         usable = self._usable.take(short.view(np.uint8))
         if answers.dtype != np.int8:
@@ -75,15 +75,15 @@ class AllowedAnswers:
         return np.asarray(usable)
 
     def trouble_with(self, answer: int) -> str:
-        """Why an answer that may not be given may not."""
+        """Why an answer is not allowed."""
         if answer == REFUSED and self._refuses:
             return f"it answered {REFUSED}, which refuses the row, but the row is valid"
-        hint = ", which is what stands where a library writes nothing" if answer == UNWRITTEN else ""
+        hint = ", the value of positions that a library did not write" if answer == UNWRITTEN else ""
         return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
 
 
 class RowQuestions:
-    """One call's rows and what became of them so far."""
+    """The rows of one call of classify, and their answers so far."""
 
     def __init__(self, rows: Rows, supervisor: Supervisor, allowed_answers: AllowedAnswers, *, by_scene: bool) -> None:
         n = len(rows)
@@ -94,14 +94,14 @@ class RowQuestions:
         self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
 
     def ask(self, start: int, stop: int) -> None:
-        """Ask rows [start, stop), together if that succeeds; raises GivenUpError where no further process may begin."""
+        """Ask rows [start, stop), together if possible; raises GivenUpError if the implementation is given up."""
         try:
             self._question(start, stop)
         except FaultError as fault:
             self._search(start, stop, fault, self._supervisor.note_fault(fault))
 
     def leave(self, reason: str) -> None:
-        """Note for the rows of which nothing was found out why that is so."""
+        """Set the reason of all rows that were not asked."""
         left = np.flatnonzero(self.result.status == Outcome.NOT_RUN)
         self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
 
@@ -116,9 +116,9 @@ class RowQuestions:
             self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index])))
 
     def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
-        """Find the rows at fault by asking parts, and parts of those that fail.
+        """Find the rows at fault by asking parts, and parts of the parts that fail.
 
-        Rows at fault are charged, not what it takes to find them, which depends on how many were asked at once.
+        Only the rows at fault are charged, because the cost of the search depends on how many rows were asked at once.
         """
         if stop - start == 1:
             self._charge(start, fault, reason)
@@ -154,7 +154,7 @@ class RowQuestions:
 
 
 def _part(n: int, *, fatal: bool) -> int:
-    """Rows of the parts in which n that fail are asked: halves; where failing ends a process, few parts, then rows."""
+    """The size of the parts of n rows that failed: halves; if failing ends the process, ALONE rows, then one."""
     if not fatal:
         return (n + 1) // 2
     return ALONE if n > ALONE else 1

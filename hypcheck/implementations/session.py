@@ -1,12 +1,7 @@
-"""Sessions of an implementation: its limits, how a question can fail, and restarts as faults allow.
+"""Sessions of an implementation: their interface and limits, faults, and the supervisor that restarts them.
 
-What a foreign implementation may use before it is stopped.
-
-How a question to a foreign implementation can end without an answer, as values and as exceptions.
-
-One run of an implementation, from its start to its end, as the runner sees it.
-
-The runs of an implementation: one process after another, as many as faults may cost.
+A session is one run of an implementation, usually in a process of its own. A fault is a question without an answer. A
+fault that ends the process costs a restart; the supervisor starts sessions until the allowance is used up.
 """
 
 from __future__ import annotations
@@ -27,9 +22,10 @@ from hypcheck.implementations.description import Description
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Seconds until it is ready, seconds without progress, restarts after faults, bytes its process group may hold.
+    """The limits of an implementation. Raises InputError if one of them is 0 or less (`restarts` may be 0).
 
-    Raises InputError where one of them leaves no room at all.
+    `startup_timeout` are seconds until it is ready, `timeout` seconds without progress; `restarts` are allowed after
+    faults, and its processes may use `memory` bytes together.
     """
 
     startup_timeout: float = 30.0
@@ -47,7 +43,7 @@ class Limits:
 
 
 class Outcome(IntEnum):
-    """What became of a row: an answer, or one of the ways to fail; the labels are those of judge.Status."""
+    """How a question about a row ended: with an answer, or with a fault; the labels are those of judge.Status."""
 
     ANSWERED = 0
     ERROR = 1
@@ -63,9 +59,9 @@ class Outcome(IntEnum):
 
 
 class FaultError(Exception):
-    """A question that was not answered: how, why, and whether the process is lost with it (`fatal`).
+    """A question without an answer: its outcome, the reason, and whether the process is lost (`fatal`).
 
-    Raised by sessions and caught by the runner; a user never sees it.
+    Sessions raise it and the implementation catches it; a user never sees it.
     """
 
     def __init__(self, outcome: Outcome, reason: str, *, fatal: bool) -> None:
@@ -76,7 +72,7 @@ class FaultError(Exception):
 
 
 class StartError(HypcheckError):
-    """An implementation could not be started; the sentence says which, why, and what it said itself."""
+    """An implementation that could not be started; the sentence says which, why, and what it printed."""
 
     exit_code = Exit.NOT_STARTED
 
@@ -91,32 +87,35 @@ IntegerAnswers = NDArray[np.signedinteger[Any]]
 
 
 class Session(Protocol):
-    """Questions raise FaultError; a fatal one leaves the session good for kill() alone. Beginning raises StartError."""
+    """One run of an implementation. Questions raise FaultError; after a fatal one only kill() may be called.
+
+    Its constructor raises StartError. The fields have docstrings of their own.
+    """
 
     description: Description
     max_batch: int
-    """Rows of one question, at most."""
+    """The most rows of one question."""
 
     max_rows: int | None
-    """Rows of a family that it is fast enough for; None where nothing is known of that."""
+    """The most rows of a family that it answers in reasonable time; None if that is not known."""
 
     scene: bool
-    """Whether questions can be asked by scene: one set of sizes, many centres."""
+    """Whether it has an entry for scenes: one set of sizes, many centres."""
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:
-        """An integer for each row, not looked at."""
+        """An integer for each row, not checked."""
         ...
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int] | None:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where that is not offered.
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
-        `each`: by a call for each row.
+        `each` makes a call for each row.
         """
         ...
 
     @property
     def evidence(self) -> str:
-        """What it said on standard error since the last question, as the end of a sentence."""
+        """Its output on standard error since the last question, as the end of a sentence."""
         ...
 
     @property
@@ -125,7 +124,7 @@ class Session(Protocol):
         ...
 
     def close(self) -> None:
-        """Let it leave."""
+        """Let it end."""
         ...
 
     def kill(self) -> None:
@@ -134,21 +133,20 @@ class Session(Protocol):
 
 
 class GivenUpError(Exception):
-    """No further run is possible; the text says why. Raised by Supervisor and caught where questions are asked."""
+    """The implementation is asked no more; the text says why. Raised by Supervisor, and caught by Implementation."""
 
 
 MAX_HANGS = 3
-"""Questions in a row that an implementation may leave without an answer before it has answered any."""
+"""An implementation that has never answered is given up after so many timeouts in a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """What an implementation may still cost before it is asked no more.
+    """The faults that an implementation may still have before it is given up.
 
-    `restarts` after rows that ended its process; `faults`, rows that ended in one without ending the process. `over`
-    says why it is asked no more already; empty while it is. `hangs` are questions that it may still leave without an
-    answer; None once it has answered one, from when on restarts alone count. `last` is the reason of the last row that
-    was charged.
+    `restarts` are left for rows that end its process, and `faults` for rows that fail without ending it. `over` says
+    why it was given up, and is empty before that. `hangs` are the timeouts that are left while it has never answered;
+    None after its first answer. `last` is the reason of the last fault that was charged.
     """
 
     restarts: int
@@ -158,9 +156,9 @@ class Allowance:
     last: str = ""
 
     def after(self, task: Allowance, limits: Allowance) -> Allowance:
-        """What is left for the run once a task is counted that began with all of the `limits` and left `task`.
+        """The allowance of the run after one more task, which started with the full `limits` and left `task`.
 
-        Where tasks have spent more than the limits together, the one that exceeds them is the last that counts.
+        If tasks together exceed the limits, the task that exceeds them is the last that counts.
         """
         restarts = self.restarts - (limits.restarts - task.restarts)
         faults = self.faults - (limits.faults - task.faults)
@@ -173,10 +171,10 @@ class Allowance:
 
 
 class Supervisor:
-    """Holds the session that runs, and begins another where it was lost. Raises StartError where the first fails.
+    """Holds the running session, and starts another if it was lost. Raises StartError if the first cannot start.
 
-    `start` begins a session; it is given the number of sessions before. `left` is what is left of the allowance. A
-    row at fault is charged when it is found, so that what some rows cost does not depend on what is asked after them.
+    `start` makes a session from the number of sessions before it. `left` is what is left of the allowance. A row at
+    fault is charged when it is found, so that the cost of some rows does not depend on later rows.
     """
 
     def __init__(self, start: Callable[[int], Session], allowance: Allowance) -> None:
@@ -191,7 +189,7 @@ class Supervisor:
         self.max_batch = self._session.max_batch
 
     def session(self) -> Session:
-        """The session that runs, begun anew if need be; raises GivenUpError where that is not possible any more."""
+        """The running session, started if necessary; raises GivenUpError if the implementation was given up."""
         if not self.left.over and self._session is None:
             self._session = self._begin()
         if self.left.over or self._session is None:
@@ -215,12 +213,12 @@ class Supervisor:
         self.left = replace(self.left, over=self.left.over or reason)
 
     def note_answer(self) -> None:
-        """Take note that a question was answered."""
+        """Note that a question was answered."""
         if self.left.hangs is not None:
             self.left = replace(self.left, hangs=None)
 
     def note_fault(self, fault: FaultError) -> str:
-        """End the session that runs where the fault is fatal: what happened, with what was said on standard error."""
+        """End the session if the fault is fatal; the reason of the fault, with the session's standard error."""
         session = self._session
         if not fault.fatal or session is None:
             return fault.reason
@@ -241,7 +239,7 @@ class Supervisor:
             )
 
     def charge_fault(self, fault: FaultError, reason: str) -> None:
-        """Take note of a row that was found to be at fault."""
+        """Charge a row that was found to be at fault to the allowance."""
         if fault.fatal and self.left.restarts:
             self.left = replace(self.left, restarts=self.left.restarts - 1, last=reason)
         elif fault.fatal:
@@ -258,20 +256,20 @@ class Supervisor:
         return self._session.stderr if self._session else ()
 
     def close(self) -> None:
-        """Let the process leave. Another begins should anything be asked, and does not count as a restart."""
+        """Let the process end. The next question starts another, which does not count as a restart."""
         session, self._session = self._session, None
         if session:
             session.close()
 
     def kill(self) -> None:
-        """As close(), without waiting: it may be in the middle of a question."""
+        """End the process at once, though it may be working on a question."""
         session, self._session = self._session, None
         if session:
             session.kill()
 
 
 def _used_up(restarts: int) -> str:
-    """That no restart is left of those that were allowed."""
+    """The part of a sentence that says that no restart is left."""
     if not restarts:
         return "no restart is allowed"
     return "the one restart is used up" if restarts == 1 else f"{restarts} restarts are used up"

@@ -1,7 +1,7 @@
 """SPEC: how an implementation under test is named on the command line.
 
 `builtin:NAME`, `python:package.module:function` or `python:file.py:function`, `library:path.so`, `command:WORDS`.
-Here only what is written is looked at; whether it is there, and runs, is found out where it is opened.
+This module only parses the text. Whether the implementation exists and runs is checked when it is opened.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ _LIBRARY = re.compile(r"\.(so(\.\d+)*|dylib|dll)$", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """An implementation's address: its text, its kind, and what the kind needs to find it.
+    """A parsed SPEC: its text, its kind, and the words after the kind.
 
-    `words` is the name of a built-in method; file or module, and function; a library's path; a command and its
-    arguments.
+    `words` are the name of a built-in method; a file or module and a function; the path of a library; or a command and
+    its arguments.
     """
 
     text: str
@@ -37,18 +37,18 @@ class Spec:
 
 
 def parse_spec(text: str) -> Spec:
-    """The SPEC that `text` is; raises InputError saying what would be one."""
+    """The SPEC in `text`; raises InputError saying what would be right."""
     kind, _, rest = text.partition(":")
     if not begins_as_spec(text):
         kinds = ", ".join(f"{name}:" for name in _KINDS)
         raise InputError(f"{_said(text)} begins with none of {kinds}{_meant(text)}")
     if "\0" in text or any("\ud800" <= character < "\udc80" for character in text):
-        raise InputError(f"{_said(text)} holds a character that no path or argument can have")
+        raise InputError(f"{_said(text)} contains a character that no path or argument can have")
     return Spec(text, kind, _KINDS[kind](text, rest))
 
 
 def begins_as_spec(text: str) -> bool:
-    """Whether a text begins with one of the kinds, as no case and no record does."""
+    """Whether a text begins with the kind of a SPEC; no case and no record does."""
     kind, colon, _ = text.partition(":")
     return bool(colon) and kind in _KINDS
 
@@ -91,7 +91,7 @@ def _json_words(text: str, rest: str) -> tuple[str, ...]:
         raise InputError(f'{_said(text)} begins an array; it must be JSON texts, such as ["java", "-jar", "a b.jar"]')
     for word in words:
         if "\0" in word or any("\ud800" <= character < "\udc80" for character in word):
-            raise InputError(f"{_said(text)} holds a character that no argument can have")
+            raise InputError(f"{_said(text)} contains a character that no argument can have")
     return tuple(words)
 
 

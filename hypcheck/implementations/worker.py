@@ -1,13 +1,10 @@
-"""The program of our worker: it loads a Python function or a shared library, and answers questions about rows.
+"""The program of the worker: it loads a Python function or a shared library, and answers questions about rows.
 
-The rounding mode of this thread, which a call must leave as it found it.
+Questions and answers use the pipes that were its standard input and output. Foreign code gets an empty standard input,
+and its output goes to standard error, so that it cannot disturb the conversation.
 
-libm tells of one unit (on x86 the old one), so the arithmetic in use is asked too, by sums that only rounding decides.
-
-The program of our own worker: loads one Python function or one shared library and answers questions about rows.
-
-Questions and answers go through the pipes that were its standard input and output; whatever the foreign code reads or
-prints goes to nothing and to standard error instead, so that it cannot break the conversation.
+A call must not change the rounding mode. libm knows the mode of one unit only (on x86 the old one), so the mode of the
+arithmetic in use is measured too, by sums whose result depends on it.
 """
 
 from __future__ import annotations
@@ -44,14 +41,14 @@ _ONE, _TINY = 1.0, 2.0**-60
 def _libm() -> ctypes.CDLL | None:
     try:
         libm = ctypes.CDLL(None)
-        libm.fegetround, libm.fesetround  # noqa: B018 - raises where it has them not
+        libm.fegetround, libm.fesetround  # noqa: B018 - raises AttributeError without them
     except (OSError, TypeError, AttributeError):
         return None
     return libm
 
 
 class RoundingMode:
-    """Remembers the rounding mode; restore() puts it back, and complains where it had been changed."""
+    """The rounding mode at the start; restore() restores it, and raises if it was changed."""
 
     def __init__(self) -> None:
         self._libm = _libm()
@@ -61,7 +58,7 @@ class RoundingMode:
         return int(self._libm.fegetround()) if self._libm else 0
 
     def restore(self) -> None:
-        """Raise ContractError where the mode is no longer to nearest, or no longer what libm says it was."""
+        """Raise ContractError if the mode is not to nearest, or not the one at the start by libm."""
         found = mode_in_use()
         if found == "to nearest" and self._by_libm() == self._mode:
             return
@@ -72,7 +69,7 @@ class RoundingMode:
 
 
 def mode_in_use() -> str:
-    """How float64 sums are rounded here and now."""
+    """The rounding mode of float64 sums now."""
     if _ONE + _TINY > _ONE:
         return "upward"
     if -_ONE - _TINY < -_ONE:
@@ -84,7 +81,7 @@ KINDS: Mapping[str, Callable[..., ForeignCode]] = MappingProxyType({"python": Py
 
 
 class WorkerChannel:
-    """Our end of the conversation."""
+    """The worker's end of the conversation."""
 
     def __init__(self) -> None:
         self._requests, self._replies = os.dup(0), os.dup(1)
@@ -98,9 +95,9 @@ class WorkerChannel:
         self._room = bytes_at(0, frames.LARGEST * 8 * len(TILTED_COLUMNS) + 56).data
 
     def request(self, count: int) -> tuple[bytes, int, Rows] | None:
-        """The next question: what is asked, how often, of which rows; None at the end of input.
+        """The next question: its kind, the repetitions, and the rows; None at the end of input.
 
-        The rows' address modulo 64 goes with `count`.
+        The rows' address modulo 64 varies with `count`.
         """
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
@@ -121,7 +118,7 @@ class WorkerChannel:
         return True
 
     def reply(self, what: bytes, body: bytes | memoryview, width: int = 1) -> None:
-        """Answer."""
+        """Send a reply."""
         head = frames.REPLY.pack(what, width, len(body), self._mark)
         for part in (memoryview(head), memoryview(body)):
             rest = part
@@ -130,7 +127,7 @@ class WorkerChannel:
 
 
 def main(words: Sequence[str]) -> None:
-    """Serve: `words` is where to begin varying addresses, the kind, and what the kind needs."""
+    """Serve: `words` are the first count for varying addresses, the kind of SPEC, and its words."""
     faulthandler.enable()
     line = WorkerChannel()
     count, kind, *rest = words
@@ -144,7 +141,7 @@ def main(words: Sequence[str]) -> None:
 
 
 def serve(line: WorkerChannel, subject: ForeignCode, count: int) -> None:
-    """Answer until the input ends."""
+    """Answer requests until the input ends."""
     rounding = RoundingMode()
     while request := line.request(count):
         count += 1

@@ -1,4 +1,4 @@
-"""Our side of a conversation with our worker, in which a Python function or a shared library runs."""
+"""The session of a worker, in which a Python function or a shared library runs: this side of the conversation."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ del sys.path[0]
 from hypcheck.implementations.worker import main
 main(sys.argv[2:])
 """
-"""Python puts the working directory first on the path, where a struct.py of the user's would stand in for Python's; it
-is taken off until our own modules and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
+"""Python puts the working directory first on the path, where a struct.py of the user would replace Python's. The
+program removes it until hypcheck and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
 
 _OURS = (
     f"{os.sep}hypcheck{os.sep}{Path(__file__).parent.name}{os.sep}",
@@ -34,13 +34,13 @@ _OURS = (
     "Extension modules: ",
     "(most recent call first)",
 )
-"""What lines hold that speak of the worker and not of what runs in it, when Python tells where it crashed."""
+"""Parts of lines about the worker itself, not about foreign code, in Python's report of a crash."""
 
 _LANGUAGES = {"python": "python", "library": ""}
 
 
 class WorkerSession:
-    """A Python function or a shared library in a process of its own. `run` counts the runs, to vary what may vary."""
+    """A Python function or a shared library in a process of its own. Addresses vary with `run`, its number."""
 
     max_batch = frames.LARGEST
     max_rows: int | None = None
@@ -49,7 +49,7 @@ class WorkerSession:
         self._limits = limits
         folder = str(Path(__file__).resolve().parents[2])
         if not sys.executable:
-            raise StartError("this Python does not know its own program, which is to run the worker")
+            raise StartError("this Python does not know the path of its program, which runs the worker")
         self._process = Process((sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words), limits)
         try:
             self._meet(spec)
@@ -92,7 +92,7 @@ class WorkerSession:
         return frames.integers(body, width)
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; `each`: by a call for each row."""
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
         asked = frames.TIME_EACH if each else frames.TIME_SCENE if by_scene else frames.TIME
         _, body = self._ask(asked, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
@@ -132,16 +132,16 @@ class WorkerSession:
 
     @property
     def evidence(self) -> str:
-        """What the foreign code printed since the last question, on standard output or standard error."""
+        """The output of the foreign code since the last question, as the end of a sentence."""
         return stderr_excerpt([line for line in self._process.recent if not any(part in line for part in _OURS)])
 
     @property
     def stderr(self) -> tuple[str, ...]:
-        """The last lines of what it printed, safe to print."""
+        """The last lines of its output, safe to print."""
         return self._process.stderr
 
     def close(self) -> None:
-        """Let it leave."""
+        """Let it end."""
         self._process.goodbye()
 
     def kill(self) -> None:
@@ -158,9 +158,9 @@ def _lacking(path: str, *, tilt: bool) -> str:
 
 
 def _text(body: bytes | bytearray) -> str:
-    """What the worker says, which foreign code may have written in its place."""
+    """The text of a reply; foreign code may have written it."""
     return escaped(body.decode("utf-8", "replace"), WIDTH) or "(without a text)"
 
 
 def _broken(shown: str) -> FaultError:
-    return FaultError(Outcome.PROTOCOL, f"it wrote into our own pipe, which reads {shown}", fatal=True)
+    return FaultError(Outcome.PROTOCOL, f"it wrote into the worker's pipe: {shown}", fatal=True)

@@ -33,7 +33,7 @@ FAULTS = {
     "reports_error": (Outcome.ERROR, r"reported an error: no root found \\x1b\[2J"),
     "endless_line": (Outcome.PROTOCOL, r"does not end within 4096 bytes: '1+…'"),
     "endless_answer": (Outcome.PROTOCOL, r"longer than 64 bytes: '1+'"),
-    "closes_output": (Outcome.PROTOCOL, "closed its standard output and lives on"),
+    "closes_output": (Outcome.PROTOCOL, "closed its standard output and did not end"),
 }
 
 

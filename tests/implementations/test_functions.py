@@ -98,7 +98,7 @@ def test_what_is_written_into_our_own_pipe_costs_its_own_row_and_is_never_taken_
     with open_implementation(intruder(name), LIMITS) as it:
         for _ in range(2):
             reason = only_unlucky(it.classify(some), Outcome.PROTOCOL, truth(some))
-            assert re.search(f"it wrote into our own pipe, which reads {seen}", reason), reason
+            assert re.search(f"it wrote into the worker's pipe: {seen}", reason), reason
 
 
 def test_forged_times_are_refused():
@@ -212,7 +212,10 @@ def test_who_is_slow_is_asked_less_at_once_and_is_no_fault():
             "while it was loaded it ended by itself with .* 4; stderr: licence expired",
         ),
         (function("no_such_file"), r"there is no file '.*no_such_file.py'$"),
-        (f"python:{HERE / 'functions' / 'right.py'}:clasify", "has no function 'clasify'; it has nothing of that name"),
+        (
+            f"python:{HERE / 'functions' / 'right.py'}:clasify",
+            "has no function 'clasify'; it has nothing with that name",
+        ),
         (f"python:{HERE / 'functions' / 'right.py'}:hypcheck", "has no function 'hypcheck'; it has a dict"),
         ("python:no.such.module:f", r"raised ModuleNotFoundError: No module named 'no'( \(.*\.py, line \d+\))?$"),
     ],

@@ -19,8 +19,8 @@ from tests.tools.miniatures import LIMITS, compiled, only_unlucky, rows, signs
 SHARED = ("-shared", "-fPIC")
 FAULTS = {
     "SEGFAULT": (Outcome.CRASH, "ended by SIGSEGV"),
-    "NOT_WRITTEN": (Outcome.PROTOCOL, "answered -86, which is what stands where a library writes nothing"),
-    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside of the 1 position that it was given"),
+    "NOT_WRITTEN": (Outcome.PROTOCOL, "answered -86, the value of positions that a library did not write"),
+    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside the 1 position that it was given"),
     "CHANGES_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: upward"),
     "CHANGES_SSE_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: downward"),
 }

@@ -313,6 +313,6 @@ def test_a_result_comes_back_from_json():
     assert saved_result(again) == saved_result(result)
     for name in ("retest", "outcomes", "excusing", "named"):
         assert getattr(again, name) == getattr(result, name)
-    assert again.open[0].chunk == left.chunk
-    assert again.open[0].indices.tolist() == left.indices.tolist()
-    assert again.open[0].answers.tolist() == left.answers.tolist()
+    assert again.pending[0].chunk == left.chunk
+    assert again.pending[0].indices.tolist() == left.indices.tolist()
+    assert again.pending[0].answers.tolist() == left.answers.tolist()
