@@ -1,8 +1,7 @@
-"""The answers of every method to every workload, against the exact ones; and how much memory they take.
+"""The answers of every method to every workload, compared with exact ones; and the memory of each method.
 
-Every method's answers to every workload's rows against the exact ones, by the distance at which these flip.
-
-How much a process grows while a method answers a batch: each in a process of its own.
+Errors are counted by the row's distance to the nearest other position. Memory is the growth of a process of its own
+while a method answers a batch.
 """
 
 from __future__ import annotations
@@ -42,16 +41,16 @@ _WORST_TRIED = 12
 _PIECE = 500
 
 TOLERABLE = 1e-3
-"""The share of wrong or missing answers that "reliable above" allows."""
+""""Reliable above" allows this share of wrong or missing answers."""
 
 
 NEAREST = 2.0**-75
-"""A flip distance below those of all rows but the exact tangencies."""
+"""A distance below those of all rows except exact tangencies."""
 
 
 @dataclass(frozen=True)
 class WorkloadTruth:
-    """A workload's judged rows (n, 7) with their exact positions, int8 (n,), and flip octaves (n,)."""
+    """A workload's judged rows (n, 7) with their exact positions, int8 (n,), and exponents of their distances, (n,)."""
 
     workload: Workload
     rows: Rows
@@ -61,9 +60,9 @@ class WorkloadTruth:
 
 @dataclass(frozen=True)
 class MethodAnswers:
-    """A method's answers about one workload: to the judged rows at `places`, and prints of those that are timed.
+    """A method's answers to one workload: to the judged rows at `places`, and hashes of the answers that are timed.
 
-    `trouble` says why some went without an answer, where a program was at fault.
+    `trouble` says why some rows have no answer, if a program was at fault.
     """
 
     method: str
@@ -81,7 +80,7 @@ def chosen_workloads(plan: BenchPlan) -> list[Workload]:
 
 
 def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
-    """What is true of each workload; the flip distances are found in pieces, on all processors."""
+    """The truth of each workload; the distances are computed in pieces, on all processors."""
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, plan.amounts.judged)
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
@@ -96,7 +95,7 @@ def _octaves(piece: tuple[int, Rows]) -> Floats:
 
 
 def method_answers(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[MethodAnswers]]:
-    """The answers of each method, as they come."""
+    """The answers of each method, as they arrive."""
     for _, answered in perform(_ask, [(plan, name) for name in names], executor):
         yield answered
 
@@ -125,14 +124,14 @@ def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload
 
 @cache
 def _rows(workload: str, seed: int, count: int) -> Rows:
-    """A workload's rows, made once a process, and not to be written to."""
+    """A workload's rows, made once in a process; they must not be written to."""
     rows = WORKLOADS[workload].rows(seed, count)
     rows.flags.writeable = False
     return rows
 
 
 def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Rows:
-    """The rows of a timed batch: none where the workload or the method is not timed."""
+    """The rows of a timed batch; none if the workload or the method is not timed."""
     if contender.accuracy_only or not workload.timed:
         return np.empty((0, 7))
     rows = _rows(workload.name, plan.seed, plan.amounts.timed)
@@ -144,7 +143,7 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
 
 
 def answers_print(answers: Answers) -> str:
-    """A short text that tells these answers from others."""
+    """A short text that identifies these answers."""
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
@@ -176,10 +175,11 @@ def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTru
 
 
 def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
-    """The lowest 2^k from which on, of the rows that flip at any 2^(k + j) or farther, at most TOLERABLE are wrong.
+    """The least 2^k with at most TOLERABLE wrong rows at a distance of at least 2^(k + j), for all j ≥ 0.
 
-    Missing answers count as wrong: a method that never answers would be reliable otherwise. 0 where nothing is wrong,
-    NEAREST where exact tangencies alone are, inf where even the farthest rows are wrong too often or there is no other.
+    Missing answers count as wrong: otherwise a method that never answers would be reliable. The result is 0 if nothing
+    is wrong, NEAREST if only exact tangencies are wrong, and inf if even the farthest rows are wrong too often or do
+    not exist.
     """
     edges = np.unique(octaves[np.isfinite(octaves)])
     if not wrong.any():
@@ -197,7 +197,7 @@ def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
 
 
 def _worst(scored: Score, octaves: Floats, given: MethodAnswers) -> list[Mistaken]:
-    """The wrong answers that are farthest from being right, of those whose rows flip farthest away."""
+    """The worst wrong answers, of rows with the greatest distance to another position."""
     tried = scored.wrong[np.argsort(-octaves[scored.wrong], kind="stable")][:_WORST_TRIED].tolist()
     cases = [
         Mistaken(
@@ -217,7 +217,7 @@ MEMORY_WORKLOAD = "uniform"
 
 
 def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
-    """A line for each of the methods, as they come."""
+    """A line for each of the methods, as they arrive."""
     for _, line in one_each(_memory_line, [(plan, name) for name in names], plan.workers):
         yield line
 
@@ -227,7 +227,7 @@ def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
     contender = contenders(plan)[name]
     rows = timed_rows(plan, contender, WORKLOADS[MEMORY_WORKLOAD])
     first = contender.load()
-    first.answer(rows[:1])  # what is loaded when it is called for the first time is no part of answering
+    first.answer(rows[:1])  # code that is loaded at the first call does not count
     first.close()
     way = contender.load()
     before = forget_peak()
@@ -240,9 +240,9 @@ def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
 
 
 def forget_peak() -> int:
-    """The peak from now on, which is what is resident now where the system lets go of it (Linux).
+    """Reset the peak to the present resident size, if the system allows it (Linux).
 
-    What was freed goes back to the system first: answers that are put where something else was do not show.
+    Freed memory is returned to the system first: otherwise answers that reuse it would not show.
     """
     gc.collect()
     with suppress(OSError, AttributeError, TypeError):

@@ -1,4 +1,4 @@
-"""Holding speeds to an earlier run: ratios to the reference in both, never times of one machine to those of another."""
+"""A baseline: ratios to the reference are compared with those of an earlier run, never times of different machines."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ SpeedKey = tuple[str, str, str]
 """A method, a workload and a mode."""
 
 _SEEDS = (1, 2)
-"""Of the draws before and after: the runs have nothing to do with each other."""
+"""The seeds of the draws before and after, which differ because the runs are independent."""
 
 
 @dataclass(frozen=True)
 class Baseline:
-    """A run's speeds that have a ratio to the reference, these ratios, and the noise."""
+    """The speeds of a run that have a ratio to the reference, these ratios, and the noise."""
 
     speeds: dict[SpeedKey, SpeedLine]
     ratios: dict[SpeedKey, float]
@@ -37,7 +37,7 @@ class Baseline:
 
 @dataclass(frozen=True)
 class SpeedChange:
-    """How a ratio changed from one run to the other: the quotient, its interval, and both runs' noise as one factor."""
+    """The change of a ratio between two runs: the quotient, its interval, and the noise of both runs as one factor."""
 
     change: float
     low: float
@@ -45,7 +45,7 @@ class SpeedChange:
     noise: float
 
     def verdict(self, allowed: float) -> str:
-        """For certain "slower" than allowed, or "faster", or neither ("same"); else "inconclusive"."""
+        """The verdict: "slower" than allowed, "inconclusive" if it may be that, else "faster" or "same"."""
         low, high = self.low / self.noise, self.high * self.noise
         if low > allowed:
             return "slower"
@@ -55,7 +55,7 @@ class SpeedChange:
 
 
 def read_baseline(plan: BenchPlan) -> Baseline | None:
-    """The plan's baseline, where it has one. Raises InputError where it is none for this run."""
+    """The plan's baseline, if it has one. Raises InputError if it cannot be one for this run."""
     if plan.baseline is None:
         return None
     path = file_of(plan.baseline)
@@ -78,7 +78,7 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
 def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
     """The speeds among lines of a record that have a ratio, and the noise.
 
-    Earlier versions wrote LEAST_NS where an empty call was no shorter; what has no other time is held to nothing.
+    Earlier versions wrote LEAST_NS if an empty call was not shorter; speeds without any other time are not compared.
     """
     baseline = Baseline({}, {}, {})
     for line in lines:
@@ -91,7 +91,7 @@ def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
 
 
 def alike(before: Baseline, found: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
-    """The SPECs' implementations, each to be timed on as many rows as it was: a call about few costs more for each."""
+    """The implementations of SPECs, timed on as many rows as in the baseline, since small batches cost more a row."""
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
         if mode == "batch":
@@ -100,7 +100,7 @@ def alike(before: Baseline, found: Iterable[ForeignMethod]) -> tuple[ForeignMeth
 
 
 def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:
-    """The methods whose verdicts decide the exit code: what was named, else our own certified ones."""
+    """The methods whose verdicts decide the exit code: the named ones, else hypcheck's certified ones."""
     foreign = {each.name for each in plan.foreign}
     if foreign:
         return foreign
@@ -110,7 +110,7 @@ def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:
 
 
 def require_common(before: Baseline, names: set[str]) -> None:
-    """Raise InputError where the baseline has none of the methods that are to be held to it."""
+    """Raise InputError if the baseline has none of the methods that are compared with it."""
     known = {method for method, _, _ in before.speeds}
     if not known & names:
         told = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
@@ -138,7 +138,7 @@ def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[s
 
 
 def change_of(before: Baseline, after: Baseline, key: SpeedKey) -> SpeedChange:
-    """How one ratio changed."""
+    """The change of one ratio."""
     draws = [_medians(run, key, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()

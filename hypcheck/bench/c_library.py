@@ -1,4 +1,4 @@
-"""Compiling the methods in C with the compiler that is found here, and calling them."""
+"""Compiling the methods in C with the compiler of this machine, and calling them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from hypcheck.implementations.procedures import CRAFT, MOVING, CraftPath
 from hypcheck.kernel import core
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
-"""Nothing that changes a result: no fast-math, no contraction. The last two let gcc make vectors of comparisons."""
+"""No flag changes a result: no fast-math, no contraction. The last two let gcc vectorise comparisons."""
 
 LISTED = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
 FORMATS = ("float32", "float64")
@@ -38,7 +38,7 @@ _SECONDS = 120
 
 @dataclass(frozen=True)
 class Compiler:
-    """What compiled: the program, the first line it says of its version, and the flags it was given."""
+    """The compiler: the program, the first line of its version, and its flags."""
 
     program: str
     version: str
@@ -46,12 +46,13 @@ class Compiler:
 
 
 KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
-"""As the package is built (setup.py): the kernel chooses its instruction set when it runs, and its bounds allow FMA."""
+"""The flags of the package's own build (setup.py): the kernel selects its instruction set at run time, and its bounds
+allow FMA."""
 
 
 @cache
 def bodies() -> tuple[CBody | Ready, ...]:
-    """Every method in C; its place in the table is its place here plus one."""
+    """Every method in C; its place in the driver's table is its place here plus one."""
     listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
     others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
@@ -61,12 +62,12 @@ def bodies() -> tuple[CBody | Ready, ...]:
 
 
 def place_of(name: str) -> int:
-    """A method's place in the table. Raises ValueError where it has none."""
+    """A method's place in the table. Raises ValueError if it has none."""
     return [each.name for each in bodies()].index(name) + 1
 
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
-    """The library, made in a folder. Raises UnavailableError where there is no compiler that makes it."""
+    """The library, made in a folder. Raises UnavailableError if no compiler can make it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
@@ -79,10 +80,10 @@ def compiled(folder: Path) -> tuple[Path, Compiler]:
 
 
 def compile_c(code: Path, target: Path, how: str = "-shared") -> Compiler:
-    """Make a library, or what `how` says, of a file in C. Raises UnavailableError where no compiler is there for it."""
+    """Compile a C file to a library, or as `how` says. Raises UnavailableError without a compiler."""
     program = compiler_here()
     trouble = ""
-    for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has it
+    for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has this flag
         words = [program, *flags, f"-I{core.__path__[0]}", how, str(code), "-o", str(target), "-lm"]
         done = run_compiler(words)
         if done.returncode == 0:
@@ -102,7 +103,7 @@ def _kernel(folder: Path) -> str:
 
 
 def compiler_here() -> str:
-    """The C compiler that is found here. Raises UnavailableError where there is none."""
+    """The C compiler of this machine. Raises UnavailableError if there is none."""
     named = os.environ.get("CC", "")
     for name in (named, "cc", "gcc", "clang"):
         found = shutil.which(name) if name else None
@@ -112,7 +113,7 @@ def compiler_here() -> str:
 
 
 def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
-    """What became of a call of the compiler. Raises UnavailableError where it cannot be run, or does not end."""
+    """Run the compiler. Raises UnavailableError if it cannot be run, or does not end."""
     try:
         return subprocess.run(words, capture_output=True, text=True, timeout=_SECONDS, check=False)  # noqa: S603
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -148,14 +149,14 @@ class InC:
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers, by the entry for rows."""
+        """The method's answers, by the entry for rows."""
         queries = np.ascontiguousarray(rows)
         found = np.empty(len(queries), dtype=np.int8)
         _loaded(self.library).bench_rows(self.place, 1, len(queries), queries.ctypes.data, found.ctypes.data)
         return found
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """One call, by scene where all rows share their sizes."""
+        """One call, by scene if all rows share their sizes."""
         found = np.zeros(len(rows), dtype=np.int8)
         sizes = scene_of(rows)
         if sizes is None:
@@ -164,13 +165,13 @@ class InC:
         function, fixed = _loaded(self.library).bench_scene, [part.ctypes.data for part in parts]
 
         def call(repeat: int) -> object:
-            held = parts  # the pointers alone would not keep them
+            held = parts  # pointers alone would not keep them alive
             return function(self.place, repeat, fixed[0], len(held[1]), *fixed[1:], found.ctypes.data)
 
         return _prepared(len(rows), call, found)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call a row, through the same table of functions, in C: what a program in C would wait for."""
+        """A call for each row, in C through the table of functions: the time that a program in C would wait."""
         part = np.ascontiguousarray(rows)
         return self._by_rows(part, np.zeros(len(part), dtype=np.int8), _loaded(self.library).bench_single)
 
@@ -183,7 +184,7 @@ class InC:
         return EmptyCall("C", nothing.single(rows) if mode == "single" else nothing._by_one(rows))
 
     def close(self) -> None:
-        """The process ends with it."""
+        """Do nothing: the library lives as long as the process."""
 
     def _by_one(self, rows: Rows) -> PreparedWork:
         return self._by_rows(
@@ -198,7 +199,7 @@ class InC:
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
-    """One of the quadcopter's procedures, by its place in c_procedures.NAMES, about each position of a flight."""
+    """One of the quadcopter's procedures, by its place in NAMES, for each position of a flight."""
     craft = np.array([flight.craft[name] for name in CRAFT])
     columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
     found = np.zeros(len(flight), dtype=np.int8)
@@ -220,7 +221,7 @@ def _prepared(count: int, call: Callable[[int], object], found: Answers) -> Prep
 
 def _clocked(call: Callable[[int], object], found: Answers) -> Clocked:
     def run(repeat: int) -> tuple[int, int]:
-        found.fill(0)  # so that answers left from before cannot stand for these
+        found.fill(0)  # so that answers of an earlier call cannot count for these
         started = perf_counter_ns()
         call(repeat)
         return perf_counter_ns() - started, int(found.sum(dtype=np.int64))

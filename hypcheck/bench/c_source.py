@@ -1,12 +1,9 @@
 """The methods in C: one source file, printed from the programs that numpy runs, and the quadcopter's procedures.
 
-The quadcopter's procedures in C, one position a call: so a craft asks before it moves.
-
-The methods in C, printed from the same programs that numpy runs, in one file that is compiled when bench begins.
-
-Each method is two functions, of rows and of one scene's centres, in a table; a driver calls through it as often as
-asked, so that neither Python nor an optimiser has a part in what is timed. The roots and the dual form's search are
-written here, since no straight-line program says them.
+Each method is two functions, for rows and for the centres of one scene, in a table. A driver calls them through the
+table as often as asked, so that neither Python nor an optimiser affects the timing. The roots and the search of the
+dual form are written here, because they are no straight-line programs. A procedure answers one position a call, as a
+craft asks before it moves.
 """
 
 from __future__ import annotations
@@ -31,16 +28,16 @@ from hypcheck.implementations.procedures import (
 from hypcheck.kernel.printing.languages import C_SUFFIXES, c_statements
 
 NAMES = ("nothing", "procedure-2a", "procedure-2b", "certified", "procedure-2a-repaired", "procedure-2b-repaired")
-"""By their places in the driver's table; the first does nothing."""
+"""The procedures by their places in the driver's table; the first does nothing."""
 
 
 def procedures_source() -> str:
-    """The functions and their driver; hypcheck.h and math.h are included before."""
+    """The functions and their driver; hypcheck.h and math.h must be included before."""
     return _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0]) + "".join(_both()) + _REST
 
 
 def _both() -> Iterator[str]:
-    """The procedures as printed and put right, which keep the same numbers of a craft."""
+    """The procedures as printed and as repaired, which keep the same numbers of a craft."""
     for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
         asked, inside = hull_steps(repaired)
         (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
@@ -50,7 +47,7 @@ def _both() -> Iterator[str]:
 
 
 def _before(name: str, program: Program) -> str:
-    """What the craft alone decides, kept in an array: a program would hold it in a structure."""
+    """The steps that depend on the craft only, kept in an array: a program would hold them in a structure."""
     kept = [step.name for step in program.steps]
     stored = "\n".join(f"    k[{place}] = {each};" for place, each in enumerate(kept))
     statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(kept)))
@@ -136,7 +133,7 @@ void bench_bodies(size_t which, size_t repeat, const double *craft, size_t n, co
 
 
 NUMBERS = {"float32": "float", "float64": "double", "longdouble": "long double"}
-"""C's type of numbers for each format."""
+"""The C type of each format."""
 
 DIGITS = {"float": "FLT_MANT_DIG", "double": "DBL_MANT_DIG", "long double": "LDBL_MANT_DIG"}
 LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
@@ -144,7 +141,7 @@ LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
 
 @dataclass(frozen=True)
 class CBody:
-    """What stands before the loop over centres and in it, in C, and the expression of the answer."""
+    """The C code before the loop over centres and in it, and the expression of the answer."""
 
     name: str
     number: str
@@ -164,19 +161,19 @@ def source(bodies: Iterable[CBody | Ready]) -> str:
 
 @dataclass(frozen=True)
 class Ready:
-    """A method whose two functions, NAME_rows and NAME_scene, are there already."""
+    """A method whose two functions, NAME_rows and NAME_scene, exist already."""
 
     name: str
     code: str
 
 
 def identifier(name: str) -> str:
-    """A method's name as C can have it."""
+    """A method's name as an identifier of C."""
     return name.replace("-", "_").replace(".", "_")
 
 
 def of_formula(formula: Formula, format_name: str) -> CBody:
-    """A formula as it is listed; what sizes alone decide stands before the loop."""
+    """A formula as it is printed; steps that depend on sizes only come before the loop."""
     number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
@@ -190,7 +187,7 @@ def of_formula(formula: Formula, format_name: str) -> CBody:
 
 
 def trigonometric(format_name: str) -> CBody:
-    """The roots of g by the trigonometric form, taken where Δ > 0 alone; the rule is that of methods/roots.py."""
+    """The roots of g by the trigonometric form, only if Δ > 0; they decide as in implementations/alternatives.py."""
     number = NUMBERS[format_name]
     outside, inside = parts(_CUBIC)
     known = tuple(step.name for step in outside.steps)
@@ -206,7 +203,7 @@ def trigonometric(format_name: str) -> CBody:
 
 
 def dual(format_name: str) -> CBody:
-    """The dual form: the search of methods/dual.py, step by step, and the program from there on."""
+    """The dual form: the search of implementations/alternatives.py, step by step, then the rest of the program."""
     number = NUMBERS[format_name]
     program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
     search = _SEARCH.format(N=number, f=C_SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
@@ -237,7 +234,7 @@ static void fast_scene(const double *restrict sizes, size_t n, const double *res
 }
 """,
 )
-"""The fast path as hypcheck.classify runs it where it was compiled."""
+"""The fast path as hypcheck.classify runs it if it was compiled."""
 
 _TABLE_2 = FORMULAS["table-2"]
 _CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")

@@ -1,4 +1,4 @@
-"""The paper's claims about cost, and what is put to the clock for each: the printed way first, then the others."""
+"""The paper's claims about cost, and the ways that are timed for each: the printed one first, then the others."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ PRINTED, RECIPROCALS = "Table 2 as printed", "Table 2 with 1/b² and 1/d kept ou
 TRIGONOMETRIC, EIGENVALUES = "the roots by cosines, where Δ > 0", "the roots by numpy.roots"
 
 BODIES = (PRINTED_A, PRINTED_B, OURS, REPAIRED_A, REPAIRED_B)
-"""The ways to decide about a body and its rotors, in the order of PROCEDURES and of NAMES."""
+"""The procedures for a body and its rotors, in the order of PROCEDURES and of NAMES."""
 
 _ROOTS_TIMED = 96
 
 
 @dataclass(frozen=True)
 class CostClaim:
-    """A claim about cost and where it stands; what is compared on which scene, in which tier.
+    """A claim of the paper about cost, and the scene and the tier in which it is measured.
 
-    `compared` makes the ways ready for the clock, by name, the printed one first; `operations` are those of each
-    position, where they can be counted.
+    `compared` prepares the alternatives by name, the printed one first. `operations` are those for each position, if
+    they can be counted.
     """
 
     name: str
@@ -53,9 +53,9 @@ class CostClaim:
 
 
 def cost_claims(plan: BenchPlan) -> list[CostClaim]:
-    """What is measured in this run: everything in numpy, and in C where it was compiled."""
+    """The claims of this run: all in numpy, and in C if that was compiled."""
     if plan.methods or plan.workloads:
-        return []  # a run of a few methods is about these
+        return []  # a run of a few methods is only about these
     tiers = ("numpy", "C") if plan.compiled is not None else ("numpy",)
     return [make(tier) for make in (_procedures, _divisions, _roots) for tier in tiers]
 
@@ -68,7 +68,7 @@ def flight_of(seed: int, number: int) -> CraftPath:
 
 
 def share_touching(flight: CraftPath) -> float:
-    """How often Δ ≤ 0 for the bounding spheroid, so that Procedure 2.b asks the rotors."""
+    """The share of positions with Δ ≤ 0 for the bounding spheroid, for which Procedure 2.b asks the rotors."""
     asked = 0
 
     def counting(part: CraftPath) -> None:
@@ -93,7 +93,7 @@ def _procedures(tier: str) -> CostClaim:
 
 
 def hull_operations() -> Operations:
-    """What Procedure 2.b takes for every position, the rotors aside."""
+    """The operations of Procedure 2.b for every position, without the rotors."""
     return count(hull_programs()[1].steps)
 
 
@@ -137,7 +137,7 @@ def _roots(tier: str) -> CostClaim:
         f"uniform around the cooling tower, in {tier}, in a batch",
         tier,
         _roots_in_numpy if tier == "numpy" else _roots_in_c,
-        # In C two of the roots are enough, and they are taken where Δ > 0 alone: no straight-line program says that.
+        # In C two of the roots are enough, and only if Δ > 0: a straight-line program cannot express that.
         {PRINTED: cost_of(TABLE_2).query, **({TRIGONOMETRIC: of_roots} if tier == "numpy" else {})},
     )
 
@@ -170,5 +170,5 @@ def _library(plan: BenchPlan) -> Path:
 
 
 def shown_operations(operations: Operations) -> dict[str, int]:
-    """The operations that there are, by kind."""
+    """The operations with a number above 0, by kind."""
     return {name: number for name, number in asdict(operations).items() if number}

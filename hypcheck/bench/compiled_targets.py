@@ -1,14 +1,9 @@
 """Targets of the compiled kernel: against memory bandwidth, the plain formula in C, two threads, and the worst rows.
 
-The rows on which the kernels are measured: columns of one scene, the paper's cooling tower.
-
-What the compiled kernel is measured against in C: the plain formula, and reading the rows and nothing else.
-
-Both are compiled when they are needed, for the instruction set that the kernel runs on. The plain formula is Table 2 as
-the programs print it, what sizes alone decide before the loop, contraction allowed; it answers whether the pair is
-exterior, no more, and certifies nothing. It is compiled for each width of vectors, and the fastest is taken.
-
-The compiled kernel: against reading memory, the plain formula in C, itself on two threads, and the worst rows.
+The rows are columns of one scene, the paper's cooling tower. The plain formula, and a loop that only reads the rows,
+are compiled when they are needed, for the instruction set of the kernel. The plain formula is Table 2 as the programs
+print it, with the steps that depend on sizes only before the loop, and contraction allowed. It only answers whether the
+pair is exterior, and certifies nothing. It is compiled for each width of vectors, and the fastest counts.
 """
 
 from __future__ import annotations
@@ -52,7 +47,8 @@ from hypcheck.vectors.scenes import BODY, TOWER
 TOWER_SIZES: Sizes = (*TOWER, *BODY)
 SEED = 1
 DISTINCT = 1_000_000
-"""So many rows differ; a longer array repeats them, since to draw ten million takes longer than to measure them."""
+"""So many rows are different. A longer array repeats them, because to draw ten million takes longer than to measure
+them."""
 
 
 def uniform_columns(count: int) -> Columns:
@@ -114,19 +110,19 @@ void plain(const double *restrict sizes, size_t n, const double *restrict xs, co
 
 @dataclass(frozen=True)
 class CBaseline:
-    """A library, and the flags that made it."""
+    """A compiled library, and its flags."""
 
     library: ctypes.CDLL
     flags: tuple[str, ...]
 
     def read_only(self, x: Floats, y: Floats, z: Floats) -> Clocked:
-        """Reading the columns, one thread."""
+        """Read the columns, in one thread."""
         function, pointers = self.library.read_only, [column.ctypes.data for column in (x, y, z)]
         function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
         return _clocked(lambda: int(function(len(x), *pointers)) & 0xFFFF)
 
     def read_by_the_clock(self, x: Floats, y: Floats, z: Floats, threads: int) -> Clocked:
-        """The same shared among threads as the kernel shares its rows, by the clock on the wall."""
+        """Read the columns in threads that share them as the kernel does, by the wall clock."""
         function = self.library.read_only
         function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
 
@@ -136,7 +132,7 @@ class CBaseline:
         return clocked(lambda: np.array([in_parts(part, len(x), threads)]))
 
     def over_and_over(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8], times: int) -> None:
-        """The compiled kernel `times` times, in one call during which other threads of Python run."""
+        """The compiled kernel `times` times in one call, during which other Python threads can run."""
         ask = ctypes.CDLL(str(compiled().__file__)).hypcheck_ask_scene
         function = self.library.over_and_over
         function.restype = None
@@ -145,7 +141,7 @@ class CBaseline:
         function(ctypes.cast(ask, ctypes.c_void_p), times, sizes.ctypes.data, len(x), *pointers)
 
     def plain(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8]) -> Clocked:
-        """The plain formula, one thread; the sum is of its answers."""
+        """The plain formula in one thread; the sum is that of its answers."""
         function = self.library.plain
         function.restype = None
         function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
@@ -154,7 +150,7 @@ class CBaseline:
 
 
 def c_baselines(folder: Path, level: str) -> list[CBaseline]:
-    """One for each width of vectors that the level has. Raises UnavailableError where there is no compiler."""
+    """One library for each width of vectors of the level. Raises UnavailableError if there is no compiler."""
     program, code = compiler_here(), folder / "baselines.c"
     code.write_text(baseline_source(), encoding="ascii")
     found = []
@@ -169,7 +165,7 @@ def c_baselines(folder: Path, level: str) -> list[CBaseline]:
 
 
 def baseline_source() -> str:
-    """The C of both."""
+    """The C source of both."""
     body = of_formula(FORMULAS["table-2"], "float64")
     sizes = "".join(f"    const double {name} = sizes[{place}];\n" for place, name in enumerate(SIZES))
     centre = "".join(f"        const double {name} = {name}s[i];\n" for name in ("x", "y", "z"))
@@ -217,7 +213,7 @@ STREAMED = KernelTarget(
 
 
 def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Ten million rows: reading them, the plain formula, the kernel on one thread and on two."""
+    """Ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
     columns, out = uniform_columns(MANY), np.zeros(MANY, dtype=np.int8)
     libraries = c_baselines(folder, str(choice().level))
     entries = [
@@ -257,7 +253,7 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Two threads whose rows stay in the cache, over and over: what the memory takes no part in."""
+    """Two threads whose rows stay in the cache, so that memory does not limit them."""
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = c_baselines(folder, str(choice().level))[0]
     entries = [
@@ -292,7 +288,7 @@ def near_contact(rounds: int) -> Iterator[KernelLine]:
 
 
 def streamed(most: int, rounds: int) -> Iterator[KernelLine]:
-    """From a million rows to `most`, a million at a time, out of a ring of parts that no cache holds."""
+    """From a million rows to `most`, a million at a time, from a ring of parts that exceeds every cache."""
     columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
     slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
     parts = [(columns[0][each], columns[1][each], columns[2][each]) for each in slices]
@@ -308,7 +304,7 @@ def streamed(most: int, rounds: int) -> Iterator[KernelLine]:
 
 
 def _cost_of_stream(total: int, parts: Sequence[Columns], out: Positions) -> float:
-    """Nanoseconds a row in a stream of `total` parts; a short stream is repeated, and the middle one taken."""
+    """Nanoseconds a row in a stream of `total` parts; a short stream is repeated, and the median counts."""
     streams = []
     for start in range(max(1, LEAST_PARTS // total)):
         began = thread_time_ns()

@@ -1,8 +1,6 @@
-"""A contender: a method, its language, how it is loaded in a measuring process, and how one loop of it is called.
+"""A contender: a method, its language, how a measuring process loads it, and how one loop of it is called.
 
-How a method is called when it is timed: in a batch, one row at a time, and, of meshes, how one is built.
-
-What is compared: a method, what it is written in, and how it is loaded in a process that measures.
+A method is called in a batch and one row at a time; a mesh is also built.
 """
 
 from __future__ import annotations
@@ -26,9 +24,10 @@ Answering = Callable[[Rows], Answers]
 
 @dataclass(frozen=True)
 class PreparedWork:
-    """Work ready for the clock: `rows` rows each time. `answers` does it once and gives what it answered.
+    """Work ready to be timed: `rows` rows each time. `answers` does it once and returns the answers.
 
-    `timed_by` is "process" (this one), "worker" (the one that foreign code runs in) or "time protocol" (its own clock).
+    `timed_by` is "process" (this one), "worker" (that of foreign code) or "time protocol" (the implementation's own
+    clock).
     """
 
     rows: int
@@ -39,22 +38,22 @@ class PreparedWork:
 
 @dataclass(frozen=True)
 class EmptyCall:
-    """A call that does nothing; methods that are called alike share the one of that name. `ready.rows` are calls."""
+    """A call that does nothing; methods with the same kind of call share its `name`. `ready.rows` are calls."""
 
     name: str
     ready: PreparedWork
 
 
 class LoadedMethod(Protocol):
-    """One method, loaded. What cannot be done in a way is None."""
+    """A loaded method. A way of calling that does not exist is None."""
 
     @property
     def trouble(self) -> str:
-        """Why rows went without an answer, where a program was at fault; else empty."""
+        """Why rows have no answer, if a program was at fault; else empty."""
         ...
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers, to be judged."""
+        """Its answers, which are judged."""
         ...
 
     def batch(self, rows: Rows) -> PreparedWork | None:
@@ -62,25 +61,25 @@ class LoadedMethod(Protocol):
         ...
 
     def single(self, rows: Rows) -> PreparedWork | None:
-        """All rows by a call each."""
+        """All rows by one call each."""
         ...
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """What is built once before any row of this scene can be answered."""
+        """The work that is done once before any row of this scene can be answered."""
         ...
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The call that does nothing, in a mode; its time is taken off. None where nothing is."""
+        """The call that does nothing, in a mode, whose time is subtracted; None if nothing is."""
         ...
 
     def close(self) -> None:
-        """Let go of what it holds."""
+        """Release what it holds."""
         ...
 
 
 @dataclass(frozen=True)
 class InPython:
-    """A function of rows in this process; `scene`, where there is one, is asked about rows that share their sizes."""
+    """A function of rows in this process; `scene`, if there is one, is asked about rows that share their sizes."""
 
     function: Answering
     scene: ByScene | None = None
@@ -91,11 +90,11 @@ class InPython:
         return self.function(rows)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """One call; what is laid out for it beforehand is not timed."""
+        """One call; its arguments are prepared before the timing."""
         return _prepared(len(rows), self._work(rows))
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call a row, by the entry for rows: who asks about one has no scene at hand."""
+        """A call for each row, by the entry for rows: a caller with one row has no scene."""
         parts = [rows[place : place + 1] for place in range(len(rows))]
         return one_by_one(self.function, parts)
 
@@ -132,11 +131,11 @@ class InScalars:
         return np.array([self.function(*row) for row in rows.tolist()], dtype=np.int8)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for each row all the same."""
+        """A call for each row, as in `single`."""
         return self.single(rows)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, whose numbers are Python's own already."""
+        """A call for each row, whose numbers are Python floats already."""
         queries = list(map(tuple, rows.tolist()))
         return _prepared(len(queries), lambda: _of_each(self.function, queries))
 
@@ -160,7 +159,7 @@ def _none_of(*_numbers: float) -> int:
 
 
 def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
-    """The function on each part in turn, which is of one row."""
+    """The function called with each part, which is one row."""
     found = np.empty(len(parts), dtype=np.int8)
 
     def work() -> Answers:
@@ -190,13 +189,13 @@ def _nothing_of(_rows: Rows) -> Answers:
 class Contender:
     """A method as it is compared.
 
-    `name`, `title`, `question`, `precision`, `exact` and `domain` are as a Method has them. `tier` is what it is
-    written in, and kin are compared inside one: "C", "numpy", "python", "FCL" or "foreign"; `kind` what it does.
-    `judged` rows of a workload are asked of it at most, and `timed` rows make a timed batch, of which the first
-    `singles` are asked one by one, enough that a branch predictor does not learn them. `amortised` says of a mesh
-    whether it is built once for a scene or for each row. `load` makes the way to call it; it `needs` what may be absent
-    here, or nothing (""). It is asked about `scenes` pairs of sizes at most, and timed on one, where that is not None.
-    A `quick` run leaves those out that are too slow for it, unless they are named.
+    `name`, `title`, `question`, `precision`, `exact` and `domain` are those of a Method. `tier` is its language or
+    engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At most `judged` rows of a
+    workload are asked, and `timed` rows make a timed batch. The first `singles` rows of it are asked one by one, enough
+    that a branch predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each
+    row. `load` loads the method; `needs` names what may be absent here, or is empty. `scenes`, if not None, is the
+    largest number of different sizes in a workload that it is asked. `quick` says whether it is fast enough for a quick
+    run, unless it is named.
     """
 
     name: str
@@ -219,7 +218,7 @@ class Contender:
     quick: bool = True
 
     def asked(self, rows: Rows) -> NDArray[np.intp]:
-        """The places of the rows it is asked to be right about: inside its domain, and numbers of its format."""
+        """The indices of the rows that it must answer: inside its domain, with numbers of its format."""
         if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
             return np.empty(0, dtype=np.intp)
         return claimed(rows, self.domain, self.precision)[: self.judged]

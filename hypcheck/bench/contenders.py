@@ -1,12 +1,7 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
-What is compared in numpy and in Python: the formulas, the fast path's fallback, roots, exact ways, other shapes.
-
-What is compared in C: the formulas, the dual form and the roots, printed and compiled when bench begins.
-
-What is compared of collision engines: a mesh of 100 to 100,000 triangles built once a scene, or one for each row.
-
-Everything that is compared, by name.
+Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once for a
+scene, or once for each row.
 """
 
 from __future__ import annotations
@@ -50,7 +45,7 @@ Methods = dict[str, Method]
 
 
 def numpy_contenders() -> Iterable[Contender]:
-    """All of them, the reference among them."""
+    """All of them, including the reference."""
     methods = builtin_methods()
     yield from _formulas(methods)
     yield from _fast(methods)
@@ -60,7 +55,7 @@ def numpy_contenders() -> Iterable[Contender]:
 
 
 def _formulas(methods: Methods) -> Iterable[Contender]:
-    """Table 2 in every format, and the others in two."""
+    """Table 2 in every format, and the other formulas in two."""
     listed = [("table-2", name) for name in ("float16", *PRECISIONS, "longdouble") if f"table-2-{name}" in methods]
     for formula, format_name in [*listed, *((name, each) for name in ALGEBRAIC for each in PRECISIONS)]:
         paper = formula == "table-2"
@@ -81,12 +76,12 @@ def _scene_of_formula(name: str, format_name: str) -> ByScene:
 
 
 def _fast(methods: Methods) -> Iterable[Contender]:
-    """The numpy path, the compiled one where it runs, and one call of hypcheck.position for each row."""
+    """The numpy path, the compiled one if it runs here, and one call of hypcheck.position for each row."""
     found = of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
     yield replace(found, load=partial(InPython, numpy_kernel.positions, numpy_kernel.positions_of_scene))
     if choice().kernel == "compiled":
         note = f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
-        # A batch alone: one call at a time is position-python from Python, and fast-c from C.
+        # Only a batch: one call at a time is position-python from Python, and fast-c from C.
         yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=note, singles=0)
     by_one = of_method(methods["fast"], "python", "certified", name="position-python", timed=1024, note=CERTIFIED)
     yield replace(by_one, title="hypcheck.position, one call a row", load=_position, singles=1024)
@@ -134,14 +129,14 @@ _KINDS = {
 
 
 COMPILER = "C compiler"
-"""What these need."""
+"""The need of the methods in C."""
 
 SINGLES = 4096
 """A branch predictor learns the branches of 64 rows, and the dual form's search then runs several times as fast."""
 
 
 def c_contenders(library: Path | None) -> Iterable[Contender]:
-    """Each method of the library, which may yet have to be made; it is named as in numpy, with -c behind."""
+    """Each method of the library, which may not be compiled yet, named as in numpy with -c appended."""
     methods = builtin_methods()
     for place, body in enumerate(bodies(), start=1):
         if body.name in methods:  # a long double that is no more than float64 is left out
@@ -159,10 +154,10 @@ def _without_format(name: str) -> str:
 TRIANGLES = (100, 1_000, 10_000, 100_000)
 COAL_TRIANGLES = (10_000,)
 MOST_SCENES = 8
-"""Workloads of more pairs of bodies than this are not asked: a mesh that is built for one row is not built once."""
+"""Workloads with more different sizes are not asked: a mesh for one row is not built once."""
 
 MOST_QUICK = 1_000
-"""Larger meshes are left to full runs."""
+"""Larger meshes belong to full runs."""
 
 ONCE, FOR_EACH = "build once", "build each"
 _TITLES = {
@@ -183,7 +178,7 @@ class InEngine:
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers, scene by scene; building is not avoided, but kept."""
+        """Its answers, scene by scene; missing meshes are built and kept."""
         found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         for sizes, places in rows_by_sizes(rows):
             found[places] = self.mesh(sizes, rows[places]).positions(rows[places])
@@ -197,12 +192,12 @@ class InEngine:
         return self.meshes[key]
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """Every row asked, the meshes being there."""
+        """Every row, with meshes that exist."""
         work = partial(self._ready(rows), rows)
         return PreparedWork(len(rows), clocked(work), work)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """The same by a call a row."""
+        """The same by a call for each row."""
         return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
 
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
@@ -213,7 +208,7 @@ class InEngine:
         return self.answer
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """The mesh of a scene, from the vertices to the engine's tree; its answer is how many triangles it has."""
+        """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
         sizes = scene_of(rows)
         if sizes is None:
             return None
@@ -222,16 +217,16 @@ class InEngine:
         return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """As of any Python function."""
+        """The empty call of a Python function."""
         return None if mode == "build" else InPython(self.answer).empty(rows, mode)
 
     def close(self) -> None:
-        """Let the meshes go."""
+        """Release the meshes."""
         self.meshes.clear()
 
 
 def mesh_contenders() -> Iterable[Contender]:
-    """Every pairing in every size."""
+    """Every pairing with every number of triangles."""
     for pairing in PAIRINGS:
         for triangles in TRIANGLES:
             yield _built_once(FCL, pairing, triangles)
@@ -268,11 +263,11 @@ def _built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
 
 
 _SLOW = 1_000
-"""Who is judged on fewer rows than this is slow."""
+"""A method that is judged on fewer rows is slow."""
 
 
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
-    """All that this run compares and can, by name, the reference first. Raises InputError where the plan names none."""
+    """The methods that this run compares, by name, the reference first. Raises InputError for unknown names."""
     found = {each.name: _quick(each) if plan.quick else each for each in _everything(plan)}
     others = {each.name: each for each in foreign.foreign_contenders(plan.foreign, plan.limits)}
     names = chosen_names(list(found), plan.methods, "method")
@@ -285,7 +280,7 @@ def contenders(plan: BenchPlan) -> dict[str, Contender]:
 
 
 def _quick(each: Contender) -> Contender:
-    """Of a slow method a quick run asks a quarter: a root by mpmath takes milliseconds."""
+    """A slow method gets a quarter of its rows in a quick run: a root by mpmath takes milliseconds."""
     return each if each.judged is None or each.judged >= _SLOW else replace(each, judged=each.judged // 4)
 
 

@@ -1,12 +1,9 @@
-"""Where methods err: over planes of sizes and of places, by a mesh's triangles, and by a simpler body for the spheroid.
+"""Maps of errors: over planes of sizes and of places, by a mesh's triangles, and by simpler bodies than the spheroid.
 
-Where in the plane of log α/b and log γ/d a method is wrong, far enough from touching for that to matter.
-
-Where about the cooling tower a method is wrong: over the half plane (r, z), and about the ring.
-
-How many triangles an error costs: a mesh of the tower, finer and finer, built and asked about near contact.
-
-A sphere or a cylinder in the spheroid's place: how often it calls contact what is clear, and how far off that is.
+One map shows where in the plane of log α/b and log γ/d a method is wrong, far enough from contact to matter. Another
+shows where about the cooling tower it is wrong: over the half plane (r, z), and about the ring. A table shows the error
+and the time of ever finer meshes near contact. The last shows how often a sphere or a cylinder calls contact what is
+clear, and at which distance.
 """
 
 from __future__ import annotations
@@ -40,15 +37,15 @@ FIRST, LAST = -4, 15
 """Half decades of α/b and of γ/d: from 1e-2 to 1e8."""
 
 STABILITY_GAPS = (-10, 1)
-"""Distances from touching, m 2^e radii with e in this range: from a thousandth of a radius to two."""
+"""Distances from contact, m 2^e radii with e in this range: from a thousandth of a radius to two."""
 
 STABILITY_KINDS = ("paper", "algebraic", "certified", "roots")
 ENOUGH, ENOUGH_OUTSIDE = 2000, 10_000
-"""Who can be asked so many rows of a workload can be asked for a map; a SPEC is asked each row through a pipe."""
+"""A method that judges at least so many rows of a workload gets a map; a SPEC is asked each row through a pipe."""
 
 
 def stability_methods(found: dict[str, Contender]) -> list[str]:
-    """The methods of which a map is drawn. Those in C answer what the same ones in numpy do."""
+    """The methods with a map. Those in C answer as the same methods in numpy do."""
     return [name for name, each in found.items() if _wanted(each)]
 
 
@@ -85,7 +82,7 @@ def _stability_line(task: tuple[BenchPlan, str]) -> StabilityLine:
 
 
 def _stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
-    """As many rows for each cell, and the cell of each row."""
+    """The same number of rows for each cell, and the cell of each row."""
     side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
     cells = np.repeat(np.arange(side * side), plan.amounts.cell)
     edges = np.sqrt(10.0) ** np.arange(FIRST, LAST + 2)
@@ -107,12 +104,12 @@ Span = tuple[float, float, int]
 
 
 def place_methods(found: dict[str, Contender]) -> list[str]:
-    """The methods of which maps are drawn: those in C answer what the same ones in numpy do."""
+    """The methods with maps of places; those in C answer as the same methods in numpy do."""
     return [name for name, each in found.items() if each.tier != "C" and (each.judged or ENOUGH) >= ENOUGH]
 
 
 def mapped_regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
-    """The intervals of r and of z, in metres, and how many points they have. The plane z = 0 is among them."""
+    """The intervals of r and of z, in metres, and the numbers of points. The plane z = 0 is among them."""
     alpha, gamma, b, d = MAPPED_SCENE
     a, c = alpha / b, gamma / d
     ring = b * float(np.sqrt((c * c + 1) * (a * a + c * c))) / c
@@ -146,7 +143,7 @@ def _place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
 
 
 def grid(r: Span, z: Span) -> Rows:
-    """A row for each point, r varying fastest."""
+    """A row for each point, with r varying fastest."""
     rows = np.zeros((r[2] * z[2], 7))
     rows[:, :4] = MAPPED_SCENE
     rows[:, 4] = np.tile(np.linspace(*r), z[2])
@@ -165,15 +162,15 @@ def letters_of(answers: Answers, rows: Rows, question: str, columns: int) -> lis
 
 CONVERGENCE_TRIANGLES = (100, 300, 1_000, 3_000, 10_000, 30_000, 100_000)
 CONVERGENCE_GAPS = (-27, -3)
-"""Distances from touching, m 2^e radii with e in this range: from 1e-8 to 0.25."""
+"""Distances from contact, m 2^e radii with e in this range: from 1e-8 to 0.25."""
 
 CONVERGENCE_ROWS = 400
 _BUILDS_NS = 150_000_000
-"""What is spent on building one size again and again."""
+"""Seconds for building one size repeatedly."""
 
 
 def convergence_steps(plan: BenchPlan) -> int:
-    """How many lines there will be."""
+    """The number of lines."""
     return len(PAIRINGS) * len(_triangle_counts(plan))
 
 
@@ -191,7 +188,7 @@ def convergence_lines(plan: BenchPlan) -> Iterator[ConvergenceLine]:
 
 
 def near_the_tower(seed: int) -> Rows:
-    """Bodies near touching the cooling tower."""
+    """Bodies close to contact with the cooling tower."""
     draw = Draw("bench-convergence", 1, seed)
     return near(draw, Sizes(*np.repeat(np.array([NEAR_SCENES[0]]), CONVERGENCE_ROWS, axis=0).T), CONVERGENCE_GAPS)
 
@@ -229,7 +226,7 @@ BOUNDING_RATIOS = tuple(2.0**exponent for exponent in range(-4, 5))
 """d/b of the spheroids: from flat to tall."""
 
 _SHARE = 4
-"""One in so many of the judged rows is asked for each ratio: there are many."""
+"""One in so many of the judged rows is asked for each ratio, because there are many."""
 
 
 def bounding_lines(plan: BenchPlan) -> Iterator[BoundingLine]:
@@ -241,7 +238,7 @@ def bounding_lines(plan: BenchPlan) -> Iterator[BoundingLine]:
 
 
 def bounding_line(rows: Rows, answer: Callable[[Rows], Answers], shape: str, workload: str) -> BoundingLine:
-    """What a shape in the spheroid's place says of these centres, for every ratio d/b in turn."""
+    """The answers of a shape that replaces the spheroid, for each ratio d/b."""
     from hypcheck.truth.nearest import clearances  # noqa: PLC0415 - loads mpmath
 
     overlap: list[tuple[float, int, int, float | None]] = []

@@ -1,4 +1,4 @@
-"""What a SPEC names, compared beside the others: in a process of its own, by its own clock where it offers one."""
+"""A SPEC as a contender: in a process of its own, and timed by its own clock if it offers one."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from hypcheck.implementations.session import Limits, Outcome, StartError, Timing
 from hypcheck.implementations.spec import parse_spec
 
 SINGLES = {"library": 256, "python": 64, "command": 16}
-"""Rows that are asked one by one, by the kind of SPEC. Our worker takes them in turn, so that a branch predictor does
-not learn them; a command is asked a question for each."""
+"""Rows that are asked one by one, by the kind of SPEC. The worker repeats them in order, and there are enough that a
+branch predictor does not learn them; a command gets one question for each."""
 
 _TRIED = 64
 _TRIES, _TRYING_S = 5, 0.2
-"""So often a batch is tried, unless that takes longer, and the fastest counts: after one interruption it would be asked
-about few rows."""
+"""A batch is timed so often, unless that takes longer, and the fastest time counts: after one interruption the method
+would get few rows."""
 _JUDGED_S, _TIMED_S = 4.0, 0.01
-"""What judging one workload may take, and a timed batch."""
+"""Seconds for judging one workload, and for a timed batch."""
 
 
 @dataclass(frozen=True)
 class ForeignMethod:
-    """A SPEC that was started, what it says of itself, and how many rows it is fast enough for."""
+    """A SPEC that was started, its description, and how many rows it can answer in reasonable time."""
 
     spec: str
     name: str
@@ -45,7 +45,7 @@ class ForeignMethod:
 
 
 def foreign_method(spec: str, limits: Limits, taken: Sequence[str]) -> ForeignMethod:
-    """What a SPEC is. Raises StartError where it cannot be started, and InputError where it is no SPEC."""
+    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is no SPEC."""
     with open_implementation(spec, limits) as implementation:
         description = implementation.description
         took = _seconds_a_row(implementation)
@@ -56,14 +56,14 @@ def foreign_method(spec: str, limits: Limits, taken: Sequence[str]) -> ForeignMe
 
 
 def _seconds_a_row(implementation: Implementation) -> float:
-    """What a row takes in a batch, asked in larger and larger ones until that takes long enough to tell."""
+    """Seconds for a row of a batch; batches grow until one takes long enough to measure."""
     some = WORKLOADS["uniform"].rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some)]
     some = inside if len(inside) else np.array([[*NEAR_SCENES[0], 1.0, 0.5, 2.0]])
     first = implementation.classify(some[:1])
-    if Outcome.TIMEOUT in first.outcomes:  # it would be waited for again and again
+    if Outcome.TIMEOUT in first.outcomes:  # each larger batch would time out again
         raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")
-    implementation.classify(some)  # warms it up
+    implementation.classify(some)  # a warm-up
     while True:
         took = _fastest(implementation, some)
         if took > _TIMED_S or len(some) * 8 > LARGEST:
@@ -85,7 +85,7 @@ def _seconds(implementation: Implementation, rows: Rows) -> float:
 
 
 def foreign_contenders(found: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
-    """A contender for each SPEC; a built-in method is one of ours and runs as such."""
+    """A contender for each SPEC; a built-in method runs in this process."""
     for each in found:
         description = each.description
         kind, words = parse_spec(each.spec).kind, parse_spec(each.spec).words
@@ -116,18 +116,18 @@ def _opened(spec: str, limits: Limits) -> RunningForeign:
 
 @dataclass
 class RunningForeign:
-    """An implementation, running; `kind` is that of its SPEC. `trouble` says why rows went without an answer."""
+    """A running implementation; `kind` is that of its SPEC. `trouble` says why rows have no answer."""
 
     implementation: Implementation
     kind: str
     trouble: str = field(default="", init=False)
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers; CANNOT_SAY where it gave none."""
+        """The implementation's answers; CANNOT_SAY for rows without one."""
         return self._asked(rows, by_scene=False)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """The rows by one question, by scene where it offers that and they share their sizes."""
+        """The rows by one question, by scene if it offers that and they share their sizes."""
         rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
         answers = partial(self._asked, rows, by_scene=by_scene)
         if self._clock is None:
@@ -135,17 +135,17 @@ class RunningForeign:
         return PreparedWork(len(rows), self._times(rows, answers, by_scene=by_scene), answers, self._clock)
 
     def single(self, rows: Rows) -> PreparedWork | None:
-        """A row a question; a command without a clock of its own is not asked, since the pipe would be timed."""
+        """A question for each row; None for a command without a clock, since the time would be that of the pipe."""
         if self._clock is None:
             return None
         answers = partial(self._asked, rows, by_scene=False)
         return PreparedWork(len(rows), self._times(rows, answers, each=True), answers, self._clock)
 
     def build(self, rows: Rows) -> None:
-        """Nothing that we know of is built."""
+        """Nothing is built, as far as hypcheck knows."""
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """Of a library a call that does nothing; of a command without a clock a question about one row; else none."""
+        """For a library a call that does nothing; for a command without a clock a question about one row."""
         name = f"of {self.implementation.spec}"
         if self._clock is None and mode == "batch":
             return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
@@ -155,7 +155,7 @@ class RunningForeign:
         return None
 
     def close(self) -> None:
-        """Let it leave."""
+        """Let it end."""
         self.implementation.close()
 
     @property
@@ -174,7 +174,7 @@ class RunningForeign:
     def _times(
         self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, each: bool = False
     ) -> Clocked:
-        """By the clock of whoever runs it, which checks its own sum against the answers (methods/implementation.py)."""
+        """The time by the clock of the implementation, whose checksum Implementation.time checks."""
         right = int(answers().sum(dtype=np.int64))
 
         def run(repeat: int) -> tuple[int, int]:

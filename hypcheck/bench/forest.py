@@ -1,12 +1,9 @@
 """`hypcheck bench --forest`: a walker's step among 10 to a million trees, beside FCL's broad phase.
 
-Forests of any number of trees at one density, a walker's way through each, and the truth about every step of it.
-
-Who is asked about a step: our scene, and FCL's tree of bounding boxes, the forest's trees meshes or cylinders.
-
-What a step costs against the number of trees: lines "forest" of the record, all answers judged before the clock.
-
-`hypcheck bench --forest`: a walker's step among 10 to a million trees, beside FCL's broad phase.
+Forests of all sizes have the same density. A walk through each makes the questions, and rational arithmetic their
+truth. The candidates are hypcheck's scene, and FCL's tree of bounding boxes with the trees as meshes or as cylinders.
+The lines "forest" of the record show the time of a step by the number of trees; all answers are judged before the
+timing.
 """
 
 from __future__ import annotations
@@ -45,10 +42,10 @@ KINDS = tuple((alpha, gamma) for alpha in (0.61, 0.52, 0.45, 0.38, 0.27, 0.2, 0.
 
 WALKER = Mover(0.3, 0.9)
 STEP, REFUSED_TURN, LARGEST_TURN = 0.25, 60.0, 15.0
-"""How the walker goes: metres, and degrees."""
+"""The steps of the walker: metres, and degrees."""
 
 LOOK_AHEAD = 3.0
-"""Metres beyond which no tree of KINDS and no walker touch: the widest trunk is below 0.7 m at her height."""
+"""Metres beyond which no tree of KINDS touches a walker: the widest trunk is below 0.7 m at her height."""
 
 Point = tuple[float, float, float]
 
@@ -69,7 +66,7 @@ class Forest:
         return SceneModel("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))
 
     def clear(self, centre: Point) -> bool:
-        """The truth, from rational arithmetic, about every tree that is not metres away."""
+        """The truth from rational arithmetic, about all trees except those that are metres away."""
         x, y, _ = centre
         near = np.flatnonzero(np.hypot(self.places[:, 0] - x, self.places[:, 1] - y) < LOOK_AHEAD)
         return all(self._beside(index, centre) is Position.EXTERIOR for index in near.tolist())
@@ -96,7 +93,7 @@ def forest_of(trees: int, seed: int) -> Forest:
 
 
 def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
-    """The centres that a walker asks about: each a step from where she is, taken where it is clear."""
+    """The centres that a walker asks about: each is one step from her place, where she goes if it is clear."""
     draw = np.random.Generator(np.random.PCG64([seed, steps]))
     x = y = forest.side / 2
     heading, asked = 0.0, []
@@ -113,16 +110,19 @@ def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
 
 
 Clear = Callable[[float, float, float], int]
-"""1 where the walker is clear of every tree, else 0."""
+"""1 if the walker is clear of every tree, else 0."""
 
 TRIANGLES = 128
 HEIGHT = 1.2 * WALKER.d
-"""Up to where a tree's mesh reaches, both ways: beyond the walker's head and feet."""
+"""The height of a tree's mesh on both sides: beyond the walker's head and feet."""
 
 
 @dataclass(frozen=True)
 class Walker:
-    """Something that is asked about steps. `make` builds what it needs for a forest and answers from then on."""
+    """A candidate that is asked about steps.
+
+    `make` builds what it needs for a forest, and returns its answering function.
+    """
 
     title: str
     triangles: int | None
@@ -131,7 +131,7 @@ class Walker:
 
 def _walker_scene(forest: Forest) -> Clear:
     scene = Scene(forest.model)
-    scene.position(0.0, 0.0, 0.0)  # which prepares it
+    scene.position(0.0, 0.0, 0.0)  # the first query prepares the tree
     return scene.position
 
 
@@ -152,7 +152,7 @@ def _meshes() -> list[Any]:
 
 
 def _cylinders() -> list[Any]:
-    """The least upright cylinder around the part of each kind that the walker can reach."""
+    """The smallest upright cylinder around the part of each kind that the walker can reach."""
     import fcl  # noqa: PLC0415
 
     return [fcl.Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
@@ -174,7 +174,7 @@ def _by_fcl(shapes: Callable[[], list[Any]]) -> Callable[[Forest], Clear]:
 
         def clear(x: float, y: float, z: float, _kept: Any = (kinds, trees)) -> int:  # noqa: ANN401
             walker.setTranslation(np.array([x, y, z]))
-            found = fcl.CollisionData()  # results are not reset between calls
+            found = fcl.CollisionData()  # FCL keeps results between calls
             manager.collide(walker, found, fcl.defaultCollisionCallback)
             return int(not found.result.is_collision)
 
@@ -199,31 +199,31 @@ WALKERS: Mapping[str, Walker] = MappingProxyType(
 
 
 def here() -> dict[str, Walker]:
-    """Those that can be asked here; FCL may be missing."""
+    """The candidates that can be asked here; FCL may be missing."""
     return {name: each for name, each in WALKERS.items() if name == OURS or FCL.trouble() is None}
 
 
 def answers(clear: Clear, centres: list[Point]) -> list[int]:
-    """What it says of each centre."""
+    """The answer to each centre."""
     return [clear(*centre) for centre in centres]
 
 
 TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 MOST, QUICK_MOST = 100_000, 10_000
-"""The largest forest of a run that measures all things, and of a quick one: FCL takes seconds to build the next."""
+"""The largest forest of a run that measures everything, and of a quick one: FCL takes seconds to build the next."""
 
 STEPS = 256
 ROUNDS, QUICK_ROUNDS = 11, 5
 
 
 def sizes(plan: BenchPlan) -> Sequence[int]:
-    """How many trees the run's forests have."""
+    """The numbers of trees of the run's forests."""
     most = QUICK_MOST if plan.quick else max(TREES) if plan.forest else MOST
     return tuple(trees for trees in TREES if trees <= most)
 
 
 def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int], *, quick: bool) -> None:
-    """Add a line for each forest, which has so many trees, and each of those that are asked."""
+    """Add a line for each forest with so many trees, and each candidate."""
     for trees in forests:
         for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
             recorder.add(line)
@@ -249,7 +249,7 @@ def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
 
 
 def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
-    """What answers, and the seconds it took to build; the list of trees is there before."""
+    """The answering function, and the seconds for building it; the list of trees exists before."""
     forest.model  # noqa: B018 - a property that is made once
     gc.collect()
     started = perf_counter()

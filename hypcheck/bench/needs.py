@@ -1,8 +1,6 @@
 """Conditions of a measurement: load and frequency of the machine, and which compilers and packages are absent.
 
-Under which conditions times are taken: what a reader of a record wants to know before believing them.
-
-What methods need and may be absent here: looked for once, before anything is measured.
+A reader of a record needs them before trusting its times. They are checked once, before the first measurement.
 """
 
 from __future__ import annotations
@@ -28,14 +26,14 @@ from hypcheck.record.measurements import AbsentLine, CompilerLine
 
 
 def governor() -> str | None:
-    """What sets the processor's frequency, where the system tells: at other than "performance" times wander."""
+    """What sets the processor's frequency, if the system tells; unless it is "performance", times vary."""
     with suppress(OSError):
         return Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").read_text(encoding="utf-8").strip()
     return None
 
 
 def load() -> tuple[float, float, float] | None:
-    """How many processes wanted a processor, on average of 1, 5 and 15 minutes, where the system tells."""
+    """The mean number of processes that wanted a processor during 1, 5 and 15 minutes, if the system tells."""
     with suppress(OSError, AttributeError):
         short, middle, long = (round(average, 2) for average in os.getloadavg())
         return short, middle, long
@@ -43,9 +41,9 @@ def load() -> tuple[float, float, float] | None:
 
 
 def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
-    """The plan with what is here and what is missing, which the record says too.
+    """The plan with what is available and what is missing, which the record says too.
 
-    Raises InputError where the plan names a method that does not exist.
+    Raises InputError naming a method that does not exist.
     """
     for need in sorted({each.needs for each in contenders(plan).values()} - {""}):
         plan = _looked_for(need, plan, recorder)
@@ -53,9 +51,9 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
 
 def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPlan:
-    """The plan with what its SPECs are; those that cannot be started are left out, recorded and added to the list.
+    """The plan with the methods of its SPECs; those that cannot be started are recorded and added to the list.
 
-    Raises InputError where one is no SPEC.
+    Raises InputError if a text is no SPEC.
     """
     found: list[foreign.ForeignMethod] = []
     for spec in plan.specs:
@@ -68,7 +66,7 @@ def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> Be
 
 
 def note_absent(recorder: Recorder, what: str, reason: str) -> None:
-    """Record that something is not here, and why; once."""
+    """Record once that something is not available, and why."""
     if not any(isinstance(line, AbsentLine) and line.what == what for line in recorder.lines):
         recorder.add(AbsentLine(what=what, reason=reason))
 
@@ -100,4 +98,4 @@ def _engine(engine: Engine) -> Callable[[BenchPlan, Recorder], BenchPlan]:
 _FINDERS: Mapping[str, Callable[[BenchPlan, Recorder], BenchPlan]] = MappingProxyType(
     {COMPILER: _compiler, **{engine.title: _engine(engine) for engine in (FCL, COAL)}}
 )
-"""Each raises UnavailableError where it finds nothing."""
+"""Each raises UnavailableError if it finds nothing."""

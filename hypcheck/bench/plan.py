@@ -1,11 +1,7 @@
 """The plan of a benchmark: its options, and the workloads (rows) on which methods are compared.
 
-What one run of bench is asked to do.
-
-The rows on which methods are compared: three workloads that are timed, and three strata whose answers are judged.
-
-Every workload's rows depend on its name, the seed and the place alone, and a shorter call gives the beginning of a
-longer one (casebook/draw.py).
+Three workloads are timed and judged, three only judged. A workload's rows depend only on its name, the seed and their
+place; a shorter call returns the first rows of a longer one (vectors/draw.py).
 """
 
 from __future__ import annotations
@@ -29,22 +25,23 @@ from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
 from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
 
 REFERENCE = "table-2-float64"
-"""The method whose time every ratio is relative to: the paper's own formula in numpy, which runs everywhere."""
+"""All ratios are relative to the time of this method: the paper's own formula in numpy, which runs everywhere."""
 
 MAX_SLOWDOWN = 1.1
-"""What a baseline allows where nothing else is said."""
+"""The slowdown that a baseline allows by default."""
 
 RESTARTS = 3
-"""Of a SPEC that crashes or hangs: enough to find a row at fault, which fails the run; the rest need not be known."""
+"""Restarts of a SPEC that crashes or hangs: enough to find one row at fault, which fails the run."""
 
 
 @dataclass(frozen=True, slots=True)
 class Amounts:
-    """How much is done: what makes a run full or quick.
+    """The amounts of work of a full or a quick run.
 
-    `judged` rows of each workload are asked of a fast method, `timed` rows make a timed batch; `sample_s` is what a
-    sample lasts at least, in a batch; `cell` rows fill a cell of a stability map; a map of places has `map_lines`
-    lines; `bodies` positions along flights are asked of the procedures; `most_triangles` bounds the meshes.
+    `judged` rows of each workload are asked of a fast method, and `timed` rows make a timed batch; a sample of a batch
+    lasts at least `sample_s` seconds. `cell` rows fill a cell of a stability map, and a map of places has `map_lines`
+    lines. `bodies` positions along flights are asked of the procedures. `most_triangles` bounds the meshes. `memory`
+    says whether memory is measured.
     """
 
     judged: int
@@ -74,18 +71,18 @@ QUICK = Amounts(
 
 @dataclass(frozen=True, slots=True)
 class BenchPlan:
-    """Options of a run.
+    """Options of a benchmark.
 
-    `specs` name implementations to be measured beside the built-in methods; `methods` and `workloads` are names and
-    globs that choose (none: all). `amounts` say how much is done; a `quick` run leaves out what takes long. Times come
-    from `rounds` rounds in each of `processes` fresh processes. `baseline` is a record to be held to: a method may be
-    `max_slowdown` times slower against the reference than it was there.
+    `specs` name implementations to measure beside the built-in methods; `methods` and `workloads` are names and globs
+    (none: all). `amounts` are the amounts of work; a `quick` run leaves out what takes long. Times come from `rounds`
+    rounds in each of `processes` fresh processes. `baseline` is a record to compare with: a method may be
+    `max_slowdown` times slower against the reference than there.
 
-    `kernel`, `forest` and `scenes` measure one thing and nothing else: the fast path against its targets, a walker's
-    step among many trees, what these scenes do without.
+    `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
+    many trees, the savings of these scenes.
 
-    What is made on the way goes into `folder`, `compiled` among it: the library of methods in C, where there is one.
-    `missing` is what methods may need and is not here, and `foreign` what the SPECs are (contenders/foreign.py).
+    Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
+    that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).
     """
 
     specs: tuple[str, ...] = ()
@@ -117,25 +114,25 @@ class BenchPlan:
 
     @property
     def whole(self) -> bool:
-        """Whether everything is measured that takes minutes: nothing was chosen, and there is time."""
+        """Whether the run measures everything, which takes minutes: nothing was chosen, and it is not quick."""
         return not (self.quick or self.specs or self.methods or self.workloads or self.baseline)
 
     @property
     def options(self) -> dict[str, Any]:
-        """The plan as the record's header shows it."""
+        """The plan as the record's header has it."""
         shown = {name: value for name, value in asdict(self).items() if name not in _FOUND_OUT}
         baseline = None if self.baseline is None else str(self.baseline)
         return {"command": "bench", **shown, "baseline": baseline, "reference": REFERENCE}
 
 
 _FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
-"""What is no option of a user's."""
+"""Fields that are no options of a user."""
 
 
 def chosen_names(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:
-    """The names that the patterns reach, in their own order; all of them without a pattern.
+    """The names that match a pattern, in their own order; all names without a pattern.
 
-    Raises InputError for a pattern that names nothing.
+    Raises InputError for a pattern that matches nothing.
     """
     for pattern in patterns:
         if not any(fnmatchcase(name, pattern) for name in names):
@@ -151,7 +148,7 @@ NEAR_SCENES = (
     (30.0, 65.0, 0.01, 0.01),  # a large tower and a 1 cm drone: where Δ overflows in float32
     (5.0, 2.0, 1.0, 1.0),  # (γ/d)² < α/b: outside the regime of the paper's Proposition 3
 )
-"""α, γ, b, d of the pairs of bodies that the workload near contact takes in turn."""
+"""α, γ, b, d of the pairs of bodies that the workload near contact uses in turn."""
 
 NEAR_GAPS = (-57, -2)
 """Distances from contact, in spheroid radii, are m 2^e with 1 ≤ m < 2 and e of this range: 1e-17 to 0.5."""
@@ -168,12 +165,12 @@ class Workload:
     timed: bool = True
 
     def scene(self, rows: Rows) -> tuple[float, float, float, float] | None:
-        """The sizes that all these rows share, or None where they differ."""
+        """The sizes that all these rows share, or None."""
         return scene_of(rows)
 
 
 def scene_of(rows: Rows) -> tuple[float, float, float, float] | None:
-    """α, γ, b, d where all rows share them."""
+    """α, γ, b, d if all rows share them, else None."""
     if not len(rows) or (rows[:, :4] != rows[0, :4]).any():
         return None
     alpha, gamma, b, d = rows[0, :4].tolist()
@@ -181,7 +178,7 @@ def scene_of(rows: Rows) -> tuple[float, float, float, float] | None:
 
 
 def near_contact(seed: int, count: int) -> Rows:
-    """Centres near touching, in the scenes of NEAR_SCENES in turn."""
+    """Centres near contact, in the scenes of NEAR_SCENES in turn."""
     scenes, numbers = np.array(NEAR_SCENES), range(-(-count // BLOCK))
     turns = ((number * BLOCK + np.arange(BLOCK)) % len(scenes) for number in numbers)
     blocks = [
@@ -192,12 +189,12 @@ def near_contact(seed: int, count: int) -> Rows:
 
 
 def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
-    """Centres one radius from the surface and a gap of m 2^e more or less, e in the range `gaps`, on either side."""
+    """Centres at one radius from the surface, plus or minus m 2^e with e in the range `gaps`, on either side."""
     n = len(size.b)
     near_the_waist = draw.words(n) >> np.uint64(63) == 0
     height = draw.unit(n) * np.where(near_the_waist, np.minimum(size.c, 8.0), size.c)
     gap = draw.signs(n) * draw.log_uniform(n, *gaps)
-    # Inside, a ball touches a throat that is wider than itself alone.
+    # Inside, a ball touches only a throat that is wider than itself.
     side = np.where(size.a >= 1, draw.signs(n), 1.0)
     return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))
 

@@ -1,4 +1,4 @@
-"""One run of bench: judge, measure, compare; everything goes into the record as it comes."""
+"""One run of bench: judge, measure, compare; each result goes into the record at once."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from hypcheck.scene.reading import shipped_scenes
 
 @dataclass
 class _Run:
-    """What the parts of a run hand on."""
+    """The values that the stages of a run share."""
 
     plan: BenchPlan
     recorder: Recorder
@@ -50,17 +50,17 @@ class _Run:
 
     @property
     def meshes(self) -> bool:
-        """Whether FCL is among what is compared."""
+        """Whether FCL is compared."""
         return any(each.needs == FCL.title for each in self.found.values())
 
     @property
     def shapes(self) -> bool:
-        """Whether other shapes than the spheroid are."""
+        """Whether other shapes than the spheroid are compared."""
         return any(each.kind == "bounding" for each in self.found.values())
 
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
-    """The run's parts in order. Raises InputError where the plan names what does not exist."""
+    """The stages of the run in order. Raises InputError naming a choice that does not exist."""
     if plan.kernel:
         return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
@@ -142,7 +142,7 @@ def _introduce(run: _Run, advance: Advance) -> None:
 
 
 def introduction(contender: Contender) -> MethodLine:
-    """The record's line about what a method is."""
+    """The record's line that introduces a method."""
     names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
     return MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names})
 
@@ -153,7 +153,7 @@ def _judge(run: _Run, advance: Advance) -> None:
         for truth in accuracy.workload_truths(run.plan, executor):
             truths[truth.workload.name] = truth
             advance(1)
-        slowest_first = sorted(run.found, key=lambda name: run.found[name].timed or math.inf)  # they would end last
+        slowest_first = sorted(run.found, key=lambda name: run.found[name].timed or math.inf)  # they take longest
         for answered in accuracy.method_answers(run.plan, slowest_first, executor):
             run.answers += answered
             advance(1)

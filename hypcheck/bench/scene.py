@@ -1,14 +1,9 @@
 """Kernels that are specialised for a scene: the time that each saves, and the share that each stage decides.
 
-A scene's kernel in C as bench asks it: all centres by a call for each pair of sizes, or a call for each row.
-
-What a plan saves in time: its kernel in C beside Table 2 as printed, in C too, on centres all over the region.
-
-What leaving out saves in whole scenes: the share that each stage decided, and the time against what keeps all.
-
-A scene is asked evenly over its region, each pair of sizes alike. Beside its kernel in C stand Table 2 as printed, in
-C, which proves nothing, and the certified kernel that `hypcheck.classify_scene` runs; all in one thread, once by a call
-for many rows and once by a call for each, as who flies or walks asks.
+A scene is asked evenly over its region, with the same number of rows for each pair of sizes. Its kernel in C is
+compared with Table 2 as printed, in C, which proves nothing, and with the certified kernel of
+`hypcheck.classify_scene`. All run in one thread, first by a call for many rows, then by a call for each, as a craft or
+a walker asks.
 """
 
 from __future__ import annotations
@@ -47,17 +42,17 @@ void one_by_one(size_t n, const double *rows, int8_t *positions)
     for (size_t i = 0; i < n; i++) asked(1, rows + 7 * i, positions + i);
 }
 """
-"""What a program in C does that has one question at a time; the compiler cannot see what it calls."""
+"""A program in C that asks one question at a time; the compiler cannot see the function that it calls."""
 
 
 @dataclass(frozen=True)
 class SceneKernel:
-    """The kernel, compiled and loaded."""
+    """A compiled and loaded kernel."""
 
     library: ctypes.CDLL
 
     def batch(self, tables: Sequence[Rows]) -> Callable[[], Positions]:
-        """Asks all rows by one call a table; the rows of a table have the same sizes."""
+        """All rows by one call for each table; the rows of a table have the same sizes."""
         found = np.zeros(sum(map(len, tables)), dtype=np.int8)
         kept, calls, start = [], [], 0
         for rows in tables:
@@ -76,7 +71,7 @@ class SceneKernel:
         return work
 
     def single(self, rows: Rows) -> Callable[[], Positions]:
-        """Asks all rows by one call each, from C."""
+        """All rows by one call each, from C."""
         queries, found = np.ascontiguousarray(rows), np.zeros(len(rows), dtype=np.int8)
         pointers = [ctypes.c_void_p(each.ctypes.data) for each in (queries, found)]
 
@@ -88,7 +83,7 @@ class SceneKernel:
 
 
 def compiled_kernel(plan: ScenePlan, folder: Path) -> SceneKernel:
-    """The plan's kernel, made in a folder of its own. Raises UnavailableError where there is no C compiler."""
+    """The plan's kernel, compiled in a folder of its own. Raises UnavailableError if there is no C compiler."""
     folder.mkdir()
     code, library = folder / "kernel.c", folder / "kernel.so"
     code.write_text(emitted(plan, "c", ["hypcheck", "emit"]) + _ONE_BY_ONE, encoding="utf-8")
@@ -98,12 +93,12 @@ def compiled_kernel(plan: ScenePlan, folder: Path) -> SceneKernel:
 
 KERNEL_ROUNDS = 11
 REPEATED_CENTRES = 16
-"""How often the sample's centres are laid end to end: 65,536 rows, which a branch predictor cannot learn by heart."""
+"""The sample's centres are repeated so often: 65,536 rows, which a branch predictor cannot learn."""
 
 
 @dataclass(frozen=True)
 class KernelTimes:
-    """Nanoseconds a centre, and how long the kernel takes for each of Table 2's."""
+    """Nanoseconds for a centre, and the kernel's time relative to that of Table 2."""
 
     kernel_ns: float
     printed_ns: float
@@ -111,12 +106,12 @@ class KernelTimes:
 
     @classmethod
     def of(cls, own: Samples, other: Samples) -> KernelTimes:
-        """From the samples of both."""
+        """The times from the samples of both."""
         return cls(own.median_ns, other.median_ns, estimate(ratios([own.samples_ns], [other.samples_ns])))
 
     @property
     def says(self) -> str:
-        """The measurement in a sentence's part."""
+        """The times as a part of a sentence."""
         times = 1 / self.ratio.median
         how = f"{times:.2f} times as fast as" if times >= 1 else f"{self.ratio.median:.2f} times as slow as"
         return (
@@ -126,7 +121,7 @@ class KernelTimes:
 
     @property
     def fields(self) -> dict[str, Any]:
-        """The measurement for programs."""
+        """The times as values for programs."""
         return {
             "kernel_ns": self.kernel_ns,
             "printed_ns": self.printed_ns,
@@ -137,7 +132,7 @@ class KernelTimes:
 
 @dataclass(frozen=True)
 class KernelSaving:
-    """What one setting's kernel saves: by one call for many centres, and by a call for each."""
+    """The time that the kernel of one setting saves: by one call for many centres, and by a call for each."""
 
     stages: Stages
     rows: int
@@ -146,12 +141,12 @@ class KernelSaving:
 
     @property
     def says(self) -> str:
-        """The measurement in sentences."""
+        """The savings in sentences."""
         return f"In C, many by a call: {self.batch.says}. A call each: {self.single.says}."
 
 
 def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[KernelSaving]:
-    """Each setting of the plan, measured in turn. Raises UnavailableError where there is no C compiler."""
+    """The savings of each setting of the plan. Raises UnavailableError if there is no C compiler."""
     methods, _ = compiled(folder)
     kernel, printed = compiled_kernel(plan, folder / "scene"), InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
     for stages in plan.settings:
@@ -159,7 +154,7 @@ def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[KernelSaving]:
 
 
 def saving_fields(found: KernelSaving) -> dict[str, Any]:
-    """The record's line about one setting."""
+    """The fields of the record's line about one setting."""
     return {
         "sizes": list(found.stages.setting.sizes),
         "uses": list(found.stages.setting.uses),
@@ -184,7 +179,7 @@ def _kernel_saving(stages: Stages, kernel: SceneKernel, printed: InC) -> KernelS
 
 
 def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
-    """The sample's centres so many times over, in random order."""
+    """The sample's centres, repeated, in random order."""
     x, y, z = centres(stages.setting)
     order = np.random.Generator(np.random.PCG64(1)).permutation(np.tile(np.arange(len(x)), times))
     sizes = [np.full(len(order), size) for size in stages.setting.sizes]
@@ -193,23 +188,23 @@ def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
 
 ROUNDS, QUICK_ROUNDS = 11, 5
 ROWS = 2**17
-"""About how many rows a scene is asked; a setting has its sample's 4096 at least."""
+"""A scene is asked about so many rows; each setting has at least the 4096 of its sample."""
 
 CERTIFIED = "fast"
-"""The certified kernel's name among the methods in C."""
+"""The name of the certified kernel among the methods in C."""
 
 STAGES = ("always", "thresholds", "lines", "discriminant", "search")
 
 
 def plans_of(names: Sequence[str]) -> list[ScenePlan]:
-    """The plans of scenes by their names; raises InputError for what is no scene, or has no kernel."""
+    """The plans of scenes by their names; raises InputError for an unknown scene, or one without a kernel."""
     return [plan_of(read_scene(name)) for name in names]
 
 
 def run_scenes(
     plans: Sequence[ScenePlan], recorder: Recorder, advance: Advance, folder: Path, *, quick: bool
 ) -> Iterator[str]:
-    """Add a line for each scene; yields a sentence about each whose kernel answered wrongly."""
+    """Add a line for each scene; yields a sentence about each scene whose kernel answered wrongly."""
     try:
         methods, _ = compiled(folder)
         for number, plan in enumerate(plans):
@@ -253,7 +248,7 @@ def _scene_line(plan: ScenePlan, methods: Path, folder: Path, rounds: int) -> Sc
 
 
 def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> SceneTimes:
-    """Nanoseconds a row of each, and how long the kernel takes for each of the others'."""
+    """Nanoseconds for a row of each, and the kernel's time relative to the others'."""
     *_, (_, samples) = measure([TimingEntry(name, count, run) for name, run in asked.items()], rounds)
     own, *others = samples
     found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
@@ -264,7 +259,7 @@ def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> SceneTimes:
 
 
 def stage_shares(settings: Sequence[Stages]) -> dict[str, float]:
-    """What share of the scene's queries each stage decides, each pair of sizes asked alike."""
+    """The share of the scene's queries that each stage decides, with the same number for each pair of sizes."""
     return {name: float(np.mean([each.shares.get(name, 0.0) for each in settings])) for name in STAGES}
 
 
@@ -275,7 +270,7 @@ def _tables(plan: ScenePlan) -> list[Rows]:
 
 
 def _certified(plan: ScenePlan, tables: Sequence[Rows]) -> Callable[[], Positions]:
-    """The kernel of classify_scene, exact, asked the same."""
+    """The exact kernel of classify_scene with the same rows."""
     question = cast("Question", plan.question)
     found = np.zeros(sum(map(len, tables)), dtype=np.int8)
     calls, start = [], 0
@@ -294,7 +289,7 @@ def _certified(plan: ScenePlan, tables: Sequence[Rows]) -> Callable[[], Position
 
 
 def _all_of(parts: Sequence[Clocked]) -> Clocked:
-    """The work of all parts, one after the other, as one."""
+    """The work of all parts as one."""
 
     def run(repeat: int) -> tuple[int, int]:
         done = [part(repeat) for part in parts]
@@ -304,5 +299,5 @@ def _all_of(parts: Sequence[Clocked]) -> Clocked:
 
 
 def _wrong(said: Positions, exact: Positions) -> NDArray[np.bool_]:
-    """The rows that the kernel answers otherwise than is exact; "cannot say" is no wrong answer."""
+    """The rows to which the kernel gives another answer than the exact one; "cannot say" is not wrong."""
     return np.asarray((said != exact) & (said != CANNOT_SAY))

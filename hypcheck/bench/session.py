@@ -1,4 +1,4 @@
-"""One fresh process that measures: every method checked, then all of them in rounds, workload by workload."""
+"""One fresh process that measures: it checks every method, then times all of them in rounds, workload by workload."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ MODES: Mapping[str, Callable[[LoadedMethod, Rows], PreparedWork | None]] = {
     "single": lambda way, rows: way.single(rows),
     "build": lambda way, rows: way.build(rows),
 }
-"""What is timed of a method: many rows by one call, rows one by one, and what is built before."""
+"""The modes of timing a method: many rows by one call, rows one by one, and the building before."""
 
 REFERENCE_AGAIN = f"{REFERENCE} again"
-"""The reference a second time: what separates it from itself is noise."""
+"""The reference a second time: its difference from the first is noise."""
 
 MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {"single": ("uniform", "near-contact"), "build": ("uniform",)}
-"""The workloads on which a mode is timed, if not all: a row on its own has no neighbours, and a mesh is the scene's."""
+"""The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
 
 BUILDS = 2
-"""Rounds in which meshes are built: the large ones take most of a second."""
+"""Rounds of building meshes: large ones take most of a second."""
 
 NOT_ANSWERED = "not answered"
-"""Stands in place of a print: it failed when it was judged, which is recorded already."""
+"""Replaces the hash of answers if the method failed when it was judged, which is recorded already."""
 
 COST_OF = "cost of "
-"""What the name of a claim stands behind in place of a workload."""
+"""Begins the name of a claim, in place of a workload."""
 
 FIRST_AGAIN = "the first again"
-"""The first way of a comparison a second time, likewise."""
+"""The first alternative of a comparison a second time; its difference is noise."""
 
 EMPTY_CALL = "an empty call"
 
@@ -48,10 +48,10 @@ MeasurementKey = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class MeasuringSession:
-    """What one process is to measure.
+    """The work of one process.
 
-    `expected` are the prints of the answers by method, workload and mode; a method whose answers have another print is
-    refused. `loops` are loops and takes of the first process, for all to do alike; it is given none.
+    `expected` are hashes of the answers by method, workload and mode; a method with other answers is refused. `loops`
+    are loops and takes of the first process, which all others use; the first gets none.
     """
 
     plan: BenchPlan
@@ -62,10 +62,10 @@ class MeasuringSession:
 
 @dataclass(frozen=True)
 class Measurement:
-    """What one process measured of one method, workload and mode; `empty_ns` is taken off the samples already.
+    """The samples of one process for one method, workload and mode, from which `empty_ns` is subtracted.
 
-    What is left of them may be less than nothing, where noise made the call that does nothing take longer. `calls_ns`
-    are the samples of that call, in nanoseconds a row of the method.
+    The rest may be negative, if noise made the empty call longer. `calls_ns` are the samples of the empty call, in
+    nanoseconds a row of the method.
     """
 
     key: MeasurementKey
@@ -77,7 +77,7 @@ class Measurement:
 
 @dataclass(frozen=True)
 class _MeasuredTogether:
-    """Those that are measured together: ready, and the empty calls that are taken off them, by their names."""
+    """Work that is measured together: by name, with the empty calls that are subtracted."""
 
     where: tuple[str, str]
     ready: dict[str, PreparedWork]
@@ -88,7 +88,7 @@ class _MeasuredTogether:
 
 
 def run_session(session: MeasuringSession) -> list[Measurement]:
-    """Everything, in the order of workloads and modes."""
+    """All measurements, in the order of workloads and modes."""
     found = contenders(session.plan)
     ways = {name: each.load() for name, each in found.items() if not each.accuracy_only}
     measured = []
@@ -106,14 +106,14 @@ def run_session(session: MeasuringSession) -> list[Measurement]:
 
 
 def _compared(session: MeasuringSession, claim: CostClaim) -> _MeasuredTogether:
-    """The ways that a claim about cost compares, and the first of them again."""
+    """The alternatives of a claim about cost, and the first of them again."""
     ready = claim.compared(session.plan)
     again = {FIRST_AGAIN: next(iter(ready.values()))}
     return _MeasuredTogether((f"{COST_OF}{claim.name}-{claim.tier}", "batch"), {**ready, **again}, {}, {}, [])
 
 
 def _modes(workload: Workload) -> Sequence[str]:
-    """What is timed on a workload: what would only say the same again is left out."""
+    """The modes of a workload, without those that repeat another result."""
     return tuple(
         mode for mode in MODES if workload.timed and workload.name in MODE_WORKLOADS.get(mode, (workload.name,))
     )

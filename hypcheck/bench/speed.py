@@ -1,9 +1,4 @@
-"""Times as lines of the record: medians, ratios to the reference, the noise floor, verdicts on claims about cost.
-
-From what the processes measured to the record's lines: medians, ratios to the reference, and the noise floor.
-
-What came of the paper's claims about cost: ratios to the printed way, and a verdict where noise allows one.
-"""
+"""Times as lines of the record: medians, ratios to the reference, the noise floor, verdicts on claims about cost."""
 
 from __future__ import annotations
 
@@ -42,15 +37,15 @@ from hypcheck.processes import Advance, fresh, perform
 from hypcheck.record.measurements import Compared, CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
 
 UNLIKE = 0.1
-"""Relative to a call that does nothing: through ctypes it takes 200 ns, and 7 ns more or less by its arguments."""
+"""An empty call may differ by this share: through ctypes it takes 200 ns, and 7 ns more or less by its arguments."""
 
 
 Measurements = dict[MeasurementKey, list[Measurement]]
-"""What each process measured, by method, workload and mode."""
+"""The measurements of all processes, by method, workload and mode."""
 
 
 def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
-    """The prints of the answers that were judged, by method, workload and mode."""
+    """The hashes of the judged answers, by method, workload and mode."""
     found: dict[MeasurementKey, str] = {}
     for each in answers:
         found[each.method, each.workload, "batch"] = NOT_ANSWERED if each.trouble else each.batch_print
@@ -59,7 +54,7 @@ def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
 
 
 def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advance: Advance) -> Measurements:
-    """What the processes measured, one process after the other; the first calibrates for all."""
+    """The measurements of the processes, one process after the other; the first calibrates for all."""
     found: Measurements = {}
     loops: dict[MeasurementKey, tuple[int, int]] = {}
     for number in range(plan.processes):
@@ -73,7 +68,7 @@ def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advan
 
 
 def speed_lines(found: Measurements) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
-    """The record's lines: noise before the speeds it belongs to; those without a time last."""
+    """The record's lines: noise before the speeds that it belongs to; methods without a time last."""
     found = {key: parts for key, parts in found.items() if not key[1].startswith(COST_OF)}
     refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
@@ -92,10 +87,10 @@ def speed_lines(found: Measurements) -> Iterator[NoiseLine | SpeedLine | Unmeasu
 
 
 def _hidden(parts: list[Measurement]) -> str | None:
-    """Why the time cannot be told from that of a call that does nothing, which is taken off; None where it can.
+    """Why the time cannot be separated from that of an empty call, which is subtracted; None if it can.
 
-    It can where the 95 % intervals of the two medians, before anything is taken off, lie apart by more than UNLIKE: so
-    much the call that does nothing may differ from what calling costs the method.
+    It can if the 95 % intervals of the two medians, before the subtraction, are apart by more than UNLIKE, the possible
+    difference between the empty call and the cost of calling the method.
     """
     if not all(each.calls_ns for each in parts):
         return None
@@ -114,7 +109,7 @@ def _time_text(time: Estimate) -> str:
 
 
 def _possible(part: Measurement) -> list[float]:
-    """The samples of a process of which something is left; no clock tells more than six digits of them."""
+    """The positive samples of a process; no clock has more than six digits of them."""
     return [float(f"{sample:.6g}") for sample in part.samples.samples_ns if sample > LEAST_NS]
 
 
@@ -170,7 +165,7 @@ def _noise(found: Measurements, workload: str, mode: str) -> NoiseLine:
 
 
 def samples_of(parts: list[Measurement]) -> list[list[float]]:
-    """Nanoseconds a row of each round, process by process; no clock tells more than six digits of them."""
+    """Nanoseconds a row of each round, by process; no clock has more than six digits of them."""
     return [[float(f"{sample:.6g}") for sample in each.samples.samples_ns] for each in parts]
 
 
@@ -242,14 +237,14 @@ _SAYS = {"procedures": _procedures, "divisions": _divisions, "roots": _roots}
 
 
 def cheaper(ratio: Estimate, noise: float) -> str:
-    """Whether it takes less time than the first, for certain, whatever the noise."""
+    """The verdict "holds" if it certainly takes less time than the first, beyond noise."""
     if ratio.high * noise < 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
 
 
 def dearer(ratio: Estimate, noise: float) -> str:
-    """Whether it takes more time than the first."""
+    """The verdict "holds" if it certainly takes more time than the first."""
     if ratio.low / noise > 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE

@@ -1,12 +1,7 @@
 """`hypcheck bench --kernel`: every target of the fast path's speed, each a line "kernel" of the record.
 
-The plain numpy expressions that the kernels are held to: Table 2 as one types it, and with products for powers.
-
-What Python sees: the kernels against numpy expressions, numpy.roots and FCL, and one call about one pair.
-
-All targets in order; what cannot be measured here is said in a line "absent".
-
-`hypcheck bench --kernel`: the targets of the fast path's speed, each a line "kernel" of the record.
+The kernels are compared with plain numpy expressions (Table 2 with powers, and with products), with numpy.roots and
+FCL, and with one call for one pair. A target that cannot be measured here becomes a line "absent".
 """
 
 from __future__ import annotations
@@ -47,7 +42,7 @@ from hypcheck.record.measurements import AbsentLine, KernelLine
 
 
 def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """Whether each centre is exterior, `**2` and `**3` as they stand in the paper. The paper's formula: no proof."""
+    """Whether each centre is exterior, with `**2` and `**3` as in the paper's formula; it proves nothing."""
     alpha, gamma, b, d = sizes
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
     c0 = -A * B
@@ -59,7 +54,7 @@ def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int
 
 
 def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """The same with products in the place of powers, which numpy computes by a function of the C library."""
+    """The same with products instead of powers, which numpy computes by a function of the C library."""
     alpha, gamma, b, d = sizes
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
     c0, bb, dd = -A * B, b * b, d * d
@@ -94,7 +89,7 @@ PLAIN_CALL = KernelTarget(
 
 
 def against_numpy(rounds: int) -> Iterator[KernelLine]:
-    """Ten million rows: both numpy expressions and both kernels, as one calls them."""
+    """Ten million rows: both numpy expressions and both kernels, as a user calls them."""
     columns = uniform_columns(MANY)
     work = {
         "kernel": partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1),
@@ -115,7 +110,7 @@ def against_numpy(rounds: int) -> Iterator[KernelLine]:
 
 
 def against_others(rounds: int) -> Iterator[KernelLine]:
-    """numpy.roots and FCL a row, beside a hundred thousand rows of the kernel."""
+    """numpy.roots and FCL for each row, beside a hundred thousand rows of the kernel."""
     columns = uniform_columns(100_000)
     rows = np.column_stack([*(np.full(FEW, size) for size in TOWER_SIZES), *(column[:FEW] for column in columns)])
     entries = [
@@ -136,7 +131,7 @@ def against_others(rounds: int) -> Iterator[KernelLine]:
 
 
 def one_call(rounds: int) -> Iterator[KernelLine]:
-    """One pair at a time, from a loop in Python whose own time is taken off."""
+    """One pair at a time, from a loop in Python whose own time is subtracted."""
     rows = list(zip(*(column[:CALLS].tolist() for column in _as_columns()), strict=True))
     entries = [
         TimingEntry("empty", CALLS, _loop(None, rows)),
@@ -178,7 +173,7 @@ def _loop(function: Callable[..., int] | None, rows: Sequence[tuple[float, ...]]
 
 
 def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:
-    """The engine's queries alone, in the units of its mesh."""
+    """The engine's queries only, in the units of its mesh."""
     touches, centres = mesh.touches, (rows[:, 4:] / np.array(mesh.unit)).tolist()
     if touches is None:
         raise AssertionError("FCL refused the mesh")
@@ -193,7 +188,7 @@ Group = Callable[[Path, bool], Iterable[KernelLine]]
 
 
 def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> None:
-    """Measure every target and add its line; a quick run takes fewer rounds and streams a tenth."""
+    """Measure every target and add its line; a quick run has fewer rounds and streams a tenth of the rows."""
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
         for group in _groups():
             try:
@@ -209,7 +204,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
 
 
 def steps() -> int:
-    """How often `run` advances."""
+    """The number of times that `run` advances."""
     return len(list(_groups()))
 
 

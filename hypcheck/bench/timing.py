@@ -1,22 +1,15 @@
 """Timing: calibrated loops in interleaved rounds, medians of ratios with bootstrap intervals, and targets for them.
 
-The one way time is taken: calibrated loops, interleaved rounds in rotated order, and a checksum in every sample.
+In each round every entry runs once, and each round starts with another entry, so that a slow moment of the machine
+affects all of them. The sum of the answers is checked after each sample: an entry with other answers than before is
+refused, and timed no more.
 
-In each round every entry runs once, and each round begins with another, so that a slow moment of the machine falls on
-all of them. The sum of the answers is looked at after each sample: whoever does not answer what was answered before is
-refused, and timed no further.
+Samples come in rounds of several fresh processes. The rounds of one process share its accidents (addresses, a core).
+Therefore the bootstrap draws processes first, then rounds inside each drawn process: an interval from rounds alone
+would count twenty measurements of one accident as twenty accidents. The draws have a fixed seed, so the same samples
+always give the same interval.
 
-Medians of ratios with honest intervals: the percentile bootstrap over processes, and over rounds inside them.
-
-Samples come in rounds of several fresh processes. Rounds of one process share what that process happened to be given
-(addresses, a core), so processes are drawn first, then rounds inside each drawn one: an interval from rounds alone
-would take twenty looks at one accident for twenty accidents. The draws are of a fixed seed, so the same samples always
-give the same interval.
-
-A target of the fast path's speed, and the line that says whether it was met.
-
-What one thread does is told by the time that the processor gave to it, so that a busy machine does not decide; what two
-threads do, by the clock on the wall.
+One thread is timed by its processor time, so that a busy machine does not matter; two threads by the wall clock.
 """
 
 from __future__ import annotations
@@ -37,30 +30,30 @@ from numpy.typing import NDArray
 from hypcheck.record.measurements import KernelLine
 
 _LONGEST = 4
-"""So many times as long as it must last a sample may be, for the sake of more takes."""
+"""A sample may last so many times its least duration, for more takes."""
 
 Clocked = Callable[[int], tuple[int, int]]
-"""Does its work as often as asked; the nanoseconds that took, and the sum of the answers of one time."""
+"""Does its work as often as asked; returns the nanoseconds and the sum of the answers of one time."""
 
 SHORTEST_S = 0.01
-"""What the takes of a sample last at least together, by repeating the work: 10⁵ ticks of the clock."""
+"""The least duration of all takes of a sample, by repeating the work: 10⁵ ticks of the clock."""
 
 MOST_LOOPS = 1_000_000
 
 TAKES = 5
-"""A sample is the fastest of so many takes, each a part of its length: what interrupts a process only ever adds time,
-and of several short takes it seldom meets all. Work that takes long is taken less often."""
+"""A sample is the fastest of so many takes, each a part of its length. An interrupt only adds time, and seldom hits all
+of several short takes. Long work is taken less often."""
 
 
 class TimingRefusedError(Exception):
-    """What is being timed does not do what it must; the text is a sentence about it. It is timed no further."""
+    """A method that does not do its work while it is timed; the text is a sentence about it. It is timed no more."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimingEntry:
-    """Something to be timed: `run` handles `rows` rows each time, and the sum of its answers must be `checksum`.
+    """Work to be timed: `run` answers `rows` rows each time, and the sum of its answers must be `checksum`.
 
-    Without a checksum that of the first sample stands. `loops` and `takes` are calibrated where they are not given.
+    Without a checksum, that of the first sample counts. `loops` and `takes` are calibrated unless they are given.
     """
 
     name: str
@@ -73,7 +66,7 @@ class TimingEntry:
 
 @dataclass(slots=True)
 class Samples:
-    """What was measured of one entry: nanoseconds a row in each round; `refused` says why it was left off, if so.
+    """The samples of one entry: nanoseconds a row in each round; `refused` is the reason if it was refused.
 
     A sample is the fastest of `takes` takes, each of `loops` times the work.
     """
@@ -93,7 +86,7 @@ class Samples:
 
 
 def clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
-    """Work in this process, by our clock; the sum is of the answers of the last time."""
+    """Work in this process, by its clock; the sum is that of the last answers."""
 
     def run(repeat: int) -> tuple[int, int]:
         started = time.perf_counter_ns()
@@ -109,7 +102,7 @@ def clocked_calls(
     centres: Sequence[Sequence[float]],
     clock: Callable[[], int] = time.perf_counter_ns,
 ) -> Clocked:
-    """A call for each centre, in this process, by a clock of nanoseconds; the sum is of the last time's answers."""
+    """A call for each centre in this process, by a clock of nanoseconds; the sum is that of the last answers."""
 
     def run(repeat: int) -> tuple[int, int]:
         total = 0
@@ -126,9 +119,9 @@ def clocked_calls(
 def measure(
     entries: Sequence[TimingEntry], rounds: int, shortest_s: float = SHORTEST_S, first: int = 0
 ) -> Iterator[tuple[int, tuple[Samples, ...]]]:
-    """Rounds of all entries: after each the number done, and, with the last, the samples.
+    """Rounds of all entries: after each round its number, and after the last the samples.
 
-    `first` is the entry that begins the first round.
+    `first` is the entry that starts the first round.
     """
     with _undisturbed():
         measured = [_calibrated(entry, shortest_s) for entry in entries]
@@ -140,7 +133,7 @@ def measure(
 
 
 def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
-    """The entry warmed up, with loops enough for a sample of that length."""
+    """The entry after a warm-up, with enough loops for a sample of that duration."""
     found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
     try:
         _calibrate(entry, found, shortest_s)
@@ -155,10 +148,10 @@ def _calibrate(entry: TimingEntry, found: Samples, shortest_s: float) -> None:
         found.checksum = checksum
     if entry.loops is None:
         loops, shortest = 1, shortest_s / TAKES * 1e9
-        while took < shortest / 8 and loops < MOST_LOOPS:  # too short a time tells too little of how many are needed
+        while took < shortest / 8 and loops < MOST_LOOPS:  # a shorter time is too inaccurate for the number of loops
             loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
             took, checksum = entry.run(loops)
-        took = min(took, entry.run(loops)[0])  # an interrupted one would make for too short takes
+        took = min(took, entry.run(loops)[0])  # after an interruption the takes would be too short
         found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
         lasts = max(1, took * found.loops / loops)
         found.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
@@ -172,7 +165,7 @@ def _sample(entry: TimingEntry, found: Samples) -> None:
 
 
 def _take(entry: TimingEntry, found: Samples) -> float:
-    """Nanoseconds; what is refused is asked no more, and takes for ever."""
+    """Nanoseconds; infinite for a refused entry, which is not run."""
     if found.refused is None:
         try:
             took, checksum = entry.run(found.loops)
@@ -191,7 +184,7 @@ def _check(found: Samples, checksum: int) -> None:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """No garbage collection while it lasts; what there is goes before."""
+    """A block without garbage collection, which runs before it."""
     gc.collect()
     enabled = gc.isenabled()
     gc.disable()
@@ -207,8 +200,8 @@ CONFIDENCE = 0.95
 _SEED = 20_230_917
 
 LEAST_NS = 0.01
-"""No sample is as short: a byte of an answer takes longer to write. What is left of a time from which an empty call was
-taken off may be, where noise made that call take longer; it says nothing of the work."""
+"""No sample can be shorter: to write a byte of an answer takes longer. A difference to an empty call may be shorter, if
+noise made the empty call longer; it says nothing about the work."""
 
 SampleTable = Sequence[Sequence[float]]
 """A number for each round, for each process."""
@@ -224,12 +217,12 @@ class Estimate:
 
     @property
     def half_width(self) -> float:
-        """How far the interval reaches from 1 to its farther side, as a factor less 1: 0.02 for 0.98 … 1.01."""
+        """The distance of the interval's farther end from 1, as a factor less 1: 0.02 for 0.98 … 1.01."""
         return max(self.high, 1 / self.low if self.low > 0 else np.inf) - 1
 
 
 def estimate(samples: SampleTable) -> Estimate:
-    """The median of all samples with the interval of the bootstrap. Raises ValueError where there is no sample."""
+    """The median of all samples with its bootstrap interval. Raises ValueError if there is no sample."""
     medians = resampled_medians(samples)
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(medians, (tail, 1 - tail))
@@ -238,7 +231,7 @@ def estimate(samples: SampleTable) -> Estimate:
 
 
 def ratios(samples: SampleTable, reference: SampleTable) -> list[list[float]]:
-    """Round by round, how often longer than the reference: processes and rounds of both go together in order.
+    """The ratio to the reference in each round; processes and rounds of both are paired in order.
 
     A round in which either has an impossible sample has no ratio.
     """
@@ -249,7 +242,7 @@ def ratios(samples: SampleTable, reference: SampleTable) -> list[list[float]]:
 
 
 def resampled_medians(samples: SampleTable, seed: int = _SEED) -> NDArray[np.float64]:
-    """The medians of DRAWS resamples: (DRAWS,). Raises ValueError where there is no sample."""
+    """The medians of DRAWS resamples: (DRAWS,). Raises ValueError if there is no sample."""
     parts = [np.asarray(part, dtype=np.float64) for part in samples if len(part)]
     if not parts:
         raise ValueError("there is no sample")
@@ -262,9 +255,9 @@ def resampled_medians(samples: SampleTable, seed: int = _SEED) -> NDArray[np.flo
 
 @lru_cache(maxsize=16)
 def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None]:
-    """For each resample the places of what it draws, of all samples in a row; and which of these there are not.
+    """For each resample the places of its draws among all samples, and which of these do not exist.
 
-    A process that was cut short has fewer rounds. Samples of one run are alike in their numbers, and drawn alike.
+    An interrupted process has fewer rounds. Samples of one run have the same numbers, and the same draws.
     """
     generator = np.random.Generator(np.random.PCG64(seed))
     number, rounds, each = len(lengths), max(lengths), np.array(lengths)
@@ -278,7 +271,7 @@ def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDAr
 
 @dataclass(frozen=True, slots=True)
 class KernelTarget:
-    """`wanted` is a least number, or a greatest one where `at_most` is set; `text` says of what."""
+    """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it."""
 
     name: str
     text: str
@@ -286,7 +279,7 @@ class KernelTarget:
     at_most: bool = False
 
     def line(self, measured: list[float], says: str) -> KernelLine:
-        """The record's line: the median of what was measured, round by round, with its 95 % interval."""
+        """The record's line: the median over rounds, with its 95 % interval."""
         found = estimate([measured])
         met = found.median <= self.wanted if self.at_most else found.median >= self.wanted
         return KernelLine(
@@ -301,7 +294,7 @@ class KernelTarget:
 
 
 def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
-    """Work of this thread alone by the processor's time: what other programs take of it meanwhile is not counted."""
+    """Work of this thread by its processor time: time of other programs does not count."""
 
     def run(repeat: int) -> tuple[int, int]:
         started = thread_time_ns()
@@ -313,7 +306,7 @@ def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
 
 
 def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, Samples]:
-    """The samples of all entries by their names, in rounds that take them in turn."""
+    """The samples of all entries by name, in rounds that run each entry once."""
     *_, (_, samples) = measure(entries, rounds)
     for each in samples:
         if each.refused is not None:
@@ -322,7 +315,7 @@ def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, S
 
 
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
-    """Round by round, how many rows one answers in the time in which the other answers one."""
+    """Rows that one answers in the time in which the other answers one, in each round."""
     return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
 
 

@@ -1,27 +1,21 @@
-"""Other ways to decide: the dual form, the roots of g, a sphere or a cylinder about the spheroid.
+"""Other ways to decide: the dual form, the roots of g, and a sphere or a cylinder about the spheroid.
 
-The dual form as a method: the best λ by a search that cannot cancel, then the sign of φ there.
+The dual form searches the best λ without cancellation, and takes the sign of φ there. φ(λ) + 1 is a lower bound of the
+squared distance for every λ between the poles, so an answer "clear" is as good as the evaluation of φ; the search
+matters only for false contacts (docs/mathematics.md, "The dual form").
 
-φ(λ) + 1 is a lower bound of the squared distance for every λ between the poles, so a claim of clear is as good as the
-evaluation of φ; how λ was found matters for false contacts alone (docs/mathematics.md, "The dual form").
+The roots of g decide as follows, for all sizes (docs/mathematics.md, "Root patterns and relative position"). There are
+three real roots, and the two lower ones lie together in one of (−∞, −A], [−A, 0), (0, B] and [B, ∞): exterior if that
+is (0, B], interior if it is [−A, 0). Their mean lies in the same interval, and is never B or −A, which one of them is
+for every centre in the plane of the waist or on the axis. A double root does not count as two, so the ring, where B is
+a double root, reads as contact. The roots come from the closed form for three real roots (an arc cosine and two cosines
+if Δ > 0, which section 3.1 of the paper attributes to its reference [13]), from numpy.roots (eigenvalues of the
+companion matrix, one call for each row), and from mpmath.polyroots at a given number of digits; without convergence the
+answer is "cannot say".
 
-Positions from the roots of g, as general-purpose root finders give them: what the coefficients are to replace.
-
-The rule, for every size (docs/mathematics.md, "Root patterns and relative position"): three real roots, of which the
-two lower ones lie together in one of (−∞, −A], [−A, 0), (0, B] and [B, ∞); exterior where that is (0, B], interior
-where it is [−A, 0). Their mean tells which, and is never B or −A, which one of them is for every centre in the waist's
-plane or on the axis. A double root is no two, so the ring, where B is one, reads as contact.
-
-- `trigonometric`: the closed form for three real roots, which takes an arc cosine and two cosines where Δ > 0: the way
-  that the paper, in section 3.1, attributes to its reference [13].
-- `by_numpy`: numpy.roots, the eigenvalues of the companion matrix, one call a row.
-- `by_mpmath`: mpmath.polyroots at a given number of decimal digits; what does not converge is not said.
-
-A sphere or a cylinder about the spheroid, in its place: what is written where a spheroid seems too much trouble.
-
-Both are circumscribed, so whatever they call clear is clear (a cylinder up to the rounding of plain floats), and what
-they call contact often is not. The sphere has the radius max(b, d), the cylinder the radius b and the half height d,
-its axis parallel to the hyperboloid's.
+The sphere and the cylinder are circumscribed, so "clear" is right (for the cylinder except for rounding), and contact
+often is not. The sphere has the radius max(b, d), the cylinder the radius b, the half height d and an axis parallel to
+that of the hyperboloid.
 """
 
 from __future__ import annotations
@@ -45,19 +39,19 @@ AnyFloats = NDArray[Any]
 
 
 DISTANCES = ("lambda_", "A_plus_lambda", "B_minus_lambda")
-"""What the search hands to the formula, by the formula's own names."""
+"""The distances that the search gives to the formula, by the formula's names."""
 
 _PHI = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
-"""The dual form from the distances of λ to 0, −A and B on, which the search knows better than λ itself tells them."""
+"""The dual form from the distances of λ to 0, −A and B, which the search knows more accurately than λ itself."""
 
 
 def dual_positions(rows: Rows, precision: str) -> Answers:
-    """Positions by the dual form with everything, the search included, in one float format; int8 (n,)."""
+    """Positions by the dual form, with all computation including the search in one float format; int8 (n,)."""
     return in_chunks(len(rows), lambda part: _dual_sides(dict(zip(COLUMNS, rows[part].T, strict=True)), precision))
 
 
 def dual_by_scene(precision: str, sizes: Sizes, x: AnyFloats, y: AnyFloats, z: AnyFloats) -> Answers:
-    """The same for many centres and one α, γ, b, d."""
+    """Positions by the dual form for many centres and one α, γ, b, d."""
     fixed = dict(zip(SIZES, sizes, strict=True))
     return in_chunks(len(x), lambda part: _dual_sides({**fixed, "x": x[part], "y": y[part], "z": z[part]}, precision))
 
@@ -82,12 +76,12 @@ def _dual_sides(columns: Mapping[str, AnyFloats | float], precision: str) -> Ans
 def _best_multiplier(
     alpha: AnyFloats, gamma: AnyFloats, b: AnyFloats, d: AnyFloats, x: AnyFloats, y: AnyFloats, z: AnyFloats
 ) -> tuple[AnyFloats, AnyFloats, AnyFloats]:
-    """About the λ at which φ is largest, for each row, with A + λ and B − λ.
+    """Approximately the λ at which φ is largest, for each row, with A + λ and B − λ.
 
-    F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1 falls from one pole to the other. The centre's side of the hyperboloid is
-    the sign of F(0) and tells on which side of 0 the root lies; the sign half way tells whether it is nearer to 0 or
-    to the pole. That distance is the unknown, found by bisection, first of its exponent, and the two other distances
-    are sums of it, so that nothing cancels.
+    F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1 decreases from one pole to the other. The side of the centre is the sign of
+    F(0), and shows on which side of 0 the root lies; the sign half way shows whether the root is nearer to 0 or to the
+    pole. The distance to that end is found by bisection, first of its exponent. The two other distances are sums of it,
+    so that nothing cancels.
     """
     one, two = alpha.dtype.type(1), alpha.dtype.type(2)
     a, c = alpha / b, gamma / d
@@ -109,7 +103,7 @@ def _best_multiplier(
         return np.where(inside, to_pole, to_other), np.where(inside, to_other, to_pole)
 
     def past_root(distance: AnyFloats, from_zero: Mask) -> Mask:
-        """Whether going from 0 towards the pole, the root lies behind the point at this distance from 0 or the pole."""
+        """Whether the root lies beyond the point at this distance from 0 or from the pole, seen from 0."""
         return falls(*to_poles(distance, from_zero)) ^ inside
 
     near_zero = past_root(half, np.ones(half.shape, dtype=bool))
@@ -124,16 +118,16 @@ def _best_multiplier(
 
 _CUBIC = ("A", "B", "c0", "c1", "c2", "delta")
 _LISTED = FORMULAS["table-2"].program
-"""The coefficients are those of Table 2 for all three, so that the roots alone make the difference."""
+"""All three methods use the coefficients of Table 2, so that only the roots differ."""
 
 _STEPS, _EXTRA_BITS = 200, 200
-"""With polyroots' own 50 steps and 10 bits most cubics of the tower do not converge; it advises more of both."""
+"""With polyroots' default of 50 steps and 10 bits most cubics of the tower do not converge; its error asks for more."""
 
 _COEFFICIENTS = Evaluator(_LISTED, float_arithmetic("float64"), _CUBIC[:-1])
 
 
 def trigonometric_roots(format_name: str) -> ByRows:
-    """Positions by the trigonometric form, everything in one float format: a function of rows."""
+    """A function from rows to positions by the trigonometric form, with all computation in one float format."""
     ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
 
     def answers(rows: Rows) -> Answers:
@@ -143,7 +137,7 @@ def trigonometric_roots(format_name: str) -> ByRows:
 
 
 def trigonometric_roots_by_scene(format_name: str) -> ByScene:
-    """The same for many centres and one α, γ, b, d."""
+    """Positions by the trigonometric form for many centres and one α, γ, b, d."""
     ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
 
     def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
@@ -170,7 +164,7 @@ def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) 
 
 
 def numpy_roots(rows: Rows) -> Answers:
-    """Positions (n,) by numpy.roots; a root is real where its imaginary part is 0."""
+    """Positions (n,) by numpy.roots; a root is real if its imaginary part is 0."""
     A, B, c0, c1, c2 = _COEFFICIENTS(dict(zip(COLUMNS, rows.T, strict=True)))
     found = np.zeros(len(rows), dtype=np.int8)
     for place, coefficients in enumerate(np.column_stack([np.ones(len(rows)), c2, c1, c0])):
@@ -185,7 +179,7 @@ def numpy_roots(rows: Rows) -> Answers:
 
 
 def mpmath_roots(rows: Rows, digits: int) -> Answers:
-    """Positions (n,) by mpmath.polyroots; a root is real where polyroots says so."""
+    """Positions (n,) by mpmath.polyroots; a root is real if polyroots says so."""
     return np.array([_mpmath_position(row, digits) for row in rows.tolist()], dtype=np.int8)
 
 
@@ -218,14 +212,14 @@ def _side(lowest: Any, middle: Any, A: Any, B: Any) -> int:  # noqa: ANN401 - of
 
 
 def bounding_sphere(rows: Rows) -> Answers:
-    """Positions (n,) of the sphere: exact, so that what is wrong about the spheroid is the shape's fault alone."""
+    """Positions (n,) of the sphere, exact, so that all errors about the spheroid are due to the shape."""
     spheres = rows.copy()
     spheres[:, 2:4] = np.maximum(rows[:, 2], rows[:, 3])[:, np.newaxis]
     return numpy_kernel.positions(spheres)
 
 
 def bounding_sphere_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-    """The same for many centres and one α, γ, b, d."""
+    """Positions of the sphere for many centres and one α, γ, b, d."""
     alpha, gamma, b, d = sizes
     return numpy_kernel.positions_of_scene((alpha, gamma, max(b, d), max(b, d)), x, y, z)
 
@@ -237,7 +231,7 @@ def bounding_cylinder(rows: Rows) -> Answers:
 
 
 def bounding_cylinder_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-    """The same for many centres and one α, γ, b, d."""
+    """Positions of the cylinder for many centres and one α, γ, b, d."""
     return _cylinder(*sizes, x, y, z)
 
 
@@ -250,8 +244,8 @@ def _cylinder(
     y: Floats,
     z: Floats,
 ) -> Answers:
-    # The hyperboloid's radius grows with |z|, so it is widest at the cylinder's farther end and narrowest at its nearer
-    # one, or in the waist's plane where that lies between the two.
+    # The hyperboloid's radius grows with |z|, so it is widest at the cylinder's farther end, and narrowest at its
+    # nearer end or, if that lies between the two, in the plane of the waist.
     r, height = np.hypot(x, y), np.abs(z)
     widest = alpha * np.hypot(1.0, (height + d) / gamma)
     narrowest = alpha * np.hypot(1.0, np.maximum(height - d, 0.0) / gamma)

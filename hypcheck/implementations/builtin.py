@@ -1,10 +1,6 @@
-"""The built-in methods by name: formulas, the fast path, roots, exact methods, other shapes, FCL.
+"""The built-in methods by name: each formula in each precision, the fast path, roots, exact methods, other shapes, FCL.
 
-What stands beside the paper's methods when `bench` compares: other precisions, roots, exact ones, other shapes.
-
-The methods this project brings along: each formula in each precision, the fast path, roots, FCL on a mesh.
-
-A built-in method behind the door of all others; ours, so it runs in our process.
+A built-in method has the same interface as all implementations, but runs in hypcheck's own process.
 """
 
 from __future__ import annotations
@@ -36,17 +32,17 @@ from hypcheck.truth.mesh import availability as fcl_trouble
 from hypcheck.version import VERSION
 
 DIGITS = (15, 30, 50, 100)
-"""Decimal digits at which mpmath is asked for roots."""
+"""Decimal digits with which mpmath computes roots."""
 
 SLOW_ROWS = 24
-"""Rows of a family that are asked of a method that takes milliseconds for one."""
+"""A method that takes milliseconds for a row is asked so many rows of a family."""
 
 LONG_DOUBLE = {2.0**-63: "x87", 2.0**-112: "binary128"}.get(float(np.finfo(np.longdouble).eps))
-"""What numpy's long double is on this machine; None where it is no more than float64, or two of them."""
+"""The precision of numpy's long double on this machine; None if it is float64, or two of them."""
 
 
 def measured_methods() -> list[Method]:
-    """All of them; none loads mpmath or FCL before it is asked."""
+    """All methods for bench; none loads mpmath or FCL before it is asked."""
     return [*_other_precisions(), *_root_methods(), *_exact_methods(), *_bounding_methods()]
 
 
@@ -149,7 +145,7 @@ def _nearest(rows: Rows) -> Answers:
 PRECISIONS = ("float32", "float64")
 
 FCL_ROWS = 12
-"""Rows of a family that are asked of plain FCL: a mesh is built for each, which takes milliseconds."""
+"""Plain FCL is asked so many rows of a family: it builds a mesh for each, which takes milliseconds."""
 
 NAIVE_FCL = (
     ("fcl-ellipsoid-mesh", "FCL's ellipsoid against a plain mesh of 2,000 triangles", ellipsoid_mesh),
@@ -179,7 +175,7 @@ def fast_positions(rows: Rows) -> Answers:
 
 
 def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-    """The same of one spheroid's centres (n,)."""
+    """Positions of one spheroid's centres (n,) by the kernel in use, on one thread."""
     return kernel().answer_scene(sizes, (x, y, z), "position", 1)[0]
 
 
@@ -211,14 +207,14 @@ def builtin_methods() -> dict[str, Method]:
 
 def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist."""
-    method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded where it is asked for
+    method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded only on request
     if method is None:
         raise InputError(f"there is no built-in method {name!r}; {suggestion(name, builtin_methods())}")
     return method
 
 
 class BuiltinSession:
-    """A method of builtin_methods(). Raises InputError where there is none of that name."""
+    """A session of a built-in method. Raises InputError if there is none of that name."""
 
     max_batch = LARGEST
     scene = False
@@ -251,7 +247,7 @@ class BuiltinSession:
         by_scene: bool = False,  # noqa: ARG002
         each: bool = False,
     ) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; `each`: by a call for each row."""
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
         parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
         answers: list[NDArray[np.int8]] = []
         start = time.perf_counter_ns()
@@ -260,7 +256,7 @@ class BuiltinSession:
         return time.perf_counter_ns() - start, sum(int(each.sum(dtype=np.int64)) for each in answers)
 
     def close(self) -> None:
-        """There is nothing to end."""
+        """Do nothing: there is no process."""
 
     def kill(self) -> None:
-        """There is nothing to end."""
+        """Do nothing: there is no process."""

@@ -1,28 +1,18 @@
-"""Collision engines on meshes: python-fcl and coal, one mesh for a scene, and the naive use of FCL.
+"""Collision engines on meshes: python-fcl and coal, with one mesh for a scene, and the naive use of FCL.
 
-Collision engines that hold a mesh: FCL by python-fcl, and coal, its successor, where it is installed.
+An engine makes a mesh into a function that says whether the body with a given centre touches it. The engines are
+imported inside functions, since neither is installed everywhere.
 
-An engine makes a mesh into a question: does the body, its centre here, touch it? Both are imported inside the functions
-alone, since neither is everywhere.
+A scene has one mesh of the whole surface, built once. The mesh is inscribed: its vertices lie on the surface. Its grid
+is the best one with so many triangles, equally inaccurate in both directions. There are three pairings: the ellipsoid
+in the caller's units; and the unit sphere, or the distance of the centre, in spheroid radii (Theorem 1 of the paper).
+The answer is 0 if the engine reports contact, else the sign of F(C) = (x² + y²)/α² − z²/γ² − 1 in plain floats, and
+CANNOT_SAY if the engine refuses the mesh.
 
-A collision engine as a scene has it: one mesh of the whole surface, built once and asked about every body.
-
-The mesh is inscribed, its vertices on the surface, and its grid the best there is of so many triangles: as far off
-across as along. The three pairings are those of fcl_naive.py, with the mesh in the caller's units for the ellipsoid and
-in spheroid radii (Theorem 1 of the paper) for the other two. All answer 0 where the engine reports contact, else
-the sign of F(C) in plain floats, and CANNOT_SAY where it refuses the mesh.
-
-What one would write with FCL (python-fcl) at first: one plain mesh of the surface, and one query.
-
-Three pairings, each a method under test and none a truth. The mesh is inscribed, its vertices on the surface, so it
-lies up to its sagitta off on one side; docs/mesh-oracle.md shows what that costs, and what FCL's own tolerances cost.
-
-- `ellipsoid_mesh`: FCL's ellipsoid collides with the mesh, in the caller's units.
-- `sphere_mesh`: space is scaled first (Theorem 1), the unit sphere collides with the mesh.
-- `point_mesh`: scaled likewise; FCL's distance from the centre to the mesh is compared with 1.
-
-All answer 0 where FCL reports contact, else the sign of F(C) = (x² + y²)/α² − z²/γ² − 1 in plain floats, and
-CANNOT_SAY where a number of the mesh is beyond what FCL computes with safely. All raise UnavailableError without FCL.
+The naive use of FCL builds a plain mesh for each row, as one would write it at first. It is under test, and no source
+of truth. The mesh differs from the surface by up to its sagitta on one side; docs/mesh-oracle.md shows the effect of
+that, and of FCL's own tolerances. `ellipsoid_mesh`, `sphere_mesh` and `point_mesh` are the three pairings. They answer
+as above, with CANNOT_SAY if a number of the mesh exceeds FCL's safe range. All raise UnavailableError without FCL.
 """
 
 from __future__ import annotations
@@ -43,14 +33,14 @@ Touches = Callable[[float, float, float], bool]
 """Whether the body with this centre touches the mesh."""
 
 PAIRINGS = ("point", "sphere", "ellipsoid")
-"""The distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
+"""The pairings: distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """`trouble` says why it cannot be used, else None; `question` is given pairing, vertices, triangles, b and d.
+    """A collision engine; `trouble` gives the reason why it cannot be used, or None.
 
-    Its answer is None where the engine refuses the mesh.
+    `question` takes pairing, vertices, triangles, b and d, and returns None if the engine refuses the mesh.
     """
 
     name: str
@@ -79,7 +69,7 @@ def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: fl
 
     def collides(x: float, y: float, z: float) -> bool:
         body.setTranslation(np.array([x, y, z]))
-        return bool(fcl.collide(body, mesh, request, fcl.CollisionResult()) > 0)  # results are not reset between calls
+        return bool(fcl.collide(body, mesh, request, fcl.CollisionResult()) > 0)  # FCL does not reset a result
 
     return collides
 
@@ -137,16 +127,16 @@ class MeshGrid:
 
     @property
     def triangles(self) -> int:
-        """How many there are."""
+        """The number of triangles."""
         return 2 * self.around * self.along
 
     @property
     def deviation(self) -> float:
-        """A bound of how far the mesh is from the surface, horizontally, on the side where it is farther.
+        """A bound of the horizontal distance between the mesh and the surface, on the side where it is greater.
 
-        A point of a triangle is a mean of vertices within an azimuth of Δθ and a height of Δz. Their radii's mean is at
-        least r(z), which is convex, and exceeds it by r″ Δz²/8 at most, with r″ ≤ a/c²; the mean of their directions
-        has a length of at least cos(Δθ/2).
+        A point of a triangle is a mean of vertices within an azimuth of Δθ and a height of Δz. The mean of their radii
+        is at least r(z), which is convex, and exceeds it by at most r″ Δz²/8, with r″ ≤ a/c²; the mean of their
+        directions has a length of at least cos(Δθ/2).
         """
         widest = self.a * hypot(1.0, self.height / self.c)
         inward = widest * (1 - cos(pi / self.around))
@@ -169,23 +159,23 @@ class MeshGrid:
 
 
 def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
-    """The grid of about so many triangles that is as far off across as along."""
+    """The grid of about so many triangles that is equally inaccurate around the axis and along it."""
     across = pi * c / height * sqrt(hypot(1.0, height / c))
     around = max(3, round(sqrt(triangles / 2 * across)))
     return MeshGrid(a, c, height, around, max(1, round(triangles / 2 / around)))
 
 
 def height_of(sizes: Sizes, rows: Rows) -> float:
-    """Up to where a scene's mesh reaches, in the caller's unit: beyond γ, and beyond every body asked about."""
+    """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every body that is asked."""
     _, gamma, _, d = sizes
     return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * d)
 
 
 @dataclass(frozen=True, slots=True)
 class SceneMesh:
-    """A mesh in an engine, for one α, γ, b, d; a centre is asked about in the units `unit` of its three coordinates.
+    """A mesh in an engine, for one α, γ, b, d; `unit` are the units of a centre's three coordinates.
 
-    `deviation` bounds how far the mesh is from the surface, in spheroid radii.
+    `deviation` bounds the distance between the mesh and the surface, in spheroid radii.
     """
 
     sizes: Sizes
@@ -222,14 +212,15 @@ def scene_mesh(engine: Engine, pairing: str, sizes: Sizes, height: float, triang
 
 
 def rows_by_sizes(rows: Rows) -> Iterator[tuple[Sizes, NDArray[np.intp]]]:
-    """The sizes that occur, each with the places of its rows."""
+    """The sizes that occur, each with the indices of its rows."""
     found, scene_of = np.unique(rows[:, :4], axis=0, return_inverse=True)
     for index, (alpha, gamma, b, d) in enumerate(found.tolist()):
         yield (alpha, gamma, b, d), np.flatnonzero(scene_of.reshape(-1) == index)
 
 
 _LARGEST = 1e100
-"""Beyond this a product of three lengths inside FCL may overflow, and it answers anything, in silence."""
+"""Beyond this, a product of three lengths inside FCL may overflow, and its answer is meaningless without any
+warning."""
 
 _MARGIN = 1.1
 """The mesh covers this many semi-axes on each side of the body."""
@@ -237,7 +228,7 @@ _MARGIN = 1.1
 
 @dataclass(frozen=True, slots=True)
 class FclBody:
-    """A pair as FCL is to see it: the surface about the origin, the body turned to azimuth 0, at (rho, 0, z)."""
+    """A pair for FCL: the surface about the origin, the body turned to azimuth 0, at (rho, 0, z)."""
 
     alpha: float
     gamma: float
@@ -298,11 +289,11 @@ def _body(row: NDArray[np.float64], *, scaled: bool) -> FclBody:
 def _mesh(body: FclBody, triangles: int) -> tuple[Vertices, Triangles]:
     """A square grid of about that many triangles inscribed in the surface near the body; empty if none is there.
 
-    Its heights are the body's, cut off where the surface is beyond the body's farthest point from the axis, its
-    azimuths those that the body covers as seen from the axis.
+    Its heights are those of the body, cut off beyond the body's greatest distance from the axis; its azimuths are those
+    that the body covers as seen from the axis.
     """
     half_width, half_height = _MARGIN * body.b, _MARGIN * body.d
-    top = body.gamma * np.sqrt(((body.rho + half_width) / body.alpha) ** 2 - 1)  # nan where the waist is beyond reach
+    top = body.gamma * np.sqrt(((body.rho + half_width) / body.alpha) ** 2 - 1)  # nan if the waist is beyond reach
     low, high = np.maximum(body.z - half_height, -top), np.minimum(body.z + half_height, top)
     if not low < high:
         return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)

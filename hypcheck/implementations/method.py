@@ -1,14 +1,7 @@
-"""A method: a name, a domain, and a function from rows to answers; and a formula as a method in numpy.
+"""A method: a name, a domain, and a function from rows to answers; formulas as methods in numpy.
 
-What everything under test looks like: a name, what it claims, and a function from rows to answers.
-
-A formula as a method in numpy: chunk by chunk, and, for one scene, with what depends on sizes alone computed once.
-
-A program's names are looked up once, so that what is timed is the arithmetic and little else.
-
-A formula without divisions by what the sizes fix: products with reciprocals that are computed once, before the loop.
-
-They round once more than the division does, so this is another formula with other answers, next to touching.
+A formula is evaluated chunk by chunk. For a scene, the steps that depend on sizes only are evaluated once. Names of a
+program are looked up once, so that a timing measures little besides the arithmetic.
 """
 
 from __future__ import annotations
@@ -35,12 +28,12 @@ Answers = NDArray[np.int8]
 
 @dataclass(frozen=True)
 class Method:
-    """One way to answer, under test.
+    """A method under test.
 
-    `question` and `precision` are those of judge.Criterion; `domain` is where the method claims to be right; `answer`
-    maps valid rows, float64 (n, 7), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes and no.
-    `exact` marks a method that promises never to be wrong; `most` limits a slow one's rows of each family. `measured`
-    marks one that `verify` leaves to `bench`: it stands beside the paper's methods, and its errors are no finding.
+    `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `answer`
+    maps valid rows, float64 (n, 7), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes and no. `exact`
+    marks a method that is never wrong. `max_rows` limits the rows of each family for a slow one. `measured` marks a
+    method that only `bench` uses: its errors are no finding of `verify`.
     """
 
     name: str
@@ -55,20 +48,20 @@ class Method:
 
 
 CHUNK = 8192
-"""Rows at a time: the temporaries of one chunk stay in the cache."""
+"""Rows of a chunk, whose temporaries stay in the cache."""
 
 ByRows = Callable[[Rows], Answers]
 ByScene = Callable[[Sizes, Floats, Floats, Floats], Answers]
 
 
 def by_rows(formula: Formula, format_name: str) -> ByRows:
-    """The formula on rows, everything in one float format: a function to answers, int8 (n,)."""
+    """The formula on rows in one float format: a function to answers, int8 (n,)."""
     ready = Evaluator(formula.program, float_arithmetic(format_name), (formula.answer,))
     return lambda rows: in_chunks(len(rows), lambda part: ready(dict(zip(COLUMNS, rows[part].T, strict=True)))[0])
 
 
 def by_scene(formula: Formula, format_name: str) -> ByScene:
-    """The same for many centres and one α, γ, b, d: what these alone decide is evaluated once a call."""
+    """The formula for many centres and one α, γ, b, d; steps that depend on these only are evaluated once a call."""
     first, then = parts(formula)
     arithmetic = float_arithmetic(format_name)
     outside, inside = Evaluator(first, arithmetic, _numbers(first)), Evaluator(then, arithmetic, (formula.answer,))
@@ -83,7 +76,7 @@ def by_scene(formula: Formula, format_name: str) -> ByScene:
 
 @cache
 def parts(formula: Formula) -> tuple[Program, Program]:
-    """The formula's program in two: what sizes alone decide, and what is left for each centre."""
+    """The formula's program in two parts: the steps that depend on sizes only, and the rest."""
     return split(formula.program, (formula.answer,), SIZES)
 
 
@@ -101,7 +94,10 @@ def in_chunks(count: int, answer: Callable[[slice], Any]) -> Answers:
 
 
 def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
-    """The formula with 1/divisor before the loop, for each divisor that depends on the `fixed` inputs alone."""
+    """The formula with 1/divisor before the loop, for each divisor that depends on the `fixed` inputs only.
+
+    The products round once more than the division, so this is another formula with other answers near contact.
+    """
     program = formula.program
     known = {*fixed, *(step.name for step in hoist(program, fixed).outside)}
     steps = tuple(each for step in program.steps for each in _changed(step, known))
@@ -118,4 +114,4 @@ def _changed(step: Step, known: Collection[str]) -> Iterator[Step]:
 
 
 RECIPROCAL = with_reciprocals(FORMULAS["table-2"], SIZES)
-"""Table 2 with additions and products alone in its loop."""
+"""Table 2 with only additions and products in its loop."""

@@ -1,9 +1,9 @@
-"""The paper's procedures for a quadcopter, and ours: whether its body may be there, or at least its four rotors.
+"""The paper's procedures for a quadcopter, and a certified one: whether its body, or at least its four rotors, fit.
 
-Each is asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a asks
-all four rotors; 2.b the bounding spheroid first, and the rotors only where Δ ≤ 0; ours the bounding spheroid by the
-certified path, and the rotors where it is in contact. Their answers differ: 2.a never asks whether the body fits. Both
-procedures of the paper are here as printed and put right.
+They are asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a
+asks all four rotors. Procedure 2.b asks the bounding spheroid first, and the rotors only if Δ ≤ 0. The certified
+procedure asks the bounding spheroid by the certified path, and the rotors if it is in contact. Their answers differ:
+2.a never asks whether the body fits. Both procedures of the paper exist as printed and repaired.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from hypcheck.implementations.method import Answers, in_chunks
 from hypcheck.kernel import numpy_kernel
 
 CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")
-"""What does not change along a flight: the tower, the body, its rotors, and the length of its arms."""
+"""Numbers that are constant along a flight: the tower, the body, its rotors, and the length of its arms."""
 
 MOVING = ("x", "y", "z", "cosine", "sine")
 
@@ -51,36 +51,36 @@ class CraftPath:
 
     @property
     def columns(self) -> dict[str, Floats]:
-        """What moves, by name."""
+        """The columns that change along the flight, by name."""
         return {name: getattr(self, name) for name in MOVING}
 
 
 PRINTED, PUT_RIGHT = False, True
-"""Whether a procedure is as printed, or put right (derivation/repaired_formulas.py)."""
+"""Whether a procedure is as printed, or repaired (derivation/repaired_formulas.py)."""
 
 
 @cache
 def hull_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
-    """Of Procedure 2.b what is asked of every position, `hull_steps`, before the flight and in it."""
+    """Procedure 2.b's steps for every position, `hull_steps`: before the flight, and in it."""
     formula = REPAIRED["procedure-2b-repaired"] if repaired else FORMULAS["procedure-2b"]
     return split(formula.program, hull_steps(repaired), CRAFT)
 
 
 def hull_steps(repaired: bool = PRINTED) -> tuple[str, str]:
-    """The steps that tell whether the rotors have to be asked, and the answer where they have not."""
+    """The steps that decide whether the rotors must be asked, and the answer if not."""
     return ("unclear" if repaired else "touching"), "inside"
 
 
 @cache
 def rotor_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
-    """Procedure 2.a, before the flight and in it."""
+    """Procedure 2.a: its steps before the flight, and in it."""
     formula = REPAIRED["procedure-2a-repaired"] if repaired else FORMULAS["procedure-2a"]
     fixed = tuple(name for name in CRAFT if name in formula.program.inputs)
     return split(formula.program, ("valid",), fixed)
 
 
 def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
-    """1 where the procedure calls the movement valid, else 0; int8 (n,)."""
+    """1 if the procedure calls the movement valid, else 0; int8 (n,)."""
     rotors = _rotors(flight, repaired)
     return in_chunks(len(flight), lambda part: rotors(flight.part(part).columns)[0])
 
@@ -88,7 +88,7 @@ def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
 def procedure_2b(
     flight: CraftPath, told: Callable[[CraftPath], object] = lambda _: None, repaired: bool = PRINTED
 ) -> Answers:
-    """The same by Procedure 2.b; the rotors are asked about those positions alone that need it, and `told` is told."""
+    """The answers of Procedure 2.b, which asks the rotors only for some positions; `told` is called with these."""
     hull = _loop_body(hull_programs(repaired), hull_steps(repaired), flight)
     rotors = _rotors(flight, repaired)
 
@@ -106,7 +106,7 @@ def procedure_2b(
 
 
 def certified(flight: CraftPath) -> Answers:
-    """1 where the body is interior, or its four rotors are: exact but for the rotors' centres, which are rounded."""
+    """1 if the body is interior, or its four rotors are: exact except for the rounded centres of the rotors."""
     alpha, gamma, b, d, b_s, d_s, l = (flight.craft[name] for name in CRAFT)  # noqa: E741 - the paper's letter
     found = np.zeros(len(flight), dtype=np.int8)
     hull = numpy_kernel.positions_of_scene((alpha, gamma, b, d), flight.x, flight.y, flight.z)
@@ -122,7 +122,7 @@ def certified(flight: CraftPath) -> Answers:
 
 
 def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Floats]]:
-    """From the body's centre to those of its rotors, equation (15): x and y for each of the four."""
+    """The offsets from the body's centre to those of its rotors, equation (15): x and y for each of the four."""
     half = arm * np.sqrt(2.0) / 2.0
     along, across = half * (cosine - sine), half * (cosine + sine)
     return [(along, across), (-across, along), (-along, -across), (across, -along)]
@@ -133,7 +133,7 @@ def _rotors(flight: CraftPath, repaired: bool) -> Evaluator:
 
 
 def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], flight: CraftPath) -> Evaluator:
-    """The second program in float64, with what the first computes of the craft."""
+    """The second program in float64, with the values that the first computes from the craft."""
     first, then = programs
     names, arithmetic = tuple(step.name for step in first.steps), float_arithmetic("float64")
     known = Evaluator(first, arithmetic, names)(flight.craft)
@@ -149,4 +149,4 @@ PROCEDURES: Mapping[str, Callable[[CraftPath], Answers]] = MappingProxyType(
         "procedure-2b-repaired": partial(procedure_2b, repaired=PUT_RIGHT),
     }
 )
-"""By name, in numpy."""
+"""The procedures by name, in numpy."""

@@ -37,23 +37,23 @@ _TIMES = re.compile(rb"(\d{1,19}) (\d{1,18}) ([+-]?\d{1,18})\r?\n")
 _INTEGER = re.compile(rb"[ \t]*([+-]?\d{1,18})[ \t\r]*")
 _USUAL = {b"0": 0, b"1": 1, b"-1": -1, b"2": 2, b"127": 127}
 _LINE = 64
-"""Bytes of a line that holds one integer, with room for blanks."""
+"""The most bytes of a line with one integer, with room for blanks."""
 _FIRST_LINE = 4096
-"""Bytes of a reply's first line, which may be an error's text."""
+"""The most bytes of a reply's first line, which may be an error's text."""
 
 
 def broken(reason: str) -> FaultError:
-    """The protocol was broken in a way after which nothing that follows can be trusted."""
+    """A fault that breaks the protocol, after which the process cannot be trusted."""
     return FaultError(Outcome.PROTOCOL, reason, fatal=True)
 
 
 class Reply:
-    """The reply to one question: what is expected of it."""
+    """The expected reply to one question."""
 
     def __init__(self, sequence: int) -> None:
         self.sequence = sequence
         self.error: str | None = None
-        """The text of `error TEXT`, once the reply is found to be that."""
+        """The text of `error TEXT`, if the reply is that."""
 
     def length(self, incoming: bytearray) -> int:
         """Bytes of the complete reply that `incoming` begins with, 0 while it is incomplete.
@@ -71,15 +71,15 @@ class Reply:
         return self._after(incoming, end)
 
     def _after(self, incoming: bytearray, end: int) -> int:
-        """The same for what follows the first line, which ends at `end`."""
+        """The length as in `length`, after the first line, which ends at `end`."""
         raise NotImplementedError
 
     def share(self, incoming: bytearray) -> float:  # noqa: ARG002 - of one line none is a share
-        """The part of an incomplete reply's answers that have come, from 0 to 1."""
+        """The part of an incomplete reply's answers that have arrived, from 0 to 1."""
         return 0.0
 
     def progress(self, incoming: bytearray) -> str:
-        """How far an incomplete reply has come."""
+        """The state of an incomplete reply, in words."""
         return f"only {quoted(incoming)} of a reply" if incoming else "no reply"
 
     def _same_sequence(self, sequence: int) -> None:
@@ -148,7 +148,7 @@ class TextReply(_Answers):
         return incoming.count(b"\n", end)
 
     def integers(self, reply: bytes) -> IntegerAnswers:
-        """The answers of a complete reply; raises FaultError naming the first line that is none."""
+        """The answers of a complete reply; raises FaultError naming the first line that is no integer."""
         lines = reply.split(b"\n")[1:-1]
         values = [_USUAL.get(line) for line in lines]
         if None in values:
@@ -179,23 +179,23 @@ class TimeReply(Reply):
 
 
 LARGEST_TEXT = 4096
-"""Rows of a question in text."""
+"""The most rows of a question in text."""
 
 _DEFAULTS = Description(name="")
 _REQUIRED = ("protocol", "name")
 _LINES = 256
 _STEPS = 16
-"""The clock begins anew whenever another part of so many of the question was read, or of the answers has come: who is
-slow is waited for, and who gives a byte now and then is not for ever."""
+"""The timeout starts again whenever one more part of so many of the question was read, or of the answers has arrived.
+So a slow program has time, and a program that sends single bytes is stopped."""
 _WIDEST_TEXT = 25
 """Bytes of a number in text at most, and of what parts it from the next."""
 _STALL = 4
-"""After this part of the timeout without a byte, a second question is sent behind the first: where its reply comes, the
-first's was short or missing, and the implementation not slow."""
+"""After this part of the timeout without a byte, a second question follows. If its reply arrives, the first reply was
+short or missing, and the program is not slow."""
 
 
 class CommandSession:
-    """A program that speaks the protocol. Raises StartError."""
+    """A session of a program that speaks the protocol. Raises StartError."""
 
     max_rows: int | None = None
     scene = False
@@ -204,7 +204,7 @@ class CommandSession:
         self._limits = limits
         self._sequence = 0
         self._known: Rows | None = None
-        """A row that this process has answered, for a question that it is sure to answer again."""
+        """A row that this process has answered, for a question that it can answer again."""
         self._process = Process(words, limits)
         try:
             self.description = self._meet()
@@ -261,9 +261,9 @@ class CommandSession:
         by_scene: bool = False,  # noqa: ARG002
         each: bool = False,
     ) -> tuple[int, int] | None:
-        """Nanoseconds for `repeat` times the rows and the sum of the answers; None where it does not offer that.
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
-        `each`: by a question for each row.
+        `each` asks a question for each row.
         """
         if not self.description.time:
             return None
@@ -280,7 +280,7 @@ class CommandSession:
     def _ask(
         self, question: str, body: Iterable[bytes | memoryview], reply: Reply, again: Rows | None = None, size: int = 0
     ) -> bytes:
-        """The reply to a question of `size` bytes; `again` is a row for the question behind it, should it stall."""
+        """The reply to a question of `size` bytes; `again` is a row for a second question, if the reply stalls."""
         process = self._process
         process.mark()
         process.pump(0)
@@ -295,14 +295,14 @@ class CommandSession:
             del process.incoming[:length]
         if process.incoming:
             raise broken(f"it wrote {quoted(process.incoming)} behind a complete reply")
-        if reply.error is not None:  # if it did not read all rows, it will take the rest for questions
+        if reply.error is not None:  # a program that did not read all rows will read the rest as questions
             raise FaultError(Outcome.ERROR, f"it reported an error: {reply.error}", fatal=process.sending)
         if process.sending:
             raise broken("it replied before it had read the rows")
         return said
 
     def _await(self, reply: Reply, again: Rows | None = None, size: int = 0) -> tuple[int, Reply | None]:
-        """The length of the reply, once it is complete, and the reply that is still to come behind it."""
+        """The length of the reply once it is complete, and the second reply that is still to come."""
         process, seconds = self._process, self._limits.timeout
         second: Reply | None = None
         steps, read, heard = 0, 0.0, process.now()
@@ -322,7 +322,7 @@ class CommandSession:
                 second = self._ask_behind(again)
             if process.pump(until):
                 heard = process.now()
-            if size and not second:  # behind whose bytes all of the question's have left
+            if size and not second:  # all bytes of the question were sent before the second one
                 read = min(1.0, process.sent / size)
             come = int(_STEPS * read) + int(_STEPS * reply.share(process.incoming))
             if come > steps:
@@ -343,7 +343,7 @@ class CommandSession:
 
     @property
     def _widest(self) -> int:
-        """Bytes of a number at most."""
+        """The most bytes of a number."""
         return 8 if self.description.binary else _WIDEST_TEXT
 
     def _body(self, rows: Rows) -> Iterable[bytes | memoryview]:
@@ -354,7 +354,7 @@ class CommandSession:
 
     @property
     def evidence(self) -> str:
-        """What it said on standard error since the last question, as the end of a sentence."""
+        """Its output on standard error since the last question, as the end of a sentence."""
         return stderr_excerpt(self._process.recent)
 
     @property
@@ -363,18 +363,18 @@ class CommandSession:
         return self._process.stderr
 
     def close(self) -> None:
-        """Let it leave: the end of its input is goodbye."""
+        """Let it end: the end of its input is goodbye."""
         self._process.goodbye()
 
     def kill(self) -> None:
-        """End it now."""
+        """Kill it now."""
         self._process.kill()
 
 
 def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) -> None:
-    """Raise FaultError where the second reply begins before the first, of `length` once it is complete, ends.
+    """Raise FaultError if the second reply begins before the first, of `length` if complete, ends.
 
-    No answer looks like its first line: in text none has a blank in it, in binary none is a digit.
+    No answer looks like its first line: in text, none has a blank in it; in binary, none is a digit.
     """
     began = re.search(rb"(?<!\d)%d 1\r?\n" % second.sequence, incoming)
     if began and (not length or began.start() < length):

@@ -1,14 +1,10 @@
-"""Fingerprints (SHA-256) of the files under test and of hypcheck's own code; files that a cluster's workers lack.
+"""Fingerprints (SHA-256) of the files under test and of hypcheck's own code; files that the workers of a cluster lack.
 
-The files that a SPEC names: told by their content, and sent to workers of a cluster that have them not.
+A SPEC of a command names its program, if that is given as a path, and words that are files here. A program on the PATH
+is each worker's own. A Python module is not sent, but must have the same content everywhere.
 
-Of a command these are the program, where it is given as a path, and the words that name files here; a program that is
-looked for on the PATH is each worker's own. A Python module is not sent, but must be the same.
-
-Our own files, told by their content: what a chunk comes to depends on, besides the implementation.
-
-Two machines may have hypcheck of one version and yet not the same files, where it is installed from a repository. And
-what is under test runs as the same user as we do: it could write over the judge, or over itself, while it is judged.
+Two machines may have the same version of hypcheck but other files, if it is installed from a repository. Code under
+test runs as the same user as hypcheck: it could overwrite the judge, or itself, during a run.
 """
 
 from __future__ import annotations
@@ -38,7 +34,7 @@ _BLOCK_BYTES = 1 << 20
 
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
-    """The sha256 of the files that SPECs name, and of other files, by path; of those that are there."""
+    """The sha256 of the files that SPECs name, and of other files, by path, as far as they exist."""
     named = [each.path for spec in specs for each in files_of(spec)]
     paths = [*named, *(path for path in others if path is not None)]
     return {str(path): sha256(path) for path in paths}
@@ -46,7 +42,7 @@ def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class NamedFile:
-    """A file that is there, which word `word` of a SPEC names by its path, or by what is `searched` for."""
+    """An existing file that word `word` of a SPEC names, by its path or (`searched`) by a name that is searched for."""
 
     word: int
     path: Path
@@ -54,9 +50,9 @@ class NamedFile:
 
 
 def files_of(text: str) -> Iterator[NamedFile]:
-    """The files of a SPEC: a library, a Python file or module, a command and those of its words that are files.
+    """The files of a SPEC: a library, a Python file or module, or a command with those of its words that are files.
 
-    Nothing is imported or run to find them. Raises InputError where the SPEC is none.
+    Nothing is imported or run to find them. Raises InputError if the text is no SPEC.
     """
     spec = parse_spec(text)
     if spec.kind == "builtin":
@@ -70,10 +66,10 @@ def files_of(text: str) -> Iterator[NamedFile]:
 
 
 def sha256(path: Path) -> str:
-    """Of a file's content, in hexadecimal; of one that may be run but not read, or is a pipe or device, why not."""
+    """The sha256 of a file's content, in hexadecimal; the reason if it cannot be read, or is a pipe or device."""
     digest = hashlib.sha256()
     try:
-        if path.exists() and not path.is_file():  # to be read it may be waited for without end
+        if path.exists() and not path.is_file():  # a pipe may block for ever
             return "is no regular file"
         file = path.open("rb")
     except OSError as error:
@@ -107,12 +103,12 @@ class ShippedFile:
 
     @property
     def sha256(self) -> str:
-        """Of the content, in hexadecimal."""
+        """The sha256 of the content, in hexadecimal."""
         return hashlib.sha256(self.content).hexdigest()
 
 
 def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
-    """The files that a SPEC names by their paths. Raises InputError where one cannot be read."""
+    """The files that a SPEC names by their paths. Raises InputError if one cannot be read."""
     found = []
     for named in files_of(text):
         if named.searched:
@@ -126,9 +122,9 @@ def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
 
 
 def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
-    """The SPEC as a worker can open it: a file that is not where it was when the run began is put into the folder.
+    """The SPEC as a worker can open it: files that the worker lacks are written into the folder.
 
-    Raises InputError where the file there is another one.
+    Raises InputError if a file on the worker has another content.
     """
     spec = parse_spec(text)
     words = list(spec.words)
@@ -152,13 +148,13 @@ def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
 
 
 def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
-    """Raise InputError where two hashes differ."""
+    """Raise InputError if two hashes differ."""
     if here != there:
         raise InputError(f"{what} is another file on worker {worker}: sha256 {there} there, and {here} here")
 
 
 def module_sha256(text: str) -> str:
-    """Of the file of a SPEC's Python module, as it is found here; empty where the SPEC names none."""
+    """The sha256 of the file of a SPEC's Python module, as it is found here; empty if the SPEC names no module."""
     spec = parse_spec(text)
     if spec.kind != "python" or is_file(spec.words[0]):
         return ""
@@ -167,15 +163,15 @@ def module_sha256(text: str) -> str:
 
 _PACKAGE = Path(hypcheck.__file__).parent
 MAX_FILES_NAMED = 5
-"""Files that changed during a run which are named; whoever checks out another commit changes hundreds."""
+"""At most so many changed files are named; to check out another commit changes hundreds."""
 
 _HEADER = 16
-"""Bytes of the header of compiled Python: four of its version, four flags, then time and size of its source."""
+"""Bytes of the header of compiled Python: version, flags, and time and size of the source, four bytes each."""
 
 
 @lru_cache
 def code_fingerprint() -> str:
-    """Of our modules and the frozen vectors, with their names, as they were when this was first asked."""
+    """The fingerprint of hypcheck's modules and frozen vectors, with their names, at the first call."""
     told = hashlib.sha256()
     for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json")):
         for path in sorted(place.glob(pattern)):
@@ -184,9 +180,9 @@ def code_fingerprint() -> str:
 
 
 class FileSnapshot:
-    """The files of a run at its beginning, to be compared with those at its end: ours and those under test.
+    """The files of a run at its start, to be compared with those at its end: hypcheck's own, and those under test.
 
-    `tested` are the sha256 of those under test, by path.
+    `tested` holds the sha256 of the files under test, by path.
     """
 
     def __init__(self, tested: Mapping[str, str]) -> None:
@@ -195,7 +191,7 @@ class FileSnapshot:
         self._ours = _own_files()
 
     def record_changes(self, recorder: Recorder) -> list[str]:
-        """Sentences about files that are not as they were, ours first; the record gets them as lines that fail it."""
+        """Sentences about files that changed, hypcheck's own first; the record gets them as lines that fail the run."""
         found = list(self._changes())
         if len(found) > MAX_FILES_NAMED:
             found[MAX_FILES_NAMED:] = [f"{len(found) - MAX_FILES_NAMED} more files were changed"]
@@ -220,14 +216,14 @@ def _change_of(before: str | None, after: str | None) -> str:
 
 
 def _is_compiled(path: str, before: str | None, after: str | None) -> bool:
-    """Whether Python may have compiled a module then that it had not loaded before, or somebody removed its caches."""
+    """Whether a change may be a module that Python compiled during the run, or a cache that somebody removed."""
     return path.endswith(".pyc") and (before is None or after is None)
 
 
 def _own_files() -> dict[str, str]:
-    """The sha256 of everything in the package and of the frozen vectors, by path.
+    """The sha256 of every file of the package and of the frozen vectors, by path.
 
-    Of compiled Python, only where Python would load it without a look at its source, so that nothing need change it.
+    Compiled Python counts only if Python would load it without checking its source.
     """
     found = {}
     for top, folders, names in os.walk(_PACKAGE):
@@ -243,8 +239,8 @@ def _own_files() -> dict[str, str]:
 
 
 def _content_of(path: str) -> bytes:
-    """Of a file that is small; nothing where it may not be read, or was removed at this very moment."""
-    with suppress(OSError), open(path, "rb", buffering=0) as file:  # a buffer would take longer than the small files
+    """The content of a small file; empty if it cannot be read, or was removed meanwhile."""
+    with suppress(OSError), open(path, "rb", buffering=0) as file:  # a buffer would take longer than a small file
         return file.read()
     return b""
 

@@ -1,10 +1,7 @@
-"""The intermediates of a formula on one row, in floats and exactly; which formula is compared with an implementation.
+"""The intermediates of a formula on one row, in floats and exactly, beside an implementation.
 
-Values of both arithmetics for people: any size, to a few digits, each digit right.
-
-A formula evaluated twice on one row, in a machine format and exactly, and where the two part ways.
-
-Which formula is shown beside an implementation: its own, one that was asked for, or one that answers alike.
+The formula is the implementation's own, the one that was asked for, or one that answers as the implementation does.
+Values are shown with a few digits, of which each is right.
 """
 
 from __future__ import annotations
@@ -35,7 +32,7 @@ Number = Fraction | Surd
 
 
 def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scalar of numpy
-    """A machine value: a truth value, the exact value of a finite number, or an infinity or NaN as a float."""
+    """A machine value as a truth value, the exact value of a finite number, or an infinity or NaN as a float."""
     scalar: Any = np.asarray(value)[()]
     if isinstance(scalar, np.bool_):
         return bool(scalar)
@@ -45,7 +42,7 @@ def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scal
 
 
 def rational(value: Number, bits: int = 64) -> Fraction:
-    """A rational within a relative 2^−bits of the value; the value itself where it is rational."""
+    """A rational within a relative 2^−bits of the value; the value itself if it is rational."""
     if not isinstance(value, Surd):
         return value
     # p and q√h of one sign cannot cancel. Of two signs, p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have one sign.
@@ -63,7 +60,7 @@ def _root(value: Fraction, bits: int) -> Fraction:
 
 
 def number_text(value: object, digits: int = DIGITS) -> str:
-    """A value of either arithmetic: yes or no, "undefined", a word for what is not finite, or a number to `digits`."""
+    """A value of either arithmetic as text: yes or no, "undefined", inf or nan, or a number with `digits` digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, (Fraction, Surd)):
@@ -72,7 +69,7 @@ def number_text(value: object, digits: int = DIGITS) -> str:
 
 
 def _decimal(value: Fraction, digits: int) -> str:
-    """A rational to that many digits, without an exponent where that is short, without zeros at the end."""
+    """A rational with that many digits, without an exponent if that is short, without zeros at the end."""
     context = Context(prec=digits, Emin=-(10**9), Emax=10**9)
     rounded = context.divide(Decimal(value.numerator), Decimal(value.denominator))
     if not rounded:
@@ -88,7 +85,7 @@ def _trimmed(text: str) -> str:
 
 
 def relative_error(value: object, exact: object) -> float | None:
-    """|value − exact|/|exact|: 0 where they are equal, inf where exact is 0 or value not finite, None of no numbers."""
+    """|value − exact|/|exact|: 0 if equal, inf if exact is 0 or value not finite, None if they are no numbers."""
     if isinstance(value, bool) or not isinstance(exact, (Fraction, Surd)):
         return None
     if not isinstance(value, Fraction):
@@ -106,16 +103,16 @@ _DUAL = cut(FORMULAS["dual"].program, DISTANCES, ("above_zero", "positive"))
 _DUAL_DECIDED = Program(
     _DUAL.name, _DUAL.inputs, (*_DUAL.steps, *steps_of("side = positive ? 1 : -1\n position = above_zero ? side : 0"))
 )
-"""What the method of that name evaluates once it has found its λ: the sign of φ, on the side where λ is."""
+"""The method of this name evaluates this once it has found its λ: the sign of φ, on the side of λ."""
 
 
 @dataclass(frozen=True, slots=True)
 class Intermediate:
-    """One value of a program: what it is computed as, what it is in the machine's format and what it is exactly.
+    """One value of a program: its name, its operation, its value in the machine's format, and its exact value.
 
     `value` is a truth value, a Fraction, or a float that is not finite; `exact` is a truth value, a Fraction, a Surd or
-    UNDEFINED. `error_u` is the relative error in units u of the format; None of a decision, which is a truth value or
-    one of several constants, and of what is undefined in exact arithmetic.
+    UNDEFINED. `error_u` is the relative error in units u of the format. It is None for a decision, which is a truth
+    value or one of several constants, and for values that are undefined in exact arithmetic.
     """
 
     name: str
@@ -127,16 +124,16 @@ class Intermediate:
 
     @property
     def decided_otherwise(self) -> bool:
-        """Whether it is a decision that exact arithmetic takes otherwise."""
+        """Whether exact arithmetic takes this decision otherwise."""
         return self.decision and self.value != self.exact
 
 
 @dataclass(frozen=True, slots=True)
 class FormulaComparison:
-    """All values of a formula on one row. `format` is the machine's, `answer` and `exact_answer` what comes out.
+    """All values of a formula on one row. `format` is the machine's; `answer` and `exact_answer` are the two results.
 
-    `first_wrong` names the first decision (a comparison) that exact arithmetic takes otherwise, None where there is
-    none; `culprit` the number it was taken from whose absolute error is the greatest.
+    `first_wrong` names the first decision (a comparison) that exact arithmetic takes otherwise, or is None; `culprit`
+    names the number in that decision with the greatest absolute error.
     """
 
     formula: Formula
@@ -148,7 +145,7 @@ class FormulaComparison:
     culprit: str | None
 
     def __getitem__(self, name: str) -> Intermediate:
-        """The value of that name; raises KeyError where there is none."""
+        """The value with that name; raises KeyError if there is none."""
         for each in self.values:
             if each.name == name:
                 return each
@@ -156,9 +153,9 @@ class FormulaComparison:
 
 
 def compare_formula(formula: Formula, format_name: str, row: tuple[float, ...]) -> FormulaComparison | None:
-    """The formula on a valid row in a format of float_arithmetic and exactly.
+    """The formula on a valid row in a format of float_arithmetic and exactly; None if it has no values.
 
-    The dual form is evaluated at the λ that its method finds in that format; None where that finds no finite one.
+    The dual form is evaluated at the λ that its method finds in that format; it has no values if that λ is not finite.
     """
     program, machine_inputs, exact_inputs = _dual(format_name, row) if formula.name == "dual" else _plain(formula, row)
     if not exact_inputs:
@@ -206,7 +203,7 @@ def _dual(format_name: str, row: tuple[float, ...]) -> Prepared:
 
 
 def _decisions(program: Program) -> set[str]:
-    """The names of truth values, and of what chooses between constants by them."""
+    """The names of truth values, and of constants that are selected by truth values."""
     found: set[str] = set()
     for step in program.steps:
         chosen = step.arguments[1:] if step.operation == "select" else ()
@@ -223,20 +220,20 @@ def _intermediate(name: str, said: str, machine: Any, exact: object, unit: float
 
 
 def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
-    """Of the numbers that a decision compares, the one whose absolute error is the greatest."""
+    """The number in a decision with the greatest absolute error."""
     numbers = [values[name] for name in wrong.reads]
     return max(numbers, key=_absolute_error).name if numbers else None
 
 
 def _absolute_error(each: Intermediate) -> tuple[int, Fraction]:
-    """Ordered as the error is: what is not finite, or undefined in exact arithmetic, before all others."""
+    """A key that sorts by error; numbers that are not finite, or undefined in exact arithmetic, come last."""
     if not isinstance(each.value, Fraction) or not isinstance(each.exact, (Fraction, Surd)):
         return (1, Fraction(0))
     return (0, abs(rational(each.exact - each.value)))
 
 
 SHOWN_FORMULAS = tuple(name for name, formula in FORMULAS.items() if formula.classifies_pairs or name == "dual")
-"""The formulas that can be shown: those that take a pair and nothing else, and the dual form at the λ it finds."""
+"""The formulas that can be shown: those that take a pair only, and the dual form at the λ that it finds."""
 
 PREFERRED_FORMULA = "table-2"
 
@@ -245,9 +242,9 @@ _MANTISSA = {"x87": 63, "binary128": 112}
 
 @dataclass(frozen=True, slots=True)
 class FormulaChoice:
-    """A formula's values on the row, and why it is this one; `comparison` is None where it has none.
+    """A formula's values on the row, and why it was chosen; `comparison` is None if there are no values.
 
-    `own` says that the implementation evaluates this formula. What another one gets wrong says nothing about it.
+    `own` says that the implementation evaluates this formula. Errors of another formula say nothing about it.
     """
 
     comparison: FormulaComparison | None
@@ -256,14 +253,14 @@ class FormulaChoice:
 
 
 def require_formula(name: str | None) -> None:
-    """Raise InputError where a formula of that name cannot be shown."""
+    """Raise InputError if a formula with that name cannot be shown."""
     if name is not None and name not in SHOWN_FORMULAS:
         raise InputError(f"there is no formula {name!r} that takes a pair; there are {', '.join(SHOWN_FORMULAS)}")
 
 
 @dataclass(frozen=True, slots=True)
 class AskedImplementation:
-    """Whose answer it is: the SPEC, its description as declared and as used, its answer (None: it gave none)."""
+    """The implementation that was asked: its SPEC, its description as declared and as used, and its answer or None."""
 
     spec: Spec
     declared: Description
@@ -274,9 +271,9 @@ class AskedImplementation:
 def choose_formula(
     subject: AskedImplementation, row: tuple[float, ...], truth: Position, name: str | None
 ) -> FormulaChoice:
-    """The formula to be shown on a valid row: the named one, or else the nearest to the implementation.
+    """The formula to show for a valid row: the one with that name, or else the nearest to the implementation.
 
-    A built-in formula is shown in its own precision; for all others the precision is that of the description in use.
+    A built-in formula is shown in its own precision; other formulas in the precision of the description in use.
     """
     own = _of_builtin(subject)
     format_name, instead = format_of(subject.declared.precision if own else subject.used.precision)
@@ -291,7 +288,7 @@ def choose_formula(
 
 
 def format_of(precision: str) -> tuple[str, str]:
-    """The format of numpy that stands for a declared precision, and what must be said of it where it is another."""
+    """The numpy format for a declared precision, and a note if that is another precision."""
     if precision in ("float16", "float32", "float64"):
         return precision, ""
     if np.finfo(np.longdouble).nmant == _MANTISSA.get(precision):
@@ -309,9 +306,10 @@ def _of_builtin(subject: AskedImplementation) -> Formula | None:
 def _nearest(
     subject: AskedImplementation, row: tuple[float, ...], truth: Position, format_name: str, instead: str
 ) -> FormulaChoice:
-    """Of the formulas with a comparable question, one that is right or wrong as the implementation is, table-2 first.
+    """A formula with a comparable question that is right or wrong as the implementation is, table-2 first.
 
-    A wrong answer is told by a formula that errs likewise; a "no" that leaves the truth open would tell nothing.
+    A formula that errs in the same way explains a wrong answer. A "no" that leaves the truth open would explain
+    nothing.
     """
     question, answer = subject.used.question, subject.answer
     found = [compared for formula in _comparable(question) if (compared := compare_formula(formula, format_name, row))]
@@ -327,7 +325,7 @@ def _nearest(
 
 
 def _comparable(question: str) -> Iterator[Formula]:
-    """Formulas whose answers say something of answers to the question; the preferred one first."""
+    """Formulas whose answers can be compared with answers to the question, the preferred one first."""
     names = sorted(SHOWN_FORMULAS, key=lambda name: name != PREFERRED_FORMULA)
     for formula in (FORMULAS[name] for name in names if FORMULAS[name].classifies_pairs):
         if formula.question == question or "position" in (formula.question, question):
@@ -335,7 +333,7 @@ def _comparable(question: str) -> Iterator[Formula]:
 
 
 def _positions(answer: int, question: str) -> set[Position]:
-    """The positions of which the answer to the question is right."""
+    """The positions for which the answer to the question is right."""
     if question == "position":
         return {Position(answer)}
     asked = Position[question.upper()]

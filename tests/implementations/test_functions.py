@@ -104,7 +104,7 @@ def test_what_is_written_into_our_own_pipe_costs_its_own_row_and_is_never_taken_
 def test_forged_times_are_refused():
     with (
         open_implementation(intruder("times"), LIMITS) as it,
-        pytest.raises(TimingError, match="it wrote into our own"),
+        pytest.raises(TimingError, match="it wrote into the worker's pipe"),
     ):
         it.time(rows(), 1)
 
