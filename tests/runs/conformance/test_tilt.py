@@ -9,8 +9,8 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
-from hypcheck.implementations.asking import Answered
 from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.questions import Answered
 from hypcheck.record import read
 from hypcheck.record.fields import as_json, decoded, numbers_of
 from hypcheck.record.lines import GroupLine, ImplementationLine
@@ -151,12 +151,12 @@ def test_an_undecided_answer_makes_the_run_inconclusive_and_is_shown(tmp_path, m
 class AskedAgain:
     """Answers rightly, and remembers how many numbers the rows had."""
 
-    stands = 1
+    proven_batch = 1
 
     def __init__(self):
         self.widths = set()
 
-    def fresh(self):
+    def use_fresh_process(self):
         """Nothing to begin afresh."""
 
     def classify(self, rows, *, batch=None):
@@ -171,7 +171,7 @@ def test_open_cases_of_upright_and_tilted_spheroids_are_asked_again_together():
     subject = AskedAgain()
     result = retest(RetestTask(0, 0, some), subject, JudgingRules(Criterion(), Domain()))
     assert subject.widths == {10}
-    assert result.again.asked == 40
+    assert result.retest.asked == 40
     assert {family: dict(each.counts) for family, each in result.tallies.items()} == {
         "uniform": {"right": 20},
         LEANING: {"right": 20},
@@ -181,9 +181,9 @@ def test_open_cases_of_upright_and_tilted_spheroids_are_asked_again_together():
 def test_what_is_kept_of_an_interrupted_run_has_the_axis_of_its_cases():
     worst = WorstCase((1, 3), f"{LEANING}/1/1/3", BESIDE, 0, 1, "false-clear", "wrong", 0.25)
     fault = UnansweredCase((0, 2), "invalid-0100", (*BESIDE[:7], 0.0, float("nan"), 0.0), "error", "no heading")
-    total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), faults=(fault,))})
+    total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), unanswered=(fault,))})
     kept = decoded(as_json(saved_result(total)), SavedResult)
     assert kept.tallies[LEANING].worst[0].axis == ((1.0).hex(), (0.0).hex(), (1.0).hex())
     restored = restored_result(kept).tallies[LEANING]
     assert restored.worst == (worst,)
-    assert repr(restored.faults) == repr((fault,))
+    assert repr(restored.unanswered) == repr((fault,))
