@@ -204,7 +204,9 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
         choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
-        raise InputError(f"--formula is {formula!r}, but {case.name} is about a tilted spheroid, which no formula takes")
+        raise InputError(
+            f"--formula is {formula!r}, but {case.name} is about a tilted spheroid, which no formula takes"
+        )
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice)
 
 
