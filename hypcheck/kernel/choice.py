@@ -1,14 +1,11 @@
 """The kernel in use, compiled or numpy with the same answers, and the questions that a kernel can be asked.
 
-Which kernel answers: the compiled one where it was built and loads, otherwise numpy; the answers are the same.
-
-Environment variables, read when a kernel is first asked for:
+The compiled kernel answers if it was built and loads, otherwise numpy. Environment variables, read when a kernel is
+first asked for:
 
     HYPCHECK_KERNEL   "compiled" or "numpy" forces that one
     HYPCHECK_LEVEL    "avx512", "avx2", "sse2" or "plain" forces the instruction set of the compiled one
     HYPCHECK_THREADS  the most threads it may use; by default the processors this process may run on
-
-What can be asked of a position, and the answers to it.
 """
 
 from __future__ import annotations

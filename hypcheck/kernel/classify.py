@@ -1,9 +1,4 @@
-"""The public functions: validated input, exact positions, and no output unless all of it is right.
-
-The kernel in use, as something that answers whole arrays.
-
-The public functions: validated input, exact positions, and nothing written anywhere unless all of it is right.
-"""
+"""The public functions: validated input, exact positions, and no output unless all of it is right."""
 
 from __future__ import annotations
 

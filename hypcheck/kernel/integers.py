@@ -1,6 +1,6 @@
 """The last stage: the coefficient rule for all regimes in integers, for the rows that floats cannot decide.
 
-The lengths may be in any unit (pairs.Lengths); everything is multiplied by N = b² d² > 0, or by a power of it, so that
+The lengths may be in any unit (pair.Lengths); everything is multiplied by N = b² d² > 0, or by a power of it, so that
 nothing is divided. The rule is the program "coefficients" of derivation/formulas.py, whose ring condition is here the
 equal one that no sign of Δ is asked for: z = 0, g'(B) = 0 and the remaining root below B.
 """

@@ -1,24 +1,15 @@
-"""A prepared scene: exact answers about the mover, with centres in the scene's coordinates.
+"""A scene prepared once, then asked again and again: exact answers about the mover, wherever it stands in the scene.
 
-A whole scene asked at once: which hyperboloids are near, what each says exactly, and what that comes to.
-
-Exact positions from a hyperboloid's centre, though the difference of two floats is rounded.
+The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
+hyperboloid gives no answer for a centre beyond its modelled height, and where none gives one, the scene gives none.
+Parts of the mover are asked where the mover itself is in contact: an answer that all parts share is then the answer.
+Where something leans, scene_leaning.py gives the answer of each hyperboloid.
 
 A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
 (TwoSum): where it is 0 the difference is exact and the fast path answers. Elsewhere the difference lies between two
 neighbouring floats. The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when
 |x| and |y| fall and |z| grows: when the two extreme corners of that box have one position, it is the answer; else the
-exact difference is taken in integers.
-
-One mover beside one hyperboloid, both in the scene's coordinates, without arrays: what a step of a walk costs.
-
-A scene that is asked again and again: prepared once, then exact answers about the mover wherever it stands.
-
-The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
-hyperboloid beyond whose modelled height the centre lies says nothing, and where all say nothing, so does the scene.
-Parts of the mover are asked where the mover itself is in contact: what all parts say alike is then the answer.
-
-Where something leans, scene_leaning.py says what each hyperboloid says.
+exact difference is taken in integers. `positions_beside` does so for arrays, `position_beside` for one step of a walk.
 """
 
 from __future__ import annotations
@@ -40,6 +31,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, Lengths, to_integers, trouble_with, trouble_with_axis
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows, as_columns, as_numbers
 from hypcheck.kernel import integers
+from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.scene_index import (
@@ -90,9 +82,7 @@ def position_of_exact_difference(sizes: list[float], centre: list[float], origin
     """The position about the exact difference of two centres, in integers."""
     alpha, gamma, b, d = sizes
     x, y, z = (Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True))
-    radial = to_integers((Fraction(alpha), Fraction(b), x, y))
-    axial = to_integers((Fraction(gamma), Fraction(d), z))
-    return int(integers.position(Lengths(radial[0], radial[1], radial[2], radial[3], *axial)))
+    return int(integers.position(Lengths(*to_integers((alpha, b, x, y)), *to_integers((gamma, d, z)))))
 
 
 GREATEST = float_info.max
@@ -103,7 +93,7 @@ Body = tuple[float, float, float, float, float, float, float]
 
 
 def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float) -> int:
-    """The exact position of a spheroid at (x, y, z): as offsets.positions has it, of one pair."""
+    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
     alpha, gamma, there_x, there_y, there_z, _, _ = body
     across, along, up = x - there_x, y - there_y, z - there_z
     # TwoSum: what each difference has lost; 0 where it is exact.
@@ -124,17 +114,13 @@ def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float
     return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
 
 
-NOTHING_SAID = 2
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
-
-YES = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}
-"""The position that is answered 1, by the question."""
 
 _ASKED = (*CENTER, "heading")
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
-_OF_RANK = (NOTHING_SAID, EXTERIOR, INTERIOR, CONTACT)
-"""What counts more when hyperboloids say different things; 0 is nothing said by those that are near."""
+_OF_RANK = (CANNOT_SAY, EXTERIOR, INTERIOR, CONTACT)
+"""The greater rank prevails where hyperboloids give different answers; 0 means that none of the near ones gives any."""
 
 
 @dataclass(frozen=True)
@@ -192,8 +178,8 @@ class Scene:
         movers = _directions(columns[4:]) if axes else None
         said = self._said(query, body, centres, columns[3], movers)
         found = _combined(said, query, len(centres))
-        silent = np.flatnonzero(found == NOTHING_SAID)
-        found[silent] = np.where(self._modelled(centres[silent]), EXTERIOR, NOTHING_SAID)
+        silent = np.flatnonzero(found == CANNOT_SAY)
+        found[silent] = np.where(self._modelled(centres[silent]), EXTERIOR, CANNOT_SAY)
         return self._answers(found)
 
     def position(
@@ -235,7 +221,7 @@ class Scene:
         if trouble is not None:
             raise InputError(trouble)
         said = [self._said_leaning(index, centre, heading, mover_axis) for index in self._near(*centre)]
-        found = max((_RANK[each] for each in said if each != NOTHING_SAID), default=0)
+        found = max((_RANK[each] for each in said if each != CANNOT_SAY), default=0)
         return self._answer(_OF_RANK[found] if found or not self._modelled(np.array([centre]))[0] else EXTERIOR)
 
     def _said_leaning(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
@@ -248,7 +234,7 @@ class Scene:
         else:
             inside = low <= centre[2] <= high
         if not inside:
-            return NOTHING_SAID
+            return CANNOT_SAY
         said = position_leaning((body.alpha, body.gamma, mover.b, mover.d), centre, body.center, axis, body.axis)
         return self._of_parts(index, centre, heading) if said == CONTACT and mover.parts else said
 
@@ -256,7 +242,7 @@ class Scene:
         question = self.model.question
         if question == "position":
             return position
-        return CANNOT_SAY if position == NOTHING_SAID else int(position == YES[question])
+        return CANNOT_SAY if position == CANNOT_SAY else int(position == POSITION_OF[question])
 
     def _axes(self, axis: ArrayLike | None) -> tuple[float, float, float] | tuple[Floats, Floats, Floats]:
         """The three numbers of the mover's axis: the scene's, or the query's where the scene leaves it free."""
@@ -323,7 +309,7 @@ class Scene:
         for pair in np.flatnonzero((result == CONTACT) & ~silent).tolist() if mover.parts else ():
             x, y, z = centres[query[pair]].tolist()
             result[pair] = self._of_parts(int(body[pair]), (x, y, z), float(heading[query[pair]]))
-        result[silent] = NOTHING_SAID
+        result[silent] = CANNOT_SAY
         return result
 
     def _of_parts(self, index: int, centre: tuple[float, float, float], heading: float) -> int:
@@ -346,7 +332,7 @@ class Scene:
         question = self.model.question
         if question == "position":
             return positions
-        return np.where(positions == NOTHING_SAID, CANNOT_SAY, positions == YES[question]).astype(np.int8)
+        return np.where(positions == CANNOT_SAY, CANNOT_SAY, positions == POSITION_OF[question]).astype(np.int8)
 
     def _body(self, index: int) -> Body:
         """A hyperboloid's numbers without arrays; each is kept once it was asked."""
@@ -410,7 +396,7 @@ def _number(name: str, value: object) -> float:
 
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:
-    """What those that are near come to at each centre: contact before interior before exterior, else nothing said."""
+    """The answer at each centre by the near hyperboloids: contact, else interior, else exterior, else none."""
     rank = np.select([said == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
     highest = np.zeros(count, np.int8)
     np.maximum.at(highest, query, rank)

@@ -1,23 +1,19 @@
 """The scene index (broad phase): hyperboloids as columns, how far each reaches, and a grid over the plane.
 
-The hyperboloids of a scene as columns, and the heights in which they stand.
-
-How far from a hyperboloid's axis a mover can be in contact with it: beyond, it is exterior, and nothing is asked.
-
-A spheroid at height z occupies heights z − d … z + d and reaches b from its centre. The surface is nowhere wider in
-that range than ρ = α √(1 + ((|z| + d)/γ)²), so a centre farther than ρ + b from the axis touches nothing and is
-outside. That is formed in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers
-them, and the rounding of a distance that is compared with it; LEAST covers what underflows.
+Beyond its reach from a hyperboloid's axis a mover is exterior, and nothing is asked. A spheroid at height z occupies
+heights z − d … z + d and reaches b from its centre. The surface is nowhere wider in that range than
+ρ = α √(1 + ((|z| + d)/γ)²), so a centre farther than ρ + b from the axis touches nothing and is outside. That is formed
+in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers them, and the rounding of a
+distance that is compared with it; LEAST covers what underflows.
 
 A spheroid that leans lies in the ball of its longer semi-axis r, which takes the place of b and d. Beside a hyperboloid
 that leans, its centre is asked about only within the modelled height h along that axis; there it is at most ρ + r from
 the axis, with ρ = α √(1 + ((h + r)/γ)²), and so at most √(h² + (ρ + r)²) from the hyperboloid's centre.
 
-A grid over the plane, each cell with the hyperboloids that can be touched from within it.
-
-Cells share the places of a table by a hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"):
-what falls into a place from elsewhere is asked in vain, and nothing is left out. What reaches over too many cells, or
-has no end, is kept aside and always asked: one tower among many trees.
+Each cell of the grid has the hyperboloids that can be touched from within it. Cells share the places of a table by a
+hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"): a hyperboloid that falls into a place
+from elsewhere is asked in vain, and none is left out. A hyperboloid that reaches over too many cells, or has no end, is
+kept aside and always asked: one tower among many trees.
 """
 
 from __future__ import annotations

@@ -1,11 +1,7 @@
-"""The half planes of one scene for the numpy kernel: chosen by heuristics, proved by programs/lines.py.
+"""The half planes of one scene for the numpy kernel: chosen by rules of thumb, proved by programs/lines.py.
 
-Thresholds in single precision from the proved lines of a scene; programs/parallel_lines.py says why they hold.
-
-The half planes of one scene for the numpy kernel: chosen by rules of thumb, proved by programs/lines.py.
-
-What is chosen here, λ, μ and the heights, decides nothing but how many rows the next stage gets; core/parts/scene.h
-chooses in the same way.
+What is chosen here, λ, μ and the heights, decides only how many rows the next stage gets; core/parts/scene.h chooses in
+the same way. `thresholds` turns the proved lines into thresholds in single precision.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ from hypcheck.kernel import integers
 
 
 @dataclass(frozen=True, slots=True)
-class Quartic:
+class QuarticWithPoles:
     """F's coefficients, lowest first, and what its poles are made of: −p/q and the roots of k0 + k1 λ − k2 λ²."""
 
     f: tuple[int, int, int, int, int]
@@ -100,7 +100,7 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def quartic(of: Squares) -> Quartic:
+def quartic(of: Squares) -> QuarticWithPoles:
     """The quartic of a pair whose axes are not parallel, and whose spheroid is no sphere."""
     p, q, s, t = of.p, of.q, of.s, of.t
     w = of.level + of.upward
@@ -116,7 +116,7 @@ def quartic(of: Squares) -> Quartic:
         q * (-m - k1) + (p + q) * k2,
         q * k2,
     )
-    return Quartic(f, p, q, q > t, (k0, k1, k2))
+    return QuarticWithPoles(f, p, q, q > t, (k0, k1, k2))
 
 
 def position(row: Sequence[float]) -> Position:
@@ -148,7 +148,7 @@ def discriminant(f: tuple[int, int, int, int, int]) -> int:
     return 4 * i * i * i - j * j
 
 
-def _on_a_pole(pair: Quartic) -> Position:
+def _on_a_pole(pair: QuarticWithPoles) -> Position:
     """The position where F has a multiple root: clear where that is a pole and F > 0 on its inner side."""
     for side in (Position.EXTERIOR, Position.INTERIOR):
         value, slope, curve = _outwards(pair, side)[:3]
@@ -157,7 +157,7 @@ def _on_a_pole(pair: Quartic) -> Position:
     return Position.CONTACT
 
 
-def _outwards(pair: Quartic, side: Position) -> list[int]:
+def _outwards(pair: QuarticWithPoles, side: Position) -> list[int]:
     """The signs of the coefficients of F in the distance beyond the pole on that side, lowest first."""
     at_ratio = side < 0 and pair.oblate
     signs = _at_ratio(pair.f, -pair.p, pair.q) if at_ratio else _at_root(pair, side)
@@ -173,7 +173,7 @@ def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
     return [_sign(each) for each in left]
 
 
-def _at_root(pair: Quartic, side: Position) -> list[int]:
+def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:
     """The same at B (side 1) or −A2: in μ = k2 λ, a root of μ² = k1 μ + k0 k2, everything is some u + v μ."""
     (f0, f1, f2, f3, _), (k0, k1, k2) = pair.f, pair.k
     left = [(k2**3 * f0, 0), (k2 * k2 * f1, 0), (k2 * f2, 0), (f3, 0), (pair.q, 0)]

@@ -1,13 +1,11 @@
-"""Compiling the proofs with Coq, asking for their assumptions, building the proved checker, weakened proofs.
+"""The build of the proofs with Coq, of what they assume, of weakened statements, and of the proved checker.
 
-Compiling the proofs with Coq, asking what they assume, and building the proved checker. `make prove` runs it.
+`make prove` runs it. Nothing is installed here: a missing program is named. Everything is built in build/proofs beside
+the package.
 
-Nothing is installed here: what is missing is named. Everything is built in build/proofs beside the package.
-
-Weakened constants and comparisons that Coq must refuse: each makes a statement false, or takes a proof's reserve.
-
-A proof that went through in spite of one would prove less than it says. Every change is made in a copy of the
-compiled proofs, and Coq is asked about the changed file alone.
+WEAKENED has constants and comparisons that Coq must refuse: each makes a statement false, or takes a proof's reserve. A
+proof that went through in spite of one would prove less than it says. Every change is made in a copy of the compiled
+proofs, and Coq is asked about the changed file alone.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A scene: what stands, what moves, where, and what is asked. Plain values; reading.py makes them and refuses others.
+"""A scene as plain values: hyperboloids, the mover, its region, and the question. reading.py makes them from a file.
 
 Lengths are in one unit of the caller's choice (metres in the scenes that are shipped), angles in degrees. `alpha`,
 `gamma` and `height` describe a hyperboloid in its own frame; `center` and `axis` put it into the scene.

@@ -1,6 +1,6 @@
-"""On which line of a TOML text each value stands: a reader of TOML tells what is there, but not where.
+"""The line of each value in a TOML text, which a reader of TOML does not give.
 
-The text is known to be valid TOML 1.0 (tomllib has read it), so this scanner only has to find its way, not to judge.
+The text is known to be valid TOML 1.0 (tomllib has read it), so this scanner finds its way and judges nothing.
 """
 
 from __future__ import annotations

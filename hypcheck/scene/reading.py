@@ -1,10 +1,7 @@
-"""Reading a scene file: TOML, complete and strict. What is unknown or impossible is refused in one sentence.
+"""Reading a scene file: TOML, complete and strict. An unknown key or an impossible value is refused in one sentence.
 
-The tables of a scene file that say how `hypcheck simulate` moves the mover: [flight] and [walk].
-
-Reading a scene file: TOML, complete and strict. What is not known or cannot be is refused in one sentence.
-
-docs/scenes.md explains the keys; schemas/scene-1.1.0.json has them for editors and other programs.
+docs/scenes.md explains the keys; schemas/scene-1.1.0.json has them for editors and other programs. The tables [flight]
+and [walk] say how `hypcheck simulate` moves the mover.
 """
 
 from __future__ import annotations

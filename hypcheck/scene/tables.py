@@ -1,4 +1,4 @@
-"""Taking values out of a parsed TOML table: each is checked, none is left over, and every refusal names its line."""
+"""Values out of a parsed TOML table: each is checked, none is left over, and every refusal names its line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where an argument changes its case: borders of the regimes, planes and lines of symmetry, vanishing coefficients."""
+"""Families at the borders of an argument's cases: regimes, planes and lines of symmetry, vanishing coefficients."""
 
 from __future__ import annotations
 

@@ -1,16 +1,8 @@
-"""Rational constructions of pairs whose g has a double root, and the rows that float64 holds exactly.
+"""Rational constructions of pairs whose g has a double root m, as rows that float64 holds exactly.
 
-From rational constructions to rows that float64 holds exactly.
-
-Arrays of Python integers (dtype object) have no overflow, so a formula is written once, for a whole block. The radial
-lengths (α, b, x, y) and the axial ones (γ, d, z) have each a unit of their own (pairs.Lengths), so a rational
-construction becomes a row of integers by clearing denominators, and any power of two may be the unit. Where the
-integers need more than the 53 bits of float64, the construction is drawn anew.
-
-Pairs whose g has a double root m, exactly: tangencies, and crossings with a node, an isolated point or a cusp.
-
-In the space of Theorem 1 let g(λ) = (λ − m)²(λ − n). The roots' product a²c² gives n = a²c²/m², and then
-g(−a²) = −a² r² (a² + c²) and g(c²) = −c² z² (a² + c²) (docs/mathematics.md, "Where the roots are") give the centre:
+They are tangencies, and crossings with a node, an isolated point or a cusp. In the space of Theorem 1 let
+g(λ) = (λ − m)²(λ − n). The roots' product a²c² gives n = a²c²/m², and then g(−a²) = −a² r² (a² + c²) and
+g(c²) = −c² z² (a² + c²) (docs/mathematics.md, "Where the roots are") give the centre:
 
     r² = (a² + m)² (m² + c²) / (m² (a² + c²)),   z² = (c² − m)² (a² − m²) / (m² (a² + c²)).
 
@@ -20,6 +12,11 @@ surface elsewhere, and g has the double root all the same.
 
 m² + c² and a² + c² are sums of two squares, so r² is one: it has rational x and y for any rational a, c and m, whether
 r is rational or not. Only (a² − m²)(a² + c²) must be a square, and for any a and c it is one for infinitely many m.
+
+Arrays of Python integers (dtype object) have no overflow, so a formula is written once, for a whole block. The radial
+lengths (α, b, x, y) and the axial ones (γ, d, z) have each a unit of their own (pair.Lengths), so a rational
+construction becomes a row of integers by clearing denominators, and any power of two may be the unit. Where the
+integers need more than the 53 bits of float64, the construction is drawn anew.
 """
 
 from __future__ import annotations

@@ -1,11 +1,8 @@
-"""Examining vector files: each is read strictly, its metadata is compared, and every label is checked.
+"""The check of vector files: each is read strictly, its metadata is compared, and every label is proved.
 
-What a file says before its cases, beside what is known of the family that it names and of the flags it describes.
-
-A flag is ours, so its meaning is too: a label is checked by ours and read by the file's. A family of ours is told in
-the words of its generator's version; of an earlier version, or of another's family, nothing is known here.
-
-Checking files, whatever they hold: each is read strictly, then its head is compared and every label put to proof.
+A label is checked by this program's meaning of its flag and read by the meaning that its file states, so the two must
+agree. A family of this program is described in the words of its generator's version. For an earlier version, or for a
+family of someone else, nothing is known here, and the description is not compared.
 """
 
 from __future__ import annotations

@@ -1,18 +1,16 @@
-"""Extreme sizes: long ratios, the ends of the ordinary ranges, and the ends of the float formats.
+"""Families of extreme sizes: long ratios, the ends of the ordinary ranges, and the ends of the float formats.
 
-Long ratios: α/b, γ/d or both from 2¹⁰ to 2⁴⁰, about 1e3 to 1e12.
+- Long ratios: α/b, γ/d or both from 2¹⁰ to 2⁴⁰, about 1e3 to 1e12.
+- Sizes and ratios up to the ends of the ordinary ranges: every implementation without declared ranges is asked these.
+- The ends of the float formats: an intermediate of the paper's Table 2 overflows or underflows.
 
-Sizes and ratios up to the ends of the ordinary ranges: everything that is asked of whoever declares no range.
-
-The ends of the float formats: where an intermediate of the paper's Table 2 overflows or underflows.
-
-With a = α/b and c = γ/d about 2^k (one of them, or both) the intermediates grow like these powers of 2^k:
+For the last, with a = α/b and c = γ/d about 2^k (one of them, or both) the intermediates grow like these powers of 2^k:
 
     one ratio    A, B, c0, c1, c2: 2 · c1 c2, c2², c0²: 4 · c2³, c1³, c2 c1 c0: 6 · c2³ c0, (c2 c1)²: 8
     both         A, B, c2: 2 · c0, c1: 4 · c2³: 6 · c0²: 8 · c2 c1 c0, c2³ c0: 10 · (c2 c1)², c1³: 12
 
 and b², x0², y0² like the square of the common unit whatever the ratios are. So the rows take k = limit/power for every
-power and both limits of the format, a few octaves to each side.
+power and both limits of the format, a few exponents to each side.
 """
 
 from __future__ import annotations

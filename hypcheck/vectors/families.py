@@ -1,11 +1,8 @@
-"""The table of all families, those for given sizes, and the names by which a family or one of its cases is asked for.
+"""The table of all families, the families for given sizes, and the names of families and of their cases.
 
-Families for given sizes: the traps that one spheroid beside one hyperboloid has, at every scale of nearness.
-
-A kernel that was made for a scene knows its own sizes alone, so the other families ask it next to nothing. These are
-made for it; their names carry the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
-
-The table of all families, and the names by which a family or one of its cases is asked for.
+A kernel that was made for a scene knows its own sizes alone, so the other families ask it next to nothing. The families
+for given sizes are made for it: the traps that one spheroid beside one hyperboloid has, at every scale of nearness.
+Their names carry the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """A family of cases: its purpose, its generator of rows, and the labelled and proved cases of its file.
 
-A family of cases: what it is for, and a generator whose rows depend on nothing but (name, version, seed, index).
-
-What a vector file holds: a family's description, what its flags mean, and cases with labels and proofs.
+The rows of a generator depend on nothing but (name, version, seed, index).
 """
 
 from __future__ import annotations

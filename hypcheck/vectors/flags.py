@@ -1,11 +1,7 @@
-"""The flags of a case: what each means, the defect it finds, and how it is computed from formulas.
+"""The flags of a case: what each means, the defect it finds, and how it is computed.
 
-What the formulas of the derivation answer about rows: exactly, in a float format, and how far off they are there.
-
-What is special about a case: each flag with its meaning, the defect it finds, and how it is computed.
-
-Everything here is decided exactly (in integers, in rationals, or by comparing floats), but for the float formats, which
-are evaluated as such: every operation of a formula's program rounded once, in the order in which it is written.
+Everything here is decided exactly (in integers, in rationals, or by comparing floats), but for the float formats: there
+every operation of a formula's program is rounded once, in the order in which it is written.
 """
 
 from __future__ import annotations

@@ -1,10 +1,7 @@
 """The format of a vector file: read strictly, and written as the same bytes for the same content.
 
-Reading a vector file, strictly: whatever is not as the schema has it is refused, naming file, line and case.
-
-Labels are read, not checked; checking.py does that.
-
-Writing a vector file: one case a line, always the same bytes for the same content.
+Everything that the schema does not allow is refused, naming file, line and case. Labels are read here and checked in
+examining.py. One case stands on one line.
 """
 
 from __future__ import annotations

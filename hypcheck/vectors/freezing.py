@@ -1,7 +1,7 @@
-"""Making the frozen files: old cases stay as they are, with the ids they have; new rows are added after them.
+"""The frozen files made anew: old cases stay as they are, with the ids they have; new rows are added after them.
 
 A family's file has the first rows of seed SEED, as many as COUNTS says, each once. Where a new version of a generator
-makes other rows, these are added too: nobody's copy of a case ever loses its meaning.
+makes other rows, these are added too: no copy of a case ever loses its meaning.
 """
 
 from __future__ import annotations

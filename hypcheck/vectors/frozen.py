@@ -1,11 +1,8 @@
-"""The frozen vectors that travel with the package: a file of certified cases per family, and invalid rows.
+"""The frozen vectors that travel with the package: a file of certified cases for each family, and invalid rows.
 
-Rows that are no valid query, each with the columns that are at fault: the file `invalid`.
-
-The frozen vectors: certified cases that travel with the package, a file a family, read when they are asked for.
-
-Their ids are for ever: a row keeps the id it was given, whatever becomes of the generator that made it. Loads numpy,
-neither sympy nor mpmath.
+Files are read when they are asked for. Ids are for ever: a row keeps the id it was given, whatever becomes of the
+generator that made it. The file `invalid` has rows that are no valid query, each with the columns that are at fault.
+Loads numpy, neither sympy nor mpmath.
 """
 
 from __future__ import annotations

@@ -1,12 +1,9 @@
 """The labels of a case (decision, measures, flags, shortest proof), and whether those of a file are true.
 
-Making a case: the exact decision, the measures, and the shortest proof that is found, in a file's own terms.
-
-Whether the labels of a file are true: each is proved, or computed anew by an oracle that did not make it.
-
-Position and tangency follow from the certificate alone (truth/certificate.py and shows_crossing, rational arithmetic);
-the kind is asked of the roots, the clearance of the nearest point. Labels are made by the exact decision, which shares
-nothing with these. Flip distances rest on exact decisions and are computed anew, and so are the flags.
+Each label of a file is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
+the certificate alone (truth/certificate.py and shows_crossing, rational arithmetic); the roots give the kind, the
+nearest point the clearance. Labels are made by the exact decision, which shares nothing with these. Flip distances rest
+on exact decisions and are computed anew, and so are the flags.
 """
 
 from __future__ import annotations

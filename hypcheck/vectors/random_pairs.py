@@ -1,13 +1,11 @@
-"""Random pairs of every size: sizes from ratios, centres by distance, and rows that change one number.
+"""Families of random pairs of every size, and the placing of spheroids that other families use.
 
-Where the spheroid is put: sizes from the ratios a = α/b and c = γ/d, centres by their distance from the surface.
+Sizes come from the ratios a = α/b and c = γ/d, centres from their distance to the surface. Heights, radii and offsets
+are in spheroid radii, that is, in the space of Theorem 1 of the paper, where the spheroid is the unit ball and the
+hyperboloid has the semi-axes a, a, c. Nothing here is exact; it need not be.
 
-Heights, radii and offsets are in spheroid radii, that is, in the space of Theorem 1 of the paper, where the spheroid
-is the unit ball and the hyperboloid has the semi-axes a, a, c. Nothing here is exact; it need not be.
-
-Random pairs of every size: uniform, far, giant, tiny, mirrored, and rows exact in the short float formats.
-
-One pair again and again, with one of its seven numbers changed in between: what is kept from the row before.
+The families: uniform, far, giant, tiny, mirrored, rows exact in the short float formats, and one pair again and again
+with one of its seven numbers changed, which finds values kept from the row before.
 """
 
 from __future__ import annotations

@@ -1,9 +1,4 @@
-"""Cases shown to people, and rows of a family generated for other programs as JSON, CSV or npy.
-
-The casebook for people: a list of what there is, a family, a case.
-
-Rows of a family for other programs: labelled and proved as JSON, or as bare numbers.
-"""
+"""Cases as text for people, and rows of a family generated for other programs as JSON, CSV or npy."""
 
 from __future__ import annotations
 

@@ -1,10 +1,7 @@
-"""Exact tangencies and other double roots, a ladder of ulps beside them, and the ring where Δ = 0.
+"""Families of exact tangencies and other double roots, and of the ring, with rows beside them.
 
-Exact tangencies and other double roots, and what lies a hair's breadth beside them.
-
-A ladder of ulps beside an exact tangency: every power of two from 1 to 2⁴⁰, on both sides, one after the other.
-
-Where Δ = 0 though nothing touches, where the sphere has the groove's own curvature, and what lies around both.
+Beside a tangency there is a hair's breadth, and a ladder of ulps: every power of two from 1 to 2⁴⁰, on both sides, one
+after the other. On the ring Δ = 0 though nothing touches; where c² = a the sphere has the groove's own curvature.
 """
 
 from __future__ import annotations

@@ -31,12 +31,12 @@ def fresh(monkeypatch):
 WITHOUT = "it was not built at install, which takes a C compiler and Python's headers"
 
 
-def test_without_a_compiled_kernel_it_is_numpy_and_the_reason_is_told(fresh):
+def test_without_a_compiled_kernel_numpy_is_chosen_with_a_reason(fresh):
     fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
     assert choice() == KernelChoice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
 
 
-def test_asking_for_what_is_not_there_is_bad_input(fresh):
+def test_forcing_a_missing_kernel_raises_an_input_error(fresh):
     fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
     fresh.setenv("HYPCHECK_KERNEL", "compiled")
     with pytest.raises(InputError, match=f"HYPCHECK_KERNEL is 'compiled', but there is no compiled kernel: {WITHOUT}"):
@@ -50,7 +50,7 @@ def test_asking_for_what_is_not_there_is_bad_input(fresh):
         ("HYPCHECK_LEVEL", "avx", "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, plain, or unset"),
     ],
 )
-def test_nonsense_is_refused_with_what_would_be_right(fresh, name, value, sentence):
+def test_invalid_environment_variables_raise_an_error_with_valid_values(fresh, name, value, sentence):
     pytest.importorskip("hypcheck.kernel._compiled")
     fresh.setenv(name, value)
     with pytest.raises(InputError, match=sentence):
@@ -82,7 +82,7 @@ def test_the_best_level_is_the_one_that_the_processor_has(fresh):
     compiled.use_level(choice().level)
 
 
-def test_threads_are_the_processors_unless_they_are_told(fresh):
+def test_most_threads_is_the_number_of_processors_unless_set(fresh):
     assert most_threads() >= 1
     fresh.setenv("HYPCHECK_THREADS", "7")
     assert most_threads() == 7

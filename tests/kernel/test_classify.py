@@ -32,7 +32,7 @@ def test_positions_are_exact(some):
         assert hypcheck.classify_scene(sizes, x, y, z).tolist() == hypcheck.classify(moved).tolist()
 
 
-def test_lists_and_other_types_of_numbers_will_do():
+def test_classify_takes_lists_and_other_types_of_numbers():
     assert hypcheck.classify(ROWS).tolist() == [1, 0, -1]
     assert hypcheck.classify(np.asfortranarray(np.array(ROWS, dtype=np.float32))[::-1]).tolist() == [-1, 0, 1]
     assert hypcheck.classify_scene((1, 2, 1, 1), [2.5, 2, -2.5], 0, 0.0).tolist() == [1, 0, 1]
@@ -48,7 +48,7 @@ def test_out_is_filled_and_returned():
     assert strided.tolist() == [1, 99, 0, 99, 0, 99]
 
 
-def test_out_may_lie_in_the_rows():
+def test_out_may_overlap_the_rows():
     rows = np.array(ROWS)
     assert hypcheck.classify(rows, out=rows.view(np.int8)[0, :3]).tolist() == [1, 0, -1]
 
@@ -126,14 +126,14 @@ def test_an_out_that_does_not_fit_is_refused(out, found):
         ((1, 2, 1, 1), (True, 2, 3), "x is True; it must be a number"),
     ],
 )
-def test_a_scene_that_is_none_is_refused(sizes, center, sentence):
+def test_classify_scene_refuses_invalid_sizes_and_centres(sizes, center, sentence):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with pytest.raises(InputError, match=sentence):
             hypcheck.classify_scene(sizes, *center)
 
 
-def test_what_is_masked_is_refused_and_a_mask_of_nothing_is_none():
+def test_classify_refuses_masked_values_and_takes_an_empty_mask():
     masked = np.ma.masked_array(ROWS, mask=False)
     assert hypcheck.classify(masked).tolist() == [1, 0, -1]
     masked[1, 2] = np.ma.masked
@@ -144,12 +144,12 @@ def test_what_is_masked_is_refused_and_a_mask_of_nothing_is_none():
 
 
 @pytest.mark.parametrize("shape", [(7,), (0,), (3, 6), (7, 3), (1, 2, 7)])
-def test_rows_of_another_shape_are_refused(shape):
+def test_classify_refuses_rows_of_another_shape(shape):
     with pytest.raises(InputError, match=rf"the rows have shape {re.escape(str(shape))}; it must be \(n, 7\)"):
         hypcheck.classify(np.ones(shape))
 
 
-def test_no_rows_have_no_positions():
+def test_classify_of_no_rows_is_an_empty_array():
     assert hypcheck.classify(np.empty((0, 7))).tolist() == []
     assert hypcheck.classify_scene((1, 2, 1, 1), [], [], []).tolist() == []
     assert hypcheck.classify_scene((1, 2, 1, 1), [], 0, 0, on_invalid="flag").tolist() == []
@@ -165,7 +165,7 @@ def test_positions_at_the_ends_of_float64_are_exact(unit):
     assert found.tolist() == [1, 0] * 10_000
 
 
-def test_an_unknown_mode_is_refused():
+def test_classify_refuses_an_unknown_on_invalid():
     with pytest.raises(InputError, match="on_invalid is None; it must be 'raise' or 'flag'"):
         hypcheck.classify(ROWS, on_invalid=None)
     with pytest.raises(InputError, match="on_invalid is array"):

@@ -61,7 +61,7 @@ def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, ques
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 7, np.int64(2), 10**9])
-def test_any_number_of_threads_answers_the_same(threads, rows, scene):
+def test_answers_do_not_depend_on_the_number_of_threads(threads, rows, scene):
     truth = float_filter.positions(rows)
     assert (hypcheck.classify(rows, threads=threads) == truth).all()
     found = hypcheck.classify_scene(scene.sizes, scene.x, scene.y, scene.z, threads=threads)
@@ -71,19 +71,19 @@ def test_any_number_of_threads_answers_the_same(threads, rows, scene):
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.0, True, "2"])
-def test_a_number_of_threads_that_is_none_is_refused(threads):
+def test_classify_refuses_an_invalid_number_of_threads(threads):
     with pytest.raises(InputError, match=r"threads is .*; it must be a whole number greater than 0"):
         hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]], threads=threads)
 
 
-def test_an_unknown_question_is_refused():
+def test_classify_refuses_an_unknown_question():
     with pytest.raises(
         InputError, match="question is 'inside'; it must be one of position, exterior, interior, contact"
     ):
         hypcheck.classify_scene(SIZES, 1, 2, 3, question="inside")
 
 
-def test_a_question_that_is_none_asks_c_for_the_position(scene):
+def test_the_c_function_answers_the_position_to_an_unknown_question(scene):
     library = ctypes.CDLL(compiled.__file__)
     answers = np.full(len(scene.x), 99, np.int8)
     sizes, columns = np.array(scene.sizes), (scene.x, scene.y, scene.z)
@@ -139,7 +139,7 @@ def test_python_runs_on_while_c_computes():
 
 
 @pytest.mark.parametrize("bad", ["hypcheck-1", threading.current_thread().name])
-def test_what_goes_wrong_in_a_thread_is_raised_and_no_answer_given(bad, monkeypatch):
+def test_an_error_in_a_thread_is_raised_in_the_caller(bad, monkeypatch):
     class Failing:
         @staticmethod
         def ask_scene(*arguments):
@@ -152,7 +152,7 @@ def test_what_goes_wrong_in_a_thread_is_raised_and_no_answer_given(bad, monkeypa
         hypcheck.classify_scene(SIZES, np.zeros(1000), 0, 0, threads=3)
 
 
-def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):
+def test_columns_of_any_stride_type_and_alignment_are_answered(scene, monkeypatch):
     monkeypatch.setattr(compiled_kernel, "CHUNK", 999)
     truth = float_filter.positions(scene.rows)
     table = np.column_stack([scene.x, scene.y, scene.z])
@@ -165,12 +165,12 @@ def test_columns_of_any_stride_type_and_alignment_will_do(scene, monkeypatch):
     assert (hypcheck.classify_scene(scene.sizes, shifted, scene.y, scene.z) == truth).all()
 
 
-def test_rows_of_any_alignment_will_do(rows):
+def test_rows_of_any_alignment_are_answered(rows):
     shifted = np.frombuffer(b"\0" + rows.tobytes(), np.float64, rows.size, 1).reshape(rows.shape)
     assert (hypcheck.classify(shifted) == float_filter.positions(rows)).all()
 
 
-def test_the_extension_looks_at_its_buffers():
+def test_the_extension_checks_its_buffers():
     out, rows = np.zeros(2, np.int8), np.ones((2, 7))
     for sentence, *arguments in (
         ("a question is a number from 0 to 3", 4, rows, out),

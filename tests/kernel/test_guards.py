@@ -50,7 +50,7 @@ def rule(delta: int, c1: int, c2: int, slope_B: int, offset_B: int, slope_A: int
     return None
 
 
-def test_the_second_stage_answers_by_the_rule_and_by_nothing_less():
+def test_the_second_stage_decides_by_the_rule_for_all_signs():
     sizes = dict.fromkeys(("alpha", "gamma", "b", "d", "A", "B"), 1)
     wanted = ("exterior", "interior", "decided")
     decision = cut(certified.CERTIFIED, (*sizes, "P_plus_Q", *BOUNDS, *BOUNDS.values()), wanted)
@@ -63,7 +63,7 @@ def test_the_second_stage_answers_by_the_rule_and_by_nothing_less():
 
 
 @pytest.mark.parametrize("name", ["alpha", "gamma", "b", "d", "A", "B", "P_plus_Q"])
-def test_the_second_stage_answers_within_its_limits_alone(name):
+def test_the_second_stage_answers_only_within_its_limits(name):
     least, most, far = (Fraction(certified.CONSTANTS[each]) for each in ("least", "greatest", "farthest"))
     known = ("alpha", "gamma", "b", "d", "A", "B", "P_plus_Q")
     part = cut(certified.CERTIFIED, known, ("usable",))

@@ -43,7 +43,7 @@ def test_a_printed_module_is_what_the_generator_prints(name):
     assert (modules.FOLDER / name).read_text(encoding="utf-8") == modules.modules()[name], f"run {modules.COMMAND}"
 
 
-def test_every_step_of_the_programs_stands_in_the_header():
+def test_the_header_has_every_step_of_the_programs():
     text = HEADER.read_text(encoding="utf-8")
     for step in needed(certified.CERTIFIED, ("exterior", "interior", "decided")):
         assert re.search(rf"const HC_(NUMBER|TRUTH) {step.name} = ", text), step.name
@@ -58,14 +58,14 @@ def test_limits_of_the_scalar_function_are_those_of_the_program():
 
 @COMPILERS
 @pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "plain"])
-def test_c99_has_nothing_to_complain_of(options, compiler, tmp_path):
+def test_the_header_compiles_as_c99_without_warnings(options, compiler, tmp_path):
     done = compiled_source(tmp_path, IMPLEMENTATION, "-std=c99", "-O1", *WARNINGS, *options, compiler=compiler)
     assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("compiler", CPP_COMPILERS, ids=["g++", "clang++"])
 @pytest.mark.parametrize("source", ['#include "hypcheck.h"\n', IMPLEMENTATION], ids=["declarations", "implementation"])
-def test_cpp_has_nothing_to_complain_of(source, compiler, tmp_path):
+def test_the_header_compiles_as_cpp_without_warnings(source, compiler, tmp_path):
     options = ("-std=c++11", "-fsyntax-only", "-Wall", "-Wextra", "-pedantic", "-Werror")
     done = compiled_source(tmp_path, source, *options, compiler=compiler, suffix=".cpp")
     assert (done.returncode, done.stderr) == (0, "")
@@ -83,7 +83,7 @@ PARTS = ("-funsafe-math-optimizations", "-fassociative-math -fno-signed-zeros -f
         *(pytest.param(CLANG, option, marks=needs_clang) for option in WHOLE),
     ],
 )
-def test_arithmetic_that_voids_the_proofs_is_refused(option, compiler, tmp_path):
+def test_compiler_options_that_void_the_proofs_are_refused(option, compiler, tmp_path):
     done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", *option.split(), compiler=compiler)
     assert done.returncode != 0
     assert "error: " in done.stderr
@@ -94,7 +94,7 @@ def test_arithmetic_that_voids_the_proofs_is_refused(option, compiler, tmp_path)
 
 @needs_clang
 @pytest.mark.parametrize("option", PARTS)
-def test_arithmetic_that_clang_does_not_tell_of_is_taken_back(option, tmp_path):
+def test_options_that_clang_does_not_report_are_undone_in_the_header(option, tmp_path):
     """No operation carries a flag that lets clang reorder a sum or replace a quotient."""
     (tmp_path / "source.c").write_text(IMPLEMENTATION, encoding="utf-8")
     listing = [CLANG, "-O1", *option.split(), f"-I{HEADER.parent}", "-S", "-emit-llvm", "source.c", "-o", "-"]
@@ -105,7 +105,7 @@ def test_arithmetic_that_clang_does_not_tell_of_is_taken_back(option, tmp_path):
 
 
 @needs_compiler
-def test_a_file_of_another_name_can_hold_it(tmp_path):
+def test_the_header_works_under_another_file_name(tmp_path):
     text = HEADER.read_text(encoding="utf-8")
     (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
     source = '#define HYPCHECK_IMPLEMENTATION\n#define HYPCHECK_SELF "renamed.h"\n#include "renamed.h"\n'
@@ -116,7 +116,7 @@ def test_a_file_of_another_name_can_hold_it(tmp_path):
 @pytest.mark.parametrize(
     "beside", [None, "", "edition"], ids=["alone", "beside-another-file", "beside-another-edition"]
 )
-def test_a_renamed_header_without_its_name_ends_in_one_error_that_says_so(beside, tmp_path):
+def test_a_renamed_header_without_its_macro_ends_in_one_clear_error(beside, tmp_path):
     text = HEADER.read_text(encoding="utf-8")
     (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
     if beside is not None:

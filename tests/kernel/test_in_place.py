@@ -29,7 +29,7 @@ def run(program, wanted, inputs):
 
 @pytest.mark.parametrize("program", WITHOUT_CHOICES.values(), ids=WITHOUT_CHOICES)
 @pytest.mark.parametrize("alone", [True, False], ids=["one-by-one", "all-at-once"])
-def test_every_step_is_the_same_to_the_bit(program, alone):
+def test_every_printed_step_gives_the_same_bits(program, alone):
     inputs = dict(zip(program.inputs, columns(program, "float64"), strict=True))
     before = {name: value.copy() for name, value in inputs.items()}
     expected = evaluate(program, float_arithmetic("float64"), inputs)
@@ -42,7 +42,7 @@ def test_every_step_is_the_same_to_the_bit(program, alone):
     assert all(np.array_equal(inputs[name], before[name], equal_nan=True) for name in inputs)
 
 
-def test_a_buffer_is_used_again_once_its_value_was_read():
+def test_in_place_statements_reuse_a_buffer_after_its_last_read():
     program = program_of("chain", ("x",), "a = x + 1\nb = a * a\nc = b + x\nd = c - -2\np = d > 0\nq = not p")
     printed = in_place_statements(program, ("q",))
     assert (printed.numbers, printed.truths) == (1, 1)
@@ -50,7 +50,7 @@ def test_a_buffer_is_used_again_once_its_value_was_read():
     assert printed.statements[3] == "np.subtract(n0, -2.0, n0)  # d = c - -2"
 
 
-def test_what_is_copied_is_rounded_to_the_buffers_first_and_left_as_it_is():
+def test_copied_inputs_are_rounded_to_the_buffers_type_and_not_changed():
     program = program_of("norm", ("x", "y", "k"), "xx = x * x\nyy = y * y\nr = xx + yy\np = r > k")
     printed = in_place_statements(program, ("r", "p"), copied=("x", "y"))
     assert (printed.numbers, printed.truths) == (2, 1)
@@ -66,6 +66,6 @@ def test_what_is_copied_is_rounded_to_the_buffers_first_and_left_as_it_is():
     assert np.array_equal((x, y), before)
 
 
-def test_a_selection_has_no_statement():
+def test_in_place_statements_raise_an_error_for_a_selection():
     with pytest.raises(ValueError, match="step y: there is no ufunc in place for select"):
         in_place_statements(program_of("choice", ("x",), "p = x > 0\ny = p ? x : 1"), ("y",))

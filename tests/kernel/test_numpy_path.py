@@ -32,7 +32,7 @@ def test_every_answer_has_a_checked_proof(some):
 
 
 @given(pairs, st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=1, max_size=20))
-def test_a_scene_is_its_rows(pair, centers):
+def test_positions_of_a_scene_are_those_of_its_rows(pair, centers):
     x, y, z = np.array(centers).T
     rows = np.column_stack([*(np.full(len(x), size) for size in pair.row[:4]), x, y, z])
     found = numpy_kernel.positions_of_scene(pair.row[:4], x, y, z)
@@ -40,7 +40,7 @@ def test_a_scene_is_its_rows(pair, centers):
 
 
 @pytest.mark.parametrize("spread", [1, 5, 12, 30])
-def test_random_rows_of_all_regimes(spread):
+def test_the_numpy_kernel_is_right_on_random_rows_of_all_regimes(spread):
     rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (4000, 7))
     expected = [integers.position(Pair.from_row(row).lengths) for row in rows.tolist()]
     assert numpy_kernel.positions(rows).tolist() == expected
@@ -48,7 +48,7 @@ def test_random_rows_of_all_regimes(spread):
 
 @pytest.mark.parametrize("exponent", range(-52, -20, 4))
 @pytest.mark.parametrize("sign", [-1, 0, 1])
-def test_at_a_tangency_floats_do_not_decide(exponent, sign):
+def test_the_certified_stage_leaves_tangencies_undecided(exponent, sign):
     """r − a = 1 + sign 2^exponent at the waist; the walls are steep, so the nearest point is there."""
     a = np.arange(1.0, 200.0)
     x = a + 1 + sign * 2.0**exponent

@@ -26,7 +26,7 @@ def value_of(text: str) -> float:
     return float(eval(python, {"u": certified.U, "SLACK": certified.SLACK}))  # noqa: S307 - the page is ours
 
 
-def test_the_sessions_in_python_show_what_happens():
+def test_python_sessions_in_the_docs_give_what_they_show():
     session = doctest.DocTestParser().get_doctest("\n".join(blocks("python")), {}, "docs/kernel.md", None, 0)
     assert len(session.examples) > 5
     results = doctest.DocTestRunner().run(session)
@@ -34,7 +34,7 @@ def test_the_sessions_in_python_show_what_happens():
 
 
 @needs_compiler
-def test_the_program_in_c_says_what_the_page_says(tmp_path):
+def test_the_c_program_in_the_docs_prints_what_the_page_shows(tmp_path):
     (source,) = blocks("c")
     done = subprocess.run([program(tmp_path, source, *STRICT, "-O2")], capture_output=True, text=True, check=True)
     shown = re.search(r"\./example\n((?:    .*\n)+)", PAGE)
@@ -42,7 +42,7 @@ def test_the_program_in_c_says_what_the_page_says(tmp_path):
     assert done.stdout == re.sub("^    ", "", shown[1], flags=re.MULTILINE)
 
 
-def test_every_constant_of_the_header_stands_in_the_table_with_its_value():
+def test_the_table_in_the_docs_has_every_constant_of_the_header():
     rows = re.findall(r"^\| (`.*?`) \| (.*?) \| .+ \|$", PAGE, flags=re.MULTILINE)
     told = {
         name.strip("`"): value_of(value)

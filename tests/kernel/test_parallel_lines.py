@@ -63,7 +63,7 @@ SCENES = [TOWER, *(tuple(some) for some in sizes(np.random.default_rng(2), 60).t
 SCENES = [four for four in SCENES if max(four) < 1e4 and min(four) > 1e-4]
 
 
-def test_no_threshold_is_passed_by_a_centre_on_its_other_side():
+def test_no_centre_passes_a_threshold_on_the_wrong_side():
     assert len(SCENES) > 20
     near = [touching(four, seed) for seed, four in enumerate(SCENES[:10])]
     assert [wrong(scene) for scene in near] == [0] * len(near)
@@ -75,7 +75,7 @@ def test_no_threshold_is_passed_by_a_centre_on_its_other_side():
 
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
-def test_without_its_margin_it_is_wrong_there(margin, monkeypatch):
+def test_thresholds_without_their_margin_are_wrong_for_such_centres(margin, monkeypatch):
     monkeypatch.setattr(scene_lines, "FLOAT32_MARGIN", margin)
     assert sum(wrong(touching(four, seed)) for seed, four in enumerate(SCENES[:10])) > 0
 
@@ -93,13 +93,13 @@ def lines_left(columns, four=TOWER):
         return numpy_kernel._by_lines(lines, tuple(columns), answers)
 
 
-def test_few_centres_are_left(tower):
+def test_parallel_lines_decide_most_centres(tower):
     assert len(lines_left(tower)) < 0.005 * len(tower[0])
 
 
 @pytest.mark.parametrize("value", [1e17, 1e200, -np.inf, np.nan])
 @pytest.mark.parametrize("column", [0, 1, 2])
-def test_a_centre_without_room_in_single_precision_is_left_to_later_stages(column, value, tower):
+def test_a_centre_beyond_single_precision_is_left_to_later_stages(column, value, tower):
     tower[column, 7] = value
     rows = np.column_stack([np.tile(TOWER, (len(tower[0]), 1)), *tower])
     expected = np.full(len(rows), 127)
@@ -109,7 +109,7 @@ def test_a_centre_without_room_in_single_precision_is_left_to_later_stages(colum
 
 
 @pytest.mark.parametrize("unit", [1e-12, 1e12])
-def test_a_scene_without_room_in_single_precision_has_its_other_lines(unit, tower):
+def test_a_scene_beyond_single_precision_has_lines_in_double_precision(unit, tower):
     four = tuple(unit * size for size in TOWER)
     lines = scene_lines.lines_of(four, unit * tower[2])
     assert lines is not None
@@ -117,7 +117,7 @@ def test_a_scene_without_room_in_single_precision_has_its_other_lines(unit, towe
     assert len(lines_left(unit * tower, four)) < 0.005 * len(tower[0])
 
 
-def test_a_line_that_proves_nothing_decides_nothing():
+def test_a_line_that_proves_nothing_decides_no_centre():
     nothing = dict.fromkeys(("beyond", "under", "within", "above"))
     found = scene_lines.thresholds(nothing, 1.0)
     assert found is not None

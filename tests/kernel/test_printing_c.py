@@ -34,7 +34,7 @@ def as_function(program, number):
     ("number", "name"),
     [*(("double", name) for name in PROGRAMS), ("float", "everything"), ("long double", "everything")],
 )
-def test_every_step_is_the_same_to_the_bit(number, name, tmp_path):
+def test_every_printed_step_gives_the_same_bits(number, name, tmp_path):
     program = PROGRAMS[name]
     inputs = columns(program, FORMATS[number])
     library = shared_library(tmp_path, as_function(program, number), "-ffp-contract=off")
@@ -75,11 +75,11 @@ def test_literals_and_functions_are_of_the_type():
     assert c_statements(EVERYTHING, ("m",), number="long double") == ("const long double m = 2048.0L * y;",)
 
 
-def test_an_input_that_is_wanted_needs_no_statement():
+def test_a_wanted_input_needs_no_statement():
     assert c_statements(EVERYTHING, ("x",)) == ()
 
 
-def test_what_cannot_be_printed_is_refused():
+def test_printing_an_unknown_type_or_a_reserved_name_in_c_raises_an_error():
     with pytest.raises(ValueError, match="no C type of numbers 'half'; there are double, float, long double"):
         c_statements(EVERYTHING, ("r",), number="half")
     with pytest.raises(KeyError, match="has no nothing"):

@@ -67,7 +67,7 @@ int main(void) {
 
 @needs_compiler
 @pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "plain"])
-def test_nothing_is_read_or_written_that_should_not_be(options, tmp_path):
+def test_sanitizers_find_no_fault_in_the_c_core(options, tmp_path):
     rows = np.concatenate([*(family.rows(5, 40) for family in FAMILIES.values()), _rows_of_a_scene()])
     bad = rows[: 7 * 4].copy()
     bad[np.arange(28), np.arange(28) % 7] = np.repeat([np.nan, np.inf, -np.inf, -1.0], 7)

@@ -30,7 +30,7 @@ def test_pairs_at_the_borders_are_answered_exactly(function):
 
 
 @FUNCTIONS
-def test_numbers_that_are_no_floats_are_taken_for_what_they_are_worth(function):
+def test_position_takes_integers_and_other_numbers_at_their_value(function):
     assert function(1, 2, 1, 1, 2.5, 0, 0) == 1
     assert function(*np.float64([4, 4, 1, 1, 0, 0, 0])) == -1
     assert function(1.0, 2.0, 1.0, 1.0, -2.0, 0.0, -0.0) == 0
@@ -49,6 +49,6 @@ def test_numbers_that_are_no_floats_are_taken_for_what_they_are_worth(function):
         ((1, 2, 1, 1, 10**400, 0, 0), "x is an integer too large for float64"),
     ],
 )
-def test_what_is_no_pair_is_refused_by_name(function, row, sentence):
+def test_position_raises_an_error_naming_the_invalid_number(function, row, sentence):
     with pytest.raises(InputError, match=sentence):
         function(*row)

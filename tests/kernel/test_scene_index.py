@@ -80,7 +80,7 @@ def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
         assert answer == whole(scene, centre), centre
 
 
-def test_a_difference_that_rounds_to_contact_is_not_taken_for_it():
+def test_a_difference_of_centres_that_rounds_to_contact_is_decided_exactly():
     """One unit of the last place of a far centre is more than the clearance."""
     tree = Hyperboloid("tree", 1.0, 4.0, (2.0**60, 0.0, 0.0))
     scene = model.SceneModel("s", "position", (tree,), Mover(1.0, 1.0))
@@ -93,7 +93,7 @@ def test_a_difference_that_rounds_to_contact_is_not_taken_for_it():
         assert Scene(scene).classify(x, 1e-200, 0.0)[0] == truth_about(near, scene.mover, (x, 1e-200, 0.0))
 
 
-def test_what_is_left_out_is_out_of_reach():
+def test_hyperboloids_that_the_grid_leaves_out_are_out_of_reach():
     scene = forest(80, 9)
     bodies = bodies_of(scene.hyperboloids)
     grid = grid_of(bodies.origins[:, 0], bodies.origins[:, 1], reaches(bodies, scene.mover, scene.region.z))
@@ -134,7 +134,7 @@ def test_parts_are_asked_where_the_mover_is_not_clear():
     assert Scene(parted).classify(3.0, 0.0, 0.0)[0] == 1
 
 
-def test_beyond_the_modelled_height_nothing_is_said():
+def test_beyond_every_modelled_height_a_scene_gives_no_answer():
     tree = Hyperboloid("stump", 1.0, 2.0, (0.0, 0.0, 1.0), Span(-1.0, 1.0))
     scene = Scene(model.SceneModel("s", "position", (tree,), Mover(0.5, 0.5)))
     assert scene.classify([0.0, 1.2, 0.0], 0.0, [2.0, 1.0, 2.5]).tolist() == [-1, 0, 2]
@@ -154,7 +154,7 @@ def test_a_question_is_answered_yes_or_no(question, answers):
     assert [asked.position(x, 0.0, 0.0) for x in (9.0, 2.0, 0.0)] == answers
 
 
-def test_the_public_name_reads_a_file(tmp_path):
+def test_hypcheck_scene_reads_a_file(tmp_path):
     file = tmp_path / "scene.toml"
     file.write_text('name = "s"\n[[hyperboloid]]\nalpha = 2\ngamma = 4\n[mover]\nb = 1\nd = 1\n', encoding="utf-8")
     assert hypcheck.Scene.from_toml(file).classify(9.0, 0.0, 0.0).tolist() == [1]
@@ -169,7 +169,7 @@ def test_the_public_name_reads_a_file(tmp_path):
         ((np.eye(2), 0.0, 0.0), "have shapes that do not fit together"),
     ],
 )
-def test_bad_centres_are_refused(centre, sentence):
+def test_scene_classify_refuses_invalid_centres(centre, sentence):
     with pytest.raises(InputError, match=sentence):
         Scene(forest(3, 3)).classify(*centre)
     if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):

@@ -44,7 +44,7 @@ def test_a_height_at_which_something_stands_is_exterior_wherever_nothing_is_near
         assert both(scene, (0.6, 0.0, math.nextafter(5.0, 6.0))) == 2
 
 
-def test_heights_end_where_the_exact_sum_does():
+def test_modelled_heights_end_at_the_exact_sum():
     draw = random.Random(4)  # noqa: S311 - nothing is secret
     trees = [
         Hyperboloid(
@@ -124,7 +124,7 @@ def test_outside_its_region_only_what_is_in_reach_is_asked():
         ((0, 0, 0, math.inf), "heading is inf; it must be finite"),
     ],
 )
-def test_what_is_no_centre_gets_a_sentence(centre, sentence):
+def test_scene_position_refuses_what_is_no_centre_in_one_sentence(centre, sentence):
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     with pytest.raises(InputError, match=sentence):
         scene.classify(*centre)
@@ -141,13 +141,13 @@ def test_a_step_takes_every_kind_of_number_and_no_array_of_several():
         scene.position(np.array([1.0, 2.0]), 0, 0)
 
 
-def test_nothing_asked_is_nothing_answered_and_every_layout_is_read():
+def test_scene_classify_takes_no_rows_and_arrays_of_any_layout():
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     assert scene.classify([], [], []).tolist() == []
     wide = np.arange(8.0)[::2]
     assert scene.classify(wide, 0, 0).tolist() == scene.classify(wide.astype(np.float32), [0.0], 0.0).tolist()
 
 
-def test_a_scene_of_nothing_is_refused():
+def test_a_scene_without_hyperboloids_raises_an_error():
     with pytest.raises(InputError, match="the scene has no hyperboloid"):
         Scene(replace(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)), hyperboloids=()))

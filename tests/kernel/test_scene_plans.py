@@ -82,14 +82,14 @@ def test_a_constant_height_leaves_two_thresholds():
     assert stages.search is None
 
 
-def test_a_one_sided_question_has_lines_of_its_side_alone():
+def test_a_plan_for_a_one_sided_question_has_lines_of_that_side_only():
     for question, side in (("exterior", 1), ("interior", -1)):
         (stages,) = plan_of(scene(question=question)).settings
         assert {int(line.side) for line in stages.lines} == {side}
         assert any("whatever tells" in omission.what for omission in stages.omitted)
 
 
-def test_where_a_positive_discriminant_is_not_clear_it_is_not_asked_so():
+def test_a_plan_uses_a_positive_discriminant_only_where_it_means_clear():
     (stages,) = plan_of(scene((3.0, 1.0, 1.0, 1.0))).settings
     assert stages.discriminant is not None
     assert not stages.discriminant.clear_where_positive
@@ -104,7 +104,7 @@ def test_the_tower_costs_a_third_of_table_2():
     assert (printed_operations().additions, printed_operations().multiplications) == (9, 17)
 
 
-def test_a_plan_tells_all_settings_by_their_numbers_and_reasons_once():
+def test_a_plan_lists_all_settings_and_gives_shared_reasons_once():
     plan = plan_of(read_scene("forest"))
     lines = list(plan_lines(plan))
     for number, stages in enumerate(plan.settings, start=1):
@@ -113,18 +113,18 @@ def test_a_plan_tells_all_settings_by_their_numbers_and_reasons_once():
     assert len(lines) < 5 * len(plan.settings)
 
 
-def test_shares_add_up():
+def test_shares_of_stages_add_up_to_one():
     for precision in ("float32", "float64"):
         for setting in plan_as_json(plan_of(read_scene("tower"), precision))["settings"]:
             assert sum(setting["shares"].values()) == pytest.approx(1)
 
 
-def test_another_format_is_refused():
+def test_plan_refuses_an_unknown_format():
     with pytest.raises(InputError, match="the precision is 'float16'; a kernel computes in float32 or float64"):
         plan_of(scene(), "float16")
 
 
-def test_the_command_tells_and_writes_json(capsys):
+def test_plan_prints_text_and_writes_json(capsys):
     assert main(["plan", "tower", "--precision", "float32"]) == 0
     assert "in float32" in capsys.readouterr().out
     assert main(["plan", "tower", "--question", "contact", "--json"]) == 0
@@ -141,7 +141,7 @@ def test_the_command_tells_and_writes_json(capsys):
         (["emit", "--scene", "tower", "--language", "python", "--precision", "float32"], "python has no float32"),
     ],
 )
-def test_bad_input_gets_a_sentence(words, sentence, capsys):
+def test_plan_refuses_bad_input_in_one_sentence(words, sentence, capsys):
     assert main(words) == 2
     error = capsys.readouterr().err
     assert sentence in error

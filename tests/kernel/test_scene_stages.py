@@ -42,7 +42,7 @@ def at_entry(sizes, form, rows):
 
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("sizes", SIZES)
-def test_a_centre_beyond_a_line_is_where_the_line_says(sizes, precision):
+def test_a_centre_beyond_a_line_has_the_position_that_the_line_proves(sizes, precision):
     form, rows = FORMATS[precision], rows_for(sizes)
     rows = rows[representable(rows, precision)]
     scale, _, _, values = at_entry(sizes, form, rows)
@@ -60,7 +60,7 @@ def test_a_centre_beyond_a_line_is_where_the_line_says(sizes, precision):
     assert told > 100
 
 
-def test_a_line_is_a_tangent_so_that_no_margin_can_be_left_out():
+def test_a_line_without_its_margin_is_wrong_at_its_point_of_tangency():
     """Without the margin a line would claim centres that touch: its constants are at the limit."""
     sizes, form = (1.0, 3.0, 1.0, 1.0), FORMATS["float64"]
     scale = scaled(sizes, form)
@@ -70,7 +70,7 @@ def test_a_line_is_a_tangent_so_that_no_margin_can_be_left_out():
 
 
 @pytest.mark.parametrize("multiplier", [0, 64, -64, 10**6])
-def test_a_multiplier_outside_the_poles_is_no_line(multiplier):
+def test_a_multiplier_outside_the_poles_gives_no_line(multiplier):
     with pytest.raises(ValueError, match="is not in"):
         line_at(Fraction(multiplier), scaled((8.0, 8.0, 1.0, 1.0), FORMATS["float64"]), FORMATS["float64"], 1)
 
@@ -120,7 +120,7 @@ def test_thresholds_part_the_positions(sizes, height):
         assert position(found.inner * (1 + 1e-14)) is Position.CONTACT
 
 
-def test_a_region_of_one_answer_is_known_and_no_other():
+def test_only_a_region_with_one_answer_is_recognised_as_such():
     sizes = (2.0, 17.8, 0.25, 0.15)
 
     def found(x, z):
@@ -135,7 +135,7 @@ def test_a_region_of_one_answer_is_known_and_no_other():
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_numbers_are_rounded_to_the_format_in_the_direction_asked_for(name):
+def test_rounded_gives_the_number_of_the_format_in_the_given_direction(name):
     form = FORMATS[name]
     dtype = np.dtype(name).type
     for value in (Fraction(1, 3), Fraction(-7, 11), Fraction(10) ** 30, Fraction(1, 3 * 2**100)):
@@ -151,6 +151,6 @@ def test_numbers_are_rounded_to_the_format_in_the_direction_asked_for(name):
             form.rounded(beyond)
 
 
-def test_the_search_is_bounded_by_what_users_are_promised():
+def test_the_bound_of_the_search_is_at_most_the_promised_8_u():
     """The tolerance that verify grants unless told otherwise is 8 units."""
     assert backward_bound() == 8

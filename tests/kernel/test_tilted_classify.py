@@ -69,7 +69,7 @@ def test_one_pair_with_an_axis_is_answered_as_its_row(rows, truth):
     assert hypcheck.position(1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, axis=None) == 1
 
 
-def test_length_and_sign_of_an_axis_mean_nothing(rows, truth):
+def test_length_and_sign_of_an_axis_do_not_matter(rows, truth):
     for factor in (-1.0, 3.0, 2.0**-500, -(2.0**900)):
         scaled = np.column_stack([rows[:404, :7], rows[:404, 7:] * factor])
         assert (hypcheck.classify(scaled) == truth[:404]).all()
@@ -141,7 +141,7 @@ BAD = {
 
 @pytest.mark.parametrize(("sentence", "axis"), BAD.items())
 @pytest.mark.parametrize("d", [1.5, 0.5], ids=["spheroid", "sphere"])
-def test_what_is_no_axis_is_refused_or_marked(sentence, axis, d):
+def test_an_invalid_axis_is_refused_or_marked(sentence, axis, d):
     rows, out = np.array([[2, 3, 0.5, d, 1, 0, 0, 0, 1, 1]] * 3), np.full(3, 99, np.int8)
     rows[1, 7:] = axis
     right = hypcheck.classify(rows[:1]).tolist()

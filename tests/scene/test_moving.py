@@ -48,7 +48,7 @@ def changed(old, new):
     return MOVING.replace(old, new)
 
 
-def test_everything_that_they_can_say():
+def test_flight_and_walk_with_every_key_are_read():
     scene = parse_scene(MOVING)
     assert scene.flight == Flight(
         500.0, 0.25, 0.5, 45.0, 90.0, backward=True, turn="free", start=Start(Span(3.0, 3.0), radius=1.5)
@@ -57,7 +57,7 @@ def test_everything_that_they_can_say():
     assert parse_scene(changed("radius = 1.5", "margin = 0")).flight.start == Start(Span(3.0, 3.0), margin=0.0)
 
 
-def test_neither_is_needed():
+def test_a_scene_needs_neither_flight_nor_walk():
     scene = parse_scene(LEAST)
     assert scene.flight is None
     assert scene.walk is None
@@ -98,7 +98,7 @@ def test_anything_else_is_refused_with_key_and_line(text, message):
     assert message in str(caught.value)
 
 
-def test_the_schema_says_the_same():
+def test_reader_and_schema_agree_on_flight_and_walk():
     content = tomllib.loads(MOVING)
     assert violations(content, SCHEMA, closed=True) == []
     for path in list(places(content)):

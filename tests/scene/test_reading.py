@@ -61,7 +61,7 @@ def refusal(text, source="s.toml"):
     return message
 
 
-def test_everything_that_a_scene_can_have():
+def test_a_scene_with_every_key_is_read():
     assert parse_scene(WHOLE) == SceneModel(
         name="yard",
         question="exterior",
@@ -74,7 +74,7 @@ def test_everything_that_a_scene_can_have():
     )
 
 
-def test_what_is_not_said_has_a_default():
+def test_missing_keys_of_a_scene_have_their_defaults():
     scene = parse_scene(LEAST)
     assert scene == SceneModel("a", "position", (Hyperboloid("hyperboloid 1", 1.0, 2.0),), Mover(1.0, 1.0), Region())
 
@@ -211,7 +211,7 @@ def test_whether_a_part_lies_within_the_mover_is_decided_exactly(part, inside):
     assert (worst <= 1 + 1e-12) or not inside
 
 
-def test_a_file_is_read(tmp_path):
+def test_read_scene_reads_a_file(tmp_path):
     (tmp_path / "yard.toml").write_bytes(codecs.BOM_UTF8 + WHOLE.replace("\n", "\r\n").encode())
     assert read_scene(str(tmp_path / "yard.toml")) == parse_scene(WHOLE)
 
@@ -225,7 +225,7 @@ def test_a_file_is_read(tmp_path):
         (b"\x7fELF\x02\x01", "is no TOML"),
     ],
 )
-def test_what_is_no_text_is_refused(tmp_path, content, message):
+def test_read_scene_refuses_a_file_that_is_no_text(tmp_path, content, message):
     path = tmp_path / "s.toml"
     path.write_bytes(content)
     with pytest.raises(InputError) as caught:
@@ -261,7 +261,7 @@ def test_a_scene_with_more_than_a_file_may_have_is_refused(text, message):
         parse_scene(text)
 
 
-def test_what_cannot_be_opened_is_refused(tmp_path):
+def test_a_file_that_cannot_be_opened_raises_an_error(tmp_path):
     with pytest.raises(InputError, match="is a directory"):
         read_scene(str(tmp_path))
     with pytest.raises(InputError, match=r"there is no such file; it must be one, or a shipped scene: .*tower"):
@@ -276,7 +276,7 @@ def test_each_shipped_scene_is_read_by_its_name_and_from_its_text():
         assert read_scene(name) == parse_scene(shipped_text(name))
 
 
-def test_a_fault_in_a_shipped_scene_is_no_fault_of_a_file(monkeypatch):
+def test_a_fault_in_a_shipped_scene_names_the_shipped_scene(monkeypatch):
     monkeypatch.setattr(reading, "shipped_text", lambda name: "")
     with pytest.raises(InputError, match=r"^the shipped scene tower: the scene has no name"):
         read_scene("tower")
@@ -290,7 +290,7 @@ def test_the_shipped_tower_is_the_papers():
     assert [(part.b, part.d) for part in scene.mover.parts] == [(0.1, 0.05)] * 4
 
 
-def test_reading_loads_nothing_heavy():
+def test_reading_a_scene_loads_no_heavy_library():
     code = (
         "import sys; from hypcheck.scene.reading import read_scene; read_scene('tower');"
         "sys.exit(bool({'numpy', 'sympy', 'mpmath', 'matplotlib', 'fcl'} & set(sys.modules)))"

@@ -70,7 +70,7 @@ def accepted(content):
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_what_the_reader_accepts_fits(text):
+def test_scenes_that_the_reader_accepts_fit_the_schema(text):
     assert violations(tomllib.loads(text), SCHEMA, closed=True) == []
 
 

@@ -59,13 +59,13 @@ ALLOWED = {
 FORBIDDEN_METHODS = {"sum", "cumsum", "prod", "mean", "std", "dot", "random_sample", "normal", "uniform", "choice"}
 
 
-def test_streams_are_told_apart_by_each_part_of_their_name() -> None:
+def test_streams_differ_in_each_part_of_their_name() -> None:
     words = [Draw(*name).words(4).tolist() for name in (("a", 1, 2), ("a", 1, 3), ("a", 2, 2), ("b", 1, 2), ("a", 12))]
     assert len({tuple(w) for w in words}) == len(words)
     assert words[0] == Draw("a", 1, 2).words(4).tolist()
 
 
-def test_the_stream_is_the_published_philox() -> None:
+def test_words_of_a_stream_are_those_of_the_published_philox() -> None:
     """Philox 4×64 with ten rounds, written out: the stream does not rest on numpy's promise alone."""
     key = int.from_bytes(hashlib.sha256(b"some/1/0").digest()[:16], "little")
     assert Draw("some", 1, 0).words(12).tolist() == [word for block in (1, 2, 3) for word in _philox(key, block)]
@@ -93,7 +93,7 @@ def test_blocks_side_by_side_have_the_words_that_each_has_alone() -> None:
         together.words(4)
 
 
-def test_numbers_keep_to_their_ranges() -> None:
+def test_drawn_numbers_lie_in_their_ranges() -> None:
     draw = Draw("ranges")
     integers = draw.integers(N, -3, 4)
     assert set(integers.tolist()) == set(range(-3, 5))
@@ -112,7 +112,7 @@ def test_numbers_keep_to_their_ranges() -> None:
     assert lengths == set(range(1, 10))
 
 
-def test_each_octave_and_each_integer_is_as_likely_as_the_other() -> None:
+def test_each_exponent_and_each_integer_is_drawn_equally_often() -> None:
     draw = Draw("evenness")
     for values in (draw.integers(N, 0, 9), exponent(draw.log_uniform(N, -5, 5)) + 5):
         counts = np.bincount(values, minlength=10)
@@ -130,7 +130,7 @@ def test_circle_points_lie_on_the_circle_in_every_quadrant_and_on_the_axes() -> 
     assert [value.tolist() for value in circle_at(half)] == [[1, 0.6, 0], [0, 0.8, 1]]
 
 
-def test_steps_are_ulps() -> None:
+def test_stepped_moves_by_ulps() -> None:
     values = np.asarray([1.0, -1.0, 3e-310, 0.0, 1e300])
     up = [math.nextafter(value, math.inf if value > 0 else -math.inf) for value in values.tolist()]
     up[3] = 0.0
@@ -153,7 +153,7 @@ def test_rows_are_taken_in_turn() -> None:
     assert ldexp(3, np.asarray([-1, 2])).tolist() == [1.5, 12]
 
 
-def test_triples_and_roots_are_exact() -> None:
+def test_pythagorean_triples_and_integer_roots_are_exact() -> None:
     draw = Draw("triples")
     leg, other, hypotenuse = triples(draw, 500, 9)
     assert (leg * leg + other * other == hypotenuse * hypotenuse).all()

@@ -82,7 +82,7 @@ def test_magnitudes_go_beyond_1e150_both_ways_in_all_combinations() -> None:
     assert len(np.unique(sizes > 1, axis=0)) == 4
 
 
-def test_a_hair_is_what_parts_a_row_from_tangency() -> None:
+def test_extreme_hair_rows_are_a_tiny_coordinate_away_from_tangency() -> None:
     for row in FAMILIES["extreme-hair"].rows(0, 200).tolist():
         assert not exact.decide(Pair.from_row(row).lengths).tangent
         without = [0.0 if 0 < abs(value) < 1e-59 else value for value in row]

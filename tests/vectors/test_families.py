@@ -115,7 +115,7 @@ def test_blocks_made_at_one_go_are_those_made_alone(family: Family) -> None:
 
 
 @every_family
-def test_rows_hardly_repeat(family: Family) -> None:
+def test_rows_of_a_family_are_nearly_all_different(family: Family) -> None:
     rows = family.rows(1, BLOCK)
     assert len(np.unique(rows, axis=0)) > 0.85 * BLOCK
 

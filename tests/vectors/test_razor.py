@@ -81,7 +81,7 @@ def test_all_rows_are_finite_where_float64_ends(trap, sizes):
 
 
 @given(st.floats(0.0, sys.float_info.max))
-def test_a_float_s_ordinal_is_its_own(x):
+def test_float_at_inverts_ordinal(x):
     ordinal = families._ordinal(x)
     assert families._float_at(ordinal) == x
     assert ordinal == 0 or families._float_at(ordinal - 1) == math.nextafter(x, 0.0)

@@ -39,7 +39,7 @@ def test_stiff_ratios_are_spread_over_both_sides_of_1e8(
     assert 4e-7 < within.min() <= within.max() < 4e6
 
 
-def test_giant_tiny_and_far_are_so() -> None:
+def test_giant_tiny_and_far_families_have_such_sizes() -> None:
     for name, low, high in (("giant-spheroids", 2.0**-17, 0.26), ("tiny-spheroids", 1000, 2.0**21)):
         rows = FAMILIES[name].rows(0, COUNT)
         for top, bottom in ((0, 2), (1, 3)):

@@ -89,7 +89,7 @@ def test_the_ring_s_neighbourhood_reaches_from_1e_12_to_1e_2_radii() -> None:
     assert any(abs(float(a) - 8) < 1e-12 and abs(float(c) - 356 / 3) < 1e-9 for a, c in ratios(rows))
 
 
-def test_near_misses_are_near() -> None:
+def test_near_tangent_rows_are_near_a_tangency() -> None:
     """A change of every length by a relative 2⁻⁸ is enough to turn each into the other position."""
     for name, clear in (("near-tangent-outside", EXTERIOR), ("near-tangent-inside", INTERIOR)):
         for lengths in lengths_of(FAMILIES[name].rows(0, 300)):
@@ -106,7 +106,7 @@ def test_near_misses_are_near() -> None:
             assert [exact.position(changed) for changed in spheroids] == [clear, CONTACT]
 
 
-def test_near_misses_reach_down_to_one_ulp() -> None:
+def test_near_tangent_rows_reach_down_to_one_ulp() -> None:
     """Among the rows moved by ulps a few are tangent again when one length is moved back by one ulp."""
     steps = Counter()
     for name in ("near-tangent-outside", "near-tangent-inside"):

@@ -1,9 +1,4 @@
-"""How each language writes an emitted kernel: constants, conditions, answers, tables, comments, statements.
-
-How each language writes what a kernel has beside its programs: constants, conditions, answers, tables, comments.
-
-Statements that every writer of a setting's code needs: constants, and programs printed in the language.
-"""
+"""How each language writes an emitted kernel: constants, conditions, answers, tables, comments, statements."""
 
 from __future__ import annotations
 
@@ -33,7 +28,7 @@ class Dialect:
     name: str
     file: str
     numbers: Mapping[str, str]
-    printer: Callable[[Program, tuple[str, ...], str], tuple[str, ...]]
+    printer: Callable[..., tuple[str, ...]]
     phrases: Mapping[str, str]
     suffixes: Mapping[str, str]
 
@@ -46,6 +41,10 @@ class Dialect:
     def literal(self, value: float, precision: str) -> str:
         """A number of the format, in decimals that read back as that very number."""
         return f"{value!r}{self.suffixes.get(precision, '')}"
+
+    def statements(self, program: Program, wanted: tuple[str, ...], precision: str) -> tuple[str, ...]:
+        """The needed part of the program, in numbers of the format; a statement for each step."""
+        return self.printer(program, wanted, number=self.number_of(precision))
 
     def say(self, phrase: str, **words: object) -> str:
         """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""
@@ -135,39 +134,24 @@ _PYTHON = {
 }
 
 
-def _c(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
-    return c_statements(program, wanted, number=number)
-
-
-def _cpp(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
-    return cpp_statements(program, wanted, number=number)
-
-
-def _rust(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
-    return rust_statements(program, wanted, number=number)
-
-
-def _javascript(program: Program, wanted: tuple[str, ...], number: str) -> tuple[str, ...]:
-    return javascript_statements(program, wanted, number=number)
-
-
-def _python(program: Program, wanted: tuple[str, ...], _number: str) -> tuple[str, ...]:
-    return python_statements(program, wanted)
-
-
 _C_NUMBERS = {"float64": "double", "float32": "float"}
 _C_SUFFIXES = {"float32": "F"}
 
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "kernel.c", _C_NUMBERS, _c, _C_LIKE, _C_SUFFIXES),
-        Dialect("cpp", "kernel.cpp", _C_NUMBERS, _cpp, _CPP, _C_SUFFIXES),
-        Dialect("rust", "kernel.rs", {"float64": "f64", "float32": "f32"}, _rust, _RUST, {}),
+        Dialect("c", "kernel.c", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES),
+        Dialect("cpp", "kernel.cpp", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES),
+        Dialect("rust", "kernel.rs", {"float64": "f64", "float32": "f32"}, rust_statements, _RUST, {}),
         Dialect(
-            "javascript", "predicate.mjs", {"float64": "number", "float32": "float32"}, _javascript, _JAVASCRIPT, {}
+            "javascript",
+            "predicate.mjs",
+            {"float64": "number", "float32": "float32"},
+            javascript_statements,
+            _JAVASCRIPT,
+            {},
         ),
-        Dialect("python", "kernel.py", {"float64": "float"}, _python, _PYTHON, {}),
+        Dialect("python", "kernel.py", {"float64": "float"}, python_statements, _PYTHON, {}),
     )
 }
 """By name: what `emit --language` takes."""
@@ -193,7 +177,7 @@ class Statements:
             yield self._say("constant", name=name, value=self._literal(value))
 
     def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
-        return self._dialect.printer(program, wanted, self._number)
+        return self._dialect.statements(program, wanted, self._precision)
 
     def _literal(self, value: float) -> str:
         return self._dialect.literal(value, self._precision)

@@ -1,12 +1,11 @@
 """The functions of a setting: one centre in any language, and many centres at once in C and C++.
 
-A setting's function in any language: the stages of its plan, one after the other, until one answers.
+The function for one centre has the stages of its plan, one after the other, until one answers.
 
-Many centres of one setting at once, in C and C++: the stages as loops without branches, block by block.
-
-The first loop asks the lines, the second, where they leave a centre of the block open, the discriminant; what is open
-after that goes to the setting's function one by one. After an open block the lines are passed over for a while: where
-centres are spread all over a region, nearly every block is open, and along a path hardly any.
+The function for many has the stages as loops without branches, block by block. The first loop asks the lines, the
+second, where they leave a centre of the block open, the discriminant; centres that are open after that go to the
+setting's function one by one. After an open block the lines are passed over for a while: where centres are spread all
+over a region, nearly every block is open, and along a path hardly any.
 """
 
 from __future__ import annotations

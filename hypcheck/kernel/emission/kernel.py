@@ -1,10 +1,7 @@
 """A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
 
-Filling a template: ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was.
-
-What a kernel says of itself, as its language holds it: a text of JSON, or an object; a line for each setting.
-
-A kernel from a plan, in one of the languages: a template, its constants, and statements printed from programs.
+In a template ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was. The description
+is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting.
 """
 
 from __future__ import annotations
@@ -204,7 +201,7 @@ def _search(plan: ScenePlan, dialect: Dialect, extension: str) -> str:
     """The search that all settings share."""
 
     def printed(program: Program, *wanted: str) -> str:
-        return "\n".join(dialect.printer(program, wanted, dialect.number_of(plan.format.name)))
+        return "\n".join(dialect.statements(program, wanted, plan.format.name))
 
     parts = {
         "number": dialect.number_of(plan.format.name),

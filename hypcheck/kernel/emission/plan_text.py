@@ -1,10 +1,8 @@
 """A plan in words and numbers: operations, the comment at the head of a kernel, the output of `hypcheck plan`.
 
-What a setting's kernel does before its search, counted from its programs and its own comparisons.
-
-What stands at the head of an emitted kernel: for which scene it is, what it costs, what is proved of it.
-
-A plan in words and numbers: what each setting of a scene needs, what is left out and why, and what that saves.
+Operations are those before the search, counted from the programs and the kernel's own comparisons. The comment says for
+which scene the kernel is, what it costs and what is proved of it. The output says what each setting of a scene needs,
+what is left out and why, and what that saves.
 """
 
 from __future__ import annotations
@@ -25,7 +23,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
-from hypcheck.messages import escaped
+from hypcheck.messages import counted, escaped
 from hypcheck.scene.model import Span
 from hypcheck.version import VERSION
 
@@ -71,7 +69,7 @@ def operations_before(stages: Stages, question: str) -> Operations:
 def operations_text(operations: Operations) -> str:
     """The operations in words."""
     return ", ".join(
-        _many(number, noun)
+        counted(number, noun)
         for number, noun in (
             (operations.additions, "addition"),
             (operations.multiplications, "multiplication"),
@@ -79,10 +77,6 @@ def operations_text(operations: Operations) -> str:
             (operations.comparisons, "comparison"),
         )
     )
-
-
-def _many(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 WIDTH = 110

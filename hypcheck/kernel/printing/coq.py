@@ -1,11 +1,8 @@
 """Programs printed for Coq: StageTwo.v of the kernel's own programs, and the proof that goes with an emitted kernel.
 
-The proof that goes with a kernel: what the sign of its discriminant says in its region, as a file for Coq.
-
-The file states the kernel's own steps, constants and bound, and proves by hypcheck/proofs/Region.v that beyond the
-bound the computed number has the sign of the discriminant of g. `python -m hypcheck.proofs FILE` has Coq check it.
-
-Programs as Coq: each step a definition of type `expr` (hypcheck/proofs/Rounding.v), in the program's order.
+A program becomes definitions of type `expr` (hypcheck/proofs/Rounding.v), one a step, in the program's order. The proof
+of an emitted kernel states its steps, constants and bound, and proves by hypcheck/proofs/Region.v that beyond the bound
+the computed number has the sign of the discriminant of g. `python -m hypcheck.proofs FILE` has Coq check it.
 """
 
 from __future__ import annotations

@@ -1,33 +1,25 @@
 """Programs printed in C, C++, Rust, JavaScript and Python.
 
-How languages write the operations of a program, and the one function that writes them down.
-
 A printer fills in a Spelling; `statements` does the rest. Nothing is reordered, merged or folded: what stands in the
 program is what the printed text rounds, and in that order.
 
-C99: a `const` declaration a step, in an order and a form that a compiler may vectorise and must not rearrange.
-
-Compile without -ffast-math. Contraction (FMA) leaves roundings out; where results must be the same to the bit,
--ffp-contract=off, and a machine that evaluates in the type itself (FLT_EVAL_METHOD 0, as everywhere but on x87).
-
-Truth values are `int`, joined by & and |, so that no step is a branch. gcc 12 makes vectors of such a loop at -O3 with
+C99: a `const` declaration a step, in an order and a form that a compiler may vectorise and must not rearrange. Compile
+without -ffast-math. Contraction (FMA) leaves roundings out; where results must be the same to the bit,
+-ffp-contract=off, and a machine that evaluates in the type itself (FLT_EVAL_METHOD 0, as everywhere but on x87). Truth
+values are `int`, joined by & and |, so that no step is a branch. gcc 12 makes vectors of such a loop at -O3 with
 -fno-trapping-math -fno-math-errno; for SSE2 alone it asks in addition for an answer selected and stored as a number,
 narrowed in a loop of its own.
 
 C++11 and later: as C99, with `bool` for truth values and the overloads of <cmath>.
 
-Compile without -ffast-math; what printing/c.py says about contraction holds here too.
-
 Rust: a `let` a step. Its arithmetic is that of the type itself on every platform, and nothing is contracted.
 
-JavaScript: a `const` a step. Its numbers are binary64; binary32 is that rounded once more by Math.fround.
+JavaScript: a `const` a step. Its numbers are binary64; binary32 is that rounded once more by Math.fround. Rounding
+twice is rounding once for + − × ÷ √ of binary32 numbers, since 53 ≥ 2·24 + 2.
 
-Rounding twice is rounding once for + − × ÷ √ of binary32 numbers, since 53 ≥ 2·24 + 2.
-
-Python: an assignment a step, in binary64, the only format its floats have.
-
-Unlike the other languages, Python raises ZeroDivisionError and ValueError where IEEE 754 gives an infinity or a NaN: a
-caller divides by nothing that can be zero, and takes no root of what can be negative.
+Python: an assignment a step, in binary64, the only format its floats have. Unlike the other languages, Python raises
+ZeroDivisionError and ValueError where IEEE 754 gives an infinity or a NaN: a caller divides by nothing that can be
+zero, and takes no root of what can be negative.
 """
 
 from __future__ import annotations
@@ -312,10 +304,13 @@ _PYTHON_SPELLING = Spelling(
 )
 
 
-def python_statements(program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+def python_statements(program: Program, wanted: tuple[str, ...], *, number: str = "float") -> tuple[str, ...]:
     """The needed part of the program: one `name = left + right` a step.
 
     The inputs are in scope under their own names, as floats; truth values are bool. `sqrt` needs `import math`. Raises
-    ValueError for names that Python reserves, and KeyError where a wanted name does not exist.
+    ValueError for another type of numbers and for names that Python reserves, and KeyError where a wanted name does not
+    exist.
     """
+    if number != "float":
+        raise ValueError(f"no Python type of numbers {number!r}; there is float alone")
     return statements(program, wanted, _PYTHON_SPELLING)

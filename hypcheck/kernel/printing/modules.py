@@ -1,13 +1,12 @@
 """Printer of the modules in kernel/printed: numpy statements over reused buffers, and scalar Python.
 
-numpy over chunks: a ufunc call a step, into buffers that are used again as soon as their value has been read.
+    python -m hypcheck.kernel.printing.modules
 
-Temporaries are what makes a numpy expression slow: each is memory to find, to fill and to read back. A chunk's buffers
-stay in the cache. Each call is one IEEE operation, so this is the program's arithmetic to the bit.
+rewrites them; a test compares the committed files with what this prints.
 
-Writes the Python modules of kernel/printed, as core/generate.py writes hypcheck.h.
-
-python -m hypcheck.kernel.printing.modules
+numpy gets a ufunc call a step, over chunks, into buffers that are used again as soon as their value has been read.
+Temporaries make a numpy expression slow: each is memory to find, to fill and to read back. A chunk's buffers stay in
+the cache. Each call is one IEEE operation, so this is the program's arithmetic to the bit.
 """
 
 from __future__ import annotations

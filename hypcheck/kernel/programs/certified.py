@@ -1,8 +1,7 @@
 """The programs of the second stage: a position where an error bound proves it, for rows of any sizes and for one pair.
 
-The program of the second stage: a position where a running error bound proves it, for any sizes.
-
-u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding mode and not in "to nearest" alone.
+CERTIFIED has a running error bound. u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding
+mode and not in "to nearest" alone.
 
 Coefficients. The formula object counts the rounding factors (tests/kernel/test_programs.py asks it): at most 7 in c0 =
 −AB, 11 in a term of c1, 7 in a term of c2. With one unit more for the second order,
@@ -39,17 +38,14 @@ and c1, c2 by less than 2⁻⁷⁰⁰. e1 ≥ 12u AB > 2⁻²⁴⁹ and e2 ≥ 8
 to spare. E1 ≥ 3 e1, E2 ≥ 9 e0 > 2⁻²⁴⁹ and E3 ≥ 3 m0 e2 > 2⁻²⁴⁹ exceed every underflow in h1, h2, h3 (2⁻¹⁰²¹ times a
 small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to Δ.
 
-The program for one pair in plain Python, where each operation costs as much as a comparison or a call.
-
-It is `certified` with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed
-value is off by at most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2,
-11 for c1 and 42 for 3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second
-order, for the rounding of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1,
-H2 = M2 M1 + 9 AB and H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term.
-What it leaves open, or what lies outside c² > a > 1, goes to the integers.
-
-Range. b, d, A and B in 2^±100 and P + Q < FARTHEST = 2²⁰⁰ are asked for, as in `certified` and for its reason:
-M2 < 2²⁰¹ and M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
+SINGLE is for one pair in plain Python, where each operation costs as much as a comparison or a call. It is CERTIFIED
+with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed value is off by at
+most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2, 11 for c1 and 42 for
+3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second order, for the rounding
+of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1, H2 = M2 M1 + 9 AB and
+H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term. What it leaves open, or
+what lies outside c² > a > 1, goes to the integers. Its range is that of CERTIFIED, for the same reason: M2 < 2²⁰¹ and
+M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
 """
 
 from __future__ import annotations

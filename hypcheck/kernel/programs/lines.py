@@ -1,6 +1,4 @@
-"""The programs of the first stage: half planes that prove a position, in double and in single precision.
-
-The programs of the first stage: half planes that prove a position of one scene, and the numbers they are made of.
+"""The programs of the first stage: half planes that prove a position of one scene, in double and in single precision.
 
 In the plane of R = x² + y² and T = z² the exterior positions are the union over λ in (0, B) of the half planes
 
@@ -23,10 +21,9 @@ Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing o
 NaN, or the largest finite number that an overflow becomes when it is rounded down, passes for a proof. It suffices to
 ask that of the sum of R + T over many rows, since no term is negative.
 
-The programs of the numpy kernel's first stage: half planes of one slope a side, looked at in single precision.
-
-In numpy a row costs what its passes over arrays cost, and float32 halves each. The two lines that bound a side, beyond
-and under, or within and above (lines.py), get one slope M, so that they are two thresholds of the same number:
+PARALLEL_LINES is for numpy, in single precision: a row there costs what its passes over arrays cost, and float32 halves
+each. The two lines that bound a side, beyond and under, or within and above, get one slope M, so that they are two
+thresholds of the same number:
 
     R − M T > K proves exterior, R − M T < K not exterior; likewise on the inner side.
 
@@ -38,12 +35,13 @@ R̂ carries 4 factors, M T̂ also 4 and the difference one more, so
 
     |V̂ − V| ≤ 5u (1 + 5u) (R + M T) + tiny = 5u (1 + 5u) (V + 2 M T) + tiny,        tiny = 2⁻⁸⁰,
 
-since a square that underflows, or is flushed to zero, is off by 2⁻¹²⁴ at most and M ≤ GREATEST_SLOPE = 2⁴⁰. A threshold
-moved to the safe side by MARGIN (|K| + 2 M reach) + tiny, MARGIN = 16u, hence decides about the exact V; half of that
-is for its own rounding to float32. T̂ ≤ LESS reach, LESS = 1 − MARGIN, says T ≤ `reach` of the exact T.
+since a square that underflows, or is flushed to zero, is off by 2⁻¹²⁴ at most and M ≤ FLOAT32_GREATEST_SLOPE = 2⁴⁰. A
+threshold moved to the safe side by FLOAT32_MARGIN (|K| + 2 M reach) + tiny, FLOAT32_MARGIN = 16u, hence decides about
+the exact V; half of that is for its own rounding to float32. T̂ ≤ FLOAT32_LESS reach, FLOAT32_LESS = 1 − FLOAT32_MARGIN,
+says T ≤ `reach` of the exact T.
 
-Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < CAP = 2¹⁰⁰ nothing overflows; infinities,
-NaN and the largest float32 are not below CAP. Scenes outside are left to the lines in float64.
+Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < FLOAT32_CAP = 2¹⁰⁰ nothing overflows;
+infinities, NaN and the largest float32 are not below it. Scenes outside are left to the lines in float64.
 """
 
 from __future__ import annotations

@@ -1,15 +1,13 @@
 """The first stages of a specialised kernel: lines of fixed λ, the centre's side, thresholds at a fixed height.
 
-The first steps of a specialised kernel: from the centre to R = x² + y² and zz = z², in the kernel's units.
+All of them work on R = x² + y² and zz = z², in the kernel's units.
 
-On which side of the hyperboloid the centre lies: all that a clear spheroid, or a one-sided "no", asks for.
+The centre's side is all that a clear spheroid, or a one-sided "no", asks for. The centre is outside where
+R > α² + (α²/γ²) Z. Each side carries at most 5 factors (1+δ), |δ| ≤ u, so the answer is that of inputs changed by 5u at
+most; a clear spheroid's centre is a whole radius from the surface.
 
-The centre is outside where R > α² + (α²/γ²) Z. Each side carries at most 5 factors (1+δ), |δ| ≤ u, so the answer is
-that of inputs changed by 5u at most; a clear spheroid's centre is a whole radius from the surface.
-
-Lines: a fixed λ is a proof of clear for every centre beyond it, at the price of two products and a comparison.
-
-With R = x² + y² and Z = z², for λ in (0, B)
+Lines. A fixed λ is a proof of clear for every centre beyond it, at the price of two products and a comparison. With
+R = x² + y² and Z = z², for λ in (0, B)
 
     P/(A+λ) − Q/(B−λ) > 1 + 1/λ   is   R > b² (A+λ)(1 + 1/λ) + (b²/d²) (A+λ)/(B−λ) Z   and proves exterior,
 
@@ -18,7 +16,8 @@ and for μ in (0, A), λ = −μ,
     Q/(B+μ) − P/(A−μ) > 1/μ − 1   is   R < b² (A−μ)(1 − 1/μ) + (b²/d²) (A−μ)/(B+μ) Z   and proves interior
 
 (docs/mathematics.md, "A line is a proof"). The constants are exact rationals, moved by MARGIN to the safe side and
-rounded to that side once.
+rounded to that side once. A setting gets the lines that decide most centres of its region, and no more than pay for
+themselves.
 
 Why MARGIN covers. Both sides are sums of positive terms (a negative intercept stands on the other side, as a lift).
 x, y and z may carry one rounding each, on entry; the square doubles it and adds one, a sum or product adds one: R and Z
@@ -27,13 +26,10 @@ from what the constants say by less than (1+u)^5/(1−u)^5 < 1 + 11u; MARGIN is 
 changes a side by less than 2^least of the format, which the constants, kept above 2^(least/2), do not notice at 5u.
 An overflow of R alone means far outside, one of slope·Z alone far inside, and both compare false.
 
-Which lines a setting gets: those that decide most centres of its region, and no more than pay for themselves.
-
-At a fixed height two thresholds on R = x² + y² are all there is: exterior beyond one, interior below the other.
-
-The exterior positions are an up-set when R grows, the interior ones when it falls (docs/mathematics.md), so each
-threshold is one real number. It is found by halving an interval of exact decisions until it is narrower than a rounding
-of the format, and rounded to nearest. R carries at most 4 factors (1+δ), |δ| ≤ u (x and y may be rounded on entry), the
+Thresholds. At a fixed height two thresholds on R are enough: exterior beyond one, interior below the other. The
+exterior positions are an up-set when R grows, the interior ones when it falls (docs/mathematics.md), so each threshold
+is one real number. It is found by halving an interval of exact decisions until it is narrower than a rounding of the
+format, and rounded to nearest. R carries at most 4 factors (1+δ), |δ| ≤ u (x and y may be rounded on entry), the
 threshold one and what is left of the interval less than one: an answer is right for x and y changed by 3u.
 """
 
@@ -49,7 +45,7 @@ import numpy as np
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import Program, program_of
-from hypcheck.geometry.pair import Lengths, Position, Sizes
+from hypcheck.geometry.pair import Lengths, Position, Sizes, to_integers
 from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import integers
 from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting
@@ -270,12 +266,5 @@ def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) ->
 
 def _position(sizes: Sizes, x: Fraction, z: float) -> Position:
     """The exact position at (x, 0, z)."""
-    alpha, gamma, b, d = map(Fraction, sizes)
-    radial, axial = _integers(alpha, b, x), _integers(gamma, d, Fraction(z))
-    return integers.position(Lengths(radial[0], radial[1], radial[2], 0, *axial))
-
-
-def _integers(*values: Fraction) -> tuple[int, int, int]:
-    unit = max(value.denominator for value in values)  # all are dyadic
-    one, two, three = (int(value * unit) for value in values)
-    return one, two, three
+    alpha, gamma, b, d = sizes
+    return integers.position(Lengths(*to_integers((alpha, b, x, 0.0)), *to_integers((gamma, d, z))))

@@ -1,9 +1,8 @@
 """The last stages of a specialised kernel: the Hessian discriminant with a fixed error bound, and the search on φ.
 
-The Hessian discriminant of a setting with an error bound that is one number: fixed for a box of centres.
-
-With s a power of two near (AB)^⅓ and λ = s μ, the cubic is μ³ + (c2/s) μ² + (c1/s²) μ + c0/s³, whose discriminant is
-Δ/s⁶: the sign stays and the magnitudes come near 1. In R and Z (scale.py) its coefficients are
+The discriminant of a setting has an error bound that is one number, fixed for a box of centres. With s a power of two
+near (AB)^⅓ and λ = s μ, the cubic is μ³ + (c2/s) μ² + (c1/s²) μ + c0/s³, whose discriminant is Δ/s⁶: the sign stays and
+the magnitudes come near 1. In R and Z (settings.py) its coefficients are
 
     c1/s² = V + VR R − VZ Z,  V = (c0 + A − B)/s²,  VR = B/(b² s²),  VZ = A/(d² s²)
     c2/s  = K − KR R − KZ Z,  K = (A − B + 1)/s,    KR = 1/(b² s),   KZ = 1/(d² s),     c0/s³ = −AB/s³.
@@ -14,13 +13,12 @@ included, so that |computed − exact| ≤ γ_k M, where M is the sum of the ter
 
 What the sign says. Δ < 0: contact, whatever the sizes. Δ > 0: clear, where a ≥ 1 and c² ≥ a (the pair of roots below
 the largest can then be nowhere but between the poles: docs/mathematics.md), on the side on which the centre is
-(centre.py). Elsewhere Δ > 0 settles nothing, and the search is asked.
+(first_stages.py). Elsewhere Δ > 0 settles nothing, and the search is asked.
 
-The last stage: the sign of the dual function φ at the λ where it is largest, found by a search that cannot cancel.
-
-F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of
-0 the root lies, its sign half way to the pole whether it is nearer to 0 or to the pole; that distance is the unknown,
-halved first in its exponent, then itself, and the two other distances are sums of it (docs/mathematics.md).
+The search finds the sign of the dual function φ at the λ where it is largest, and cannot cancel. F = φ' = (a r/(A+λ))²
+− (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of 0 the root lies, its
+sign half way to the pole whether it is nearer to 0 or to the pole; that distance is the unknown, halved first in its
+exponent, then itself, and the two other distances are sums of it (docs/mathematics.md).
 
 Everything that rounds is one of the programs below; a kernel adds the loop, and which side goes on.
 
@@ -283,7 +281,7 @@ def _root(value: Fraction, form: FloatFormat) -> float:
 def backward_bound() -> Fraction:
     """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ.
 
-    Products by the units of scale.py are by powers of two and round nothing, so the unscaled entry is what is counted.
+    Products by the units of settings.py are by powers of two and round nothing, so the unscaled entry is counted.
     """
     first, _ = entry(UNSCALED)
     steps = (*first.steps, *(step for step in START.steps if step.name in {"P", "Q"}), *PHI.steps)

@@ -68,7 +68,7 @@ class Omission:
 class Stages:
     """A setting's way to an answer: `always`, or `thresholds`, or lines, discriminant and search in that order.
 
-    `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of centre.py,
+    `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of the side,
     whose test follows the lines where the question is one-sided. `shares` says how many of the sample's centres each
     stage decided. `bound_u` is the backward error that an answer can have, in units u.
     """

@@ -1,12 +1,8 @@
 """The settings of a scene: one spheroid beside one hyperboloid, its region, sample centres, float format and scale.
 
-The settings of a scene: one spheroid beside one hyperboloid, and where its centre can be, seen from the latter's.
-
-Centres to try a plan on: the same ones every time, spread over the region of a setting or around its surface.
-
-The float formats that a specialised kernel computes in, and exact numbers rounded to them in a given direction.
-
-Lengths scaled by powers of two where their squares could leave the format, and the exact constants of a setting.
+The region is where the spheroid's centre can be, seen from the hyperboloid's. Sample centres are the same ones every
+time, spread over the region, or around the surface where the region is open. Lengths are scaled by powers of two where
+their squares could leave the format.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ def refused(arguments, capsys):
 
 
 @pytest.mark.parametrize(("old", "new", "sentence"), BAD.values(), ids=BAD)
-def test_a_bad_scene_gets_a_sentence_and_leaves_what_was_there(old, new, sentence, tmp_path, capsys):
+def test_emit_refuses_a_bad_scene_and_leaves_the_output_file_unchanged(old, new, sentence, tmp_path, capsys):
     path, output = tmp_path / "scene.toml", tmp_path / "kernel.c"
     assert old in SCENE
     path.write_text(SCENE.replace(old, new), encoding="utf-8")
@@ -63,7 +63,7 @@ def test_a_bad_scene_gets_a_sentence_and_leaves_what_was_there(old, new, sentenc
     assert sorted(each.name for each in tmp_path.iterdir()) == ["kernel.c", "scene.toml"]
 
 
-def test_what_cannot_be_read_or_written_gets_a_sentence(tmp_path, capsys):
+def test_emit_reports_files_that_it_cannot_read_or_write_in_one_sentence(tmp_path, capsys):
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
     assert "is not UTF-8 text" in refused(["plan", str(tmp_path / "bytes.toml")], capsys)
     assert "is a directory" in refused(["plan", str(tmp_path)], capsys)
@@ -74,7 +74,7 @@ def test_what_cannot_be_read_or_written_gets_a_sentence(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("prefix", ["", "2nd", "_own", "own_", "a__b", "höhe", "a-b", "a b", "x" * 41, "a;\n"])
-def test_a_prefix_that_is_no_identifier_gets_a_sentence(prefix, tmp_path, capsys):
+def test_emit_refuses_a_prefix_that_is_no_identifier(prefix, tmp_path, capsys):
     output = tmp_path / "kernel.c"
     emit = ["emit", "--scene", "tower", "--language", "c", "--output", str(output), "--prefix", prefix]
     assert "the prefix is " in refused(emit, capsys)
@@ -82,12 +82,12 @@ def test_a_prefix_that_is_no_identifier_gets_a_sentence(prefix, tmp_path, capsys
 
 
 @pytest.mark.parametrize("language", ["javascript", "python"])
-def test_a_prefix_for_a_module_gets_a_sentence(language, capsys):
+def test_emit_refuses_a_prefix_for_a_language_of_modules(language, capsys):
     emit = ["emit", "--scene", "tower", "--language", language, "--prefix", "tower"]
     assert f"a {language} kernel is a module with names of its own" in refused(emit, capsys)
 
 
-def test_trees_that_overlap_are_no_mistake(tmp_path, capsys):
+def test_plan_accepts_trees_that_overlap(tmp_path, capsys):
     """Every pair is asked for itself; trees of the same sizes share a function."""
     path = tmp_path / "scene.toml"
     trees = "".join(

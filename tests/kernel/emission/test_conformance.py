@@ -30,7 +30,7 @@ def gated(folder, spec, count=60):
     ("language", "precision", "scene"),
     [("c", "float64", "forest"), ("cpp", "float32", "tower"), ("rust", "float64", "tower-simplest")],
 )
-def test_a_library_is_gated_as_it_is(language, precision, scene, tmp_path, capsys, monkeypatch):
+def test_an_emitted_library_passes_the_conformance_run(language, precision, scene, tmp_path, capsys, monkeypatch):
     skip_without(language)
     if scene == "forest":  # of 58 settings; test_scenes.py asks its kernel the rows that are searched for each
         monkeypatch.setattr(families, "TRAPS", [trap for trap in families.TRAPS if trap.name != "razor"])
@@ -45,14 +45,14 @@ def test_a_library_is_gated_as_it_is(language, precision, scene, tmp_path, capsy
     assert found["worst_backward_error_u"] <= 8
 
 
-def test_a_python_kernel_is_gated_as_it_is(tmp_path):
+def test_an_emitted_python_kernel_passes_the_conformance_run(tmp_path):
     emit(tmp_path / "kernel.py", "python")
     ended, found = gated(tmp_path, f"python:{tmp_path / 'kernel.py'}:classify")
     assert (ended, found["precision"]) == (0, "float64")
     assert found["asked"] > 600
 
 
-def test_a_javascript_kernel_takes_the_predicate_s_place(tmp_path):
+def test_an_emitted_javascript_kernel_works_in_place_of_the_predicate(tmp_path):
     skip_without("javascript")
     assert main(["init", "--language", "javascript", "--directory", str(tmp_path)]) == 0
     (adapter,) = tmp_path.rglob("adapter.mjs")
@@ -62,7 +62,7 @@ def test_a_javascript_kernel_takes_the_predicate_s_place(tmp_path):
     assert found["asked"] > 600
 
 
-def test_a_kernel_that_is_wrong_is_found_out(tmp_path, capsys):
+def test_a_wrong_emitted_kernel_fails_the_conformance_run(tmp_path, capsys):
     """The families of its own sizes judge it: a line moved inward by a millionth claims what touches."""
     emit(tmp_path / "kernel.py", "python", "--question", "position")
     text = (tmp_path / "kernel.py").read_text(encoding="utf-8")
@@ -76,7 +76,7 @@ def test_a_kernel_that_is_wrong_is_found_out(tmp_path, capsys):
     assert found["wrong"] > 0
 
 
-def test_writing_to_standard_output_is_the_same(tmp_path, capsysbinary):
+def test_emit_writes_the_same_text_to_standard_output_and_to_a_file(tmp_path, capsysbinary):
     emit(tmp_path / "kernel.c", "c")
     assert main(["emit", "--scene", "tower", "--language", "c"]) == 0
     assert capsysbinary.readouterr().out == (tmp_path / "kernel.c").read_bytes()

@@ -30,14 +30,14 @@ def scene_named(name):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_name_of_any_script_stands_in_the_head_as_it_is(language):
+def test_a_scene_name_in_any_script_stands_unchanged_in_the_head(language):
     text = emitted(plan_of(scene_named("Kühlturm 塔")), language, ["hypcheck", "emit", "--scene", "Türme/塔.toml"])
     assert 'in the scene "Kühlturm 塔"' in text
     assert "hypcheck emit --scene 'Türme/塔.toml'" in text
     assert "the mover and Kühlturm 塔" in text
 
 
-def test_what_cannot_be_seen_is_escaped_and_nothing_ends_a_comment_or_a_line():
+def test_invisible_characters_in_names_are_escaped_and_end_no_comment_or_line():
     assert comment_text("a\u202eb \udcff") == "a\\u202eb \\udcff"
     shown = comment_text(NASTY)
     assert not [harm for harm in ("*/", "/*", '"""', "??", "\u2028", "\n") if harm in shown]
@@ -46,7 +46,7 @@ def test_what_cannot_be_seen_is_escaped_and_nothing_ends_a_comment_or_a_line():
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_kernel_with_a_nasty_name_is_built_without_a_warning_and_answers(language, tmp_path):
+def test_a_kernel_of_a_scene_with_a_hostile_name_builds_without_warnings_and_answers(language, tmp_path):
     """As the same kernel with a plain name does; warnings are errors, and C's trigraphs count."""
     skip_without(language)
     sizes = plan_of(scene_named("tree")).settings[0].setting.sizes

@@ -34,7 +34,7 @@ SCENES = {
 @pytest.mark.parametrize("precision", ["float64", "float32"])
 @pytest.mark.parametrize("name", SCENES)
 @needs("c")
-def test_c_is_within_its_bound(name, precision, tmp_path):
+def test_the_emitted_c_kernel_is_within_its_bound(name, precision, tmp_path):
     for question in ("position", "interior") if name != "tower" else ("position", "exterior", "interior", "contact"):
         chosen = replace(SCENES[name], question=question)
         plan = plan_of(chosen, precision)
@@ -44,7 +44,7 @@ def test_c_is_within_its_bound(name, precision, tmp_path):
 
 
 @needs("c")
-def test_beyond_the_modelled_height_and_for_other_sizes_it_cannot_say(tmp_path):
+def test_an_emitted_kernel_answers_cannot_say_beyond_the_height_and_for_other_sizes(tmp_path):
     stump = SceneModel("s", "position", (Hyperboloid("stump", 1.0, 2.0, height=Span(-1.0, 1.0)),), Mover(0.5, 0.5))
     library = built(tmp_path, stump, "c")
     rows = np.tile([1.0, 2.0, 0.5, 0.5, 1.2, 0.0, 0.0], (600, 1))
@@ -59,13 +59,13 @@ def test_beyond_the_modelled_height_and_for_other_sizes_it_cannot_say(tmp_path):
 
 
 @needs("c")
-def test_fast_math_is_refused(tmp_path):
+def test_an_emitted_kernel_does_not_compile_with_fast_math(tmp_path):
     with pytest.raises(AssertionError, match="compile without -ffast-math"):
         built(tmp_path, TOWER, "c", "float64", "-ffast-math")
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_kernel_is_the_same_every_time_and_says_how_it_was_made(language):
+def test_emit_gives_the_same_text_every_time_with_its_command(language):
     plan = plan_of(TOWER)
     text = emitted(plan, language, COMMAND)
     assert text == emitted(plan_of(TOWER), language, COMMAND)
@@ -74,7 +74,7 @@ def test_a_kernel_is_the_same_every_time_and_says_how_it_was_made(language):
         assert word in head
 
 
-def test_a_description_is_what_the_protocol_reads():
+def test_the_description_of_an_emitted_kernel_fits_the_protocol():
     claimed = described_by_json(json.dumps(description(plan_of(TOWER, "float32"), "rust")), Description(""))
     assert (claimed.precision, claimed.question) == ("float32", "interior")
     assert [setting.sizes for setting in claimed.domain.settings] == [(2.0, 17.8, 0.25, 0.15), (2.0, 17.8, 0.1, 0.05)]

@@ -29,7 +29,7 @@ def rows_at(centres, sizes=SIZES):
 
 @pytest.mark.parametrize("question", ["position", "exterior", "interior", "contact"])
 @pytest.mark.parametrize("language", ["c", "javascript"])
-def test_so_far_out_that_squares_overflow_it_is_right_or_cannot_say(question, language, tmp_path):
+def test_an_emitted_kernel_is_right_or_cannot_say_where_squares_overflow(question, language, tmp_path):
     skip_without(language)
     draw = np.random.default_rng(1)
     far = 10.0 ** draw.uniform(0, 37, (400, 3)) * draw.choice([0.0, 1.0, 1.0], (400, 3))
@@ -45,7 +45,7 @@ def test_so_far_out_that_squares_overflow_it_is_right_or_cannot_say(question, la
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_what_is_no_number_is_not_taken_for_contact(language, tmp_path):
+def test_an_emitted_kernel_does_not_answer_contact_for_nan(language, tmp_path):
     skip_without(language)
     nan = math.nan
     for question in ("position", "interior"):
@@ -64,26 +64,26 @@ def test_what_is_no_number_is_not_taken_for_contact(language, tmp_path):
         ("float64", (1e-76, 1e-76, 1e76, 1e76)),
     ],
 )
-def test_sizes_whose_products_leave_the_format_are_refused(precision, sizes):
+def test_emit_refuses_sizes_whose_products_leave_the_format(precision, sizes):
     """Each of these once had a kernel that answered at random next to contact."""
     with pytest.raises(InputError, match=r"no kernel is made for alpha .*: .*\(hypcheck.Scene asks any\)"):
         plan_of(scene(sizes), precision)
 
 
-def test_a_region_that_reaches_beyond_the_format_is_refused():
+def test_emit_refuses_a_region_beyond_the_format():
     with pytest.raises(InputError, match="products of the lengths in the region leave float32"):
         plan_of(scene(SIZES, z=Span(-1e30, 1e30)), "float32")
 
 
 @pytest.mark.parametrize("height", [5e-324, 1e-200])
-def test_a_border_that_no_square_can_tell_from_the_axis_is_refused(height):
+def test_emit_refuses_a_border_whose_square_underflows(height):
     with pytest.raises(InputError, match="a border so near to the axis has no square"):
         plan_of(scene((1.0, 1.0, 1.0, 1.0), z=Span(height, height)))
 
 
 @pytest.mark.parametrize("height", [Span(-1e60, 1.0), Span(-1e-60, 1e60), Span(-3.5e38, 0.1)])
 @pytest.mark.parametrize("language", ["c", "cpp", "rust"])
-def test_a_modelled_height_beyond_the_format_is_no_number_in_a_kernel(height, language, tmp_path):
+def test_a_modelled_height_beyond_the_format_leaves_no_number_in_the_kernel(height, language, tmp_path):
     skip_without(language)
     tree = Hyperboloid("tree", 1.0, 2.0, height=height)
     hall = SceneModel("s", "position", (tree,), Mover(0.5, 0.5), Region(z=Span(-2.0, 2.0)))
@@ -93,7 +93,7 @@ def test_a_modelled_height_beyond_the_format_is_no_number_in_a_kernel(height, la
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-def test_the_border_of_the_region_belongs_to_it(precision, tmp_path):
+def test_the_bound_of_an_emitted_kernel_holds_on_the_border_of_its_region(precision, tmp_path):
     skip_without("c")
     kernel = asking(built(tmp_path, replace(HILLS, question="position"), "c", precision), "c")
     for body, stages in zip(HILLS.hyperboloids, plan_of(HILLS).settings, strict=True):
@@ -109,7 +109,7 @@ def x_ends(span):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_the_head_says_what_is_promised_where(language):
+def test_the_head_of_a_kernel_says_what_is_promised_in_which_region(language):
     """A kernel that does not look at a coordinate says so."""
 
     def head(**spans):
@@ -124,7 +124,7 @@ def test_the_head_says_what_is_promised_where(language):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_each_of_many_settings_is_found_and_no_neighbour_of_one(language, tmp_path):
+def test_a_kernel_answers_for_each_of_many_settings_and_for_no_sizes_beside_them(language, tmp_path):
     skip_without(language)
     trees = tuple(
         Hyperboloid(f"tree {number}", alpha, gamma, (0.0, 0.0, 0.0))

@@ -53,7 +53,7 @@ def counted(function):
 
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("name", SCENES)
-def test_the_operations_that_are_told_are_those_of_the_text(name, question):
+def test_operations_in_the_head_are_those_in_the_text(name, question):
     """Comparisons of z with a modelled height stand before them all and are not counted."""
     plan = plan_of(replace(SCENES[name], question=question))
     module = ast.parse(emitted(plan, "python", COMMAND))
@@ -66,7 +66,7 @@ def test_the_operations_that_are_told_are_those_of_the_text(name, question):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_of_many_settings_each_is_told_at_its_own_function(language):
+def test_a_kernel_of_many_settings_describes_each_at_its_function(language):
     text = text_of(MANY, language)
     head, _, rest = text.partition("CANNOT_SAY")
     assert "There are 9 of these" in head
@@ -77,7 +77,7 @@ def test_of_many_settings_each_is_told_at_its_own_function(language):
 
 
 @pytest.mark.parametrize(("name", "language"), [("tower", "c"), ("forest", "c"), ("forest", "cpp"), ("forest", "rust")])
-def test_a_library_describes_itself_however_much_there_is_to_say(name, language, tmp_path):
+def test_a_library_returns_a_description_of_any_length(name, language, tmp_path):
     """ISO C has no strings of more than 4095 characters; the forest's description is longer."""
     skip_without(language)
     chosen = read_scene(name)
@@ -90,7 +90,7 @@ def test_a_library_describes_itself_however_much_there_is_to_say(name, language,
 
 @pytest.mark.parametrize("language", DIALECTS)
 @pytest.mark.parametrize("name", ["tower", "plain"])
-def test_lines_are_short_but_for_the_description(name, language):
+def test_lines_of_emitted_kernels_are_short_except_the_description(name, language):
     lines = text_of(SCENES[name], language).splitlines()
     longest = [line for line in lines if len(line) > 120 and "protocol" not in line and "code[i] = " not in line]
     assert not longest
@@ -99,7 +99,7 @@ def test_lines_are_short_but_for_the_description(name, language):
 
 
 @pytest.mark.parametrize("chosen", [SCENES["tower"], PLAIN, HILLS], ids=["tower", "plain", "hills"])
-def test_python_is_typed_and_clean(chosen, tmp_path):
+def test_emitted_python_passes_mypy_and_ruff(chosen, tmp_path):
     path = tmp_path / "kernel.py"
     path.write_text(text_of(chosen, "python"), encoding="utf-8")
     for tool in (
@@ -111,7 +111,7 @@ def test_python_is_typed_and_clean(chosen, tmp_path):
 
 
 @pytest.mark.parametrize("chosen", [SCENES["tower"], PLAIN, HILLS], ids=["tower", "plain", "hills"])
-def test_javascript_is_accepted_as_a_module(chosen, tmp_path):
+def test_emitted_javascript_loads_as_a_module(chosen, tmp_path):
     skip_without("javascript")
     path = tmp_path / f"kernel.{EXTENSIONS['javascript']}"
     path.write_text(text_of(chosen, "javascript"), encoding="utf-8")

@@ -107,7 +107,7 @@ def test_a_generated_case_is_shown_like_a_frozen_one(capsys):
         ("", "there are"),
     ],
 )
-def test_a_case_that_is_not_there_is_answered_with_what_is(capsys, name, hint):
+def test_showing_an_unknown_case_names_the_existing_ones(capsys, name, hint):
     message = refused(capsys, "show", name)
     assert message.startswith("hypcheck: error: ")
     assert hint in message
@@ -177,7 +177,7 @@ def test_rows_of_a_family_for_given_sizes_are_generated_checked_and_classified(c
         (["ring", "--output", "no/such/folder/rows.csv"], "cannot write"),
     ],
 )
-def test_a_generation_that_cannot_be_is_refused(capsys, arguments, message):
+def test_generate_refuses_invalid_arguments(capsys, arguments, message):
     assert message in refused(capsys, "generate", *arguments)
 
 
@@ -214,7 +214,7 @@ NUMPY_ALONE = (["list"], ["show", "ring-0007"], ["show", "invalid"], ["generate"
     ("arguments", "allowed"),
     [*((arguments, set()) for arguments in LIGHT), *((arguments, {"numpy"}) for arguments in NUMPY_ALONE)],
 )
-def test_nothing_is_loaded_that_is_not_used(arguments, allowed):
+def test_showing_cases_loads_no_library_that_it_does_not_use(arguments, allowed):
     names = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2")
     program = (
         "import json, sys; from hypcheck.cli.main import main; "

@@ -48,13 +48,13 @@ def sentences(case, **changes):
 
 
 @every_sample
-def test_a_right_case_has_no_fault(case):
+def test_a_right_case_has_no_label_fault(case):
     assert sentences(case) == []
 
 
 @every_sample
 @pytest.mark.parametrize("position", Position, ids=lambda position: position.label)
-def test_a_flipped_position_is_seen_by_the_certificate_alone(case, position):
+def test_a_flipped_position_is_found_by_the_certificate_alone(case, position):
     if position is case.position:
         return
     flips = {other: 0.5 for other in Position if other is not position}
@@ -62,7 +62,7 @@ def test_a_flipped_position_is_seen_by_the_certificate_alone(case, position):
 
 
 @every_sample
-def test_a_turned_tangency_is_seen_by_the_certificate_alone(case):
+def test_a_flipped_tangency_is_found_by_the_certificate_alone(case):
     assert any("the certificate" in sentence for sentence in sentences(case, tangent=not case.tangent))
 
 
@@ -133,13 +133,13 @@ def test_a_touching_point_does_not_pass_for_a_crossing():
 
 @pytest.mark.parametrize("kind", Kind, ids=lambda kind: kind.value)
 @every_sample
-def test_another_kind_is_seen_by_the_roots(case, kind):
+def test_a_wrong_kind_is_found_by_the_roots(case, kind):
     if kind is not case.kind:
         assert f"kind is {kind.value}; the roots say {case.kind.value}" in sentences(case, kind=kind)
 
 
 @every_sample
-def test_a_clearance_one_ulp_off_is_seen(case):
+def test_a_clearance_one_ulp_off_is_a_fault(case):
     for direction in (-math.inf, math.inf):
         changed = math.nextafter(case.clearance, direction)
         assert any(sentence.startswith("clearance is") for sentence in sentences(case, clearance=changed))
@@ -147,14 +147,14 @@ def test_a_clearance_one_ulp_off_is_seen(case):
 
 
 @every_sample
-def test_a_flip_one_ulp_off_is_seen(case):
+def test_a_flip_one_ulp_off_is_a_fault(case):
     for position, distance in case.flips.items():
         changed = {**case.flips, position: math.nextafter(distance, math.inf)}
         assert [f"the flip to {position.label} is" in sentence for sentence in sentences(case, flips=changed)] == [True]
 
 
 @every_sample
-def test_a_flag_too_few_or_too_many_is_seen(case):
+def test_a_missing_or_superfluous_flag_is_a_fault(case):
     for flag in case.flags:
         fewer = tuple(other for other in case.flags if other != flag)
         assert any(sentence.startswith("flags are") for sentence in sentences(case, flags=fewer))
@@ -165,14 +165,14 @@ def test_a_flag_too_few_or_too_many_is_seen(case):
 
 @every_sample
 @pytest.mark.parametrize("place", range(7))
-def test_a_changed_number_is_seen(case, place):
+def test_a_changed_number_is_a_fault(case, place):
     """One part in 10⁶ of one number: flips move, if nothing else does. A zero becomes a hair."""
     row = list(case.row)
     row[place] = row[place] * (1 + 1e-6) if row[place] else 1e-9
     assert sentences(case, row=tuple(row))
 
 
-def test_frozen_labels_hold():
+def test_labels_of_frozen_files_hold():
     """A sample of every file, the first case and the last among it, by certificate, roots, nearest point and flips."""
     for name in frozen.NAMES:
         file = frozen.load(name)
@@ -209,7 +209,7 @@ def same(text):
     return text
 
 
-def test_the_command_ends_with_0_where_all_labels_hold(tmp_path, capsys):
+def test_cases_check_ends_with_0_if_all_labels_hold(tmp_path, capsys):
     path = written(tmp_path, same)
     assert main(["cases", "check", path, path]) == 0
     assert capsys.readouterr().out == "12 cases checked, none with a wrong label\n"
@@ -224,7 +224,7 @@ def test_the_command_ends_with_0_where_all_labels_hold(tmp_path, capsys):
         (',"waist"', ""),
     ],
 )
-def test_the_command_ends_with_1_where_a_label_is_wrong_and_names_the_case(tmp_path, capsys, old, new):
+def test_cases_check_ends_with_1_and_names_the_case_if_a_label_is_wrong(tmp_path, capsys, old, new):
     path = written(tmp_path, lambda text: text.replace(old, new, 1) if old[0] == '"' else _last(text, old, new))
     assert main(["cases", "check", path]) == 1
     lines = capsys.readouterr().out.splitlines()
@@ -239,7 +239,7 @@ def _last(text, old, new):
     return head + new + tail
 
 
-def test_the_command_goes_on_after_a_wrong_label_and_ends_at_a_malformed_file(tmp_path, capsys):
+def test_cases_check_continues_after_a_wrong_label_and_stops_at_a_malformed_file(tmp_path, capsys):
     wrong = written(tmp_path, lambda text: text.replace('"tangent":true', '"tangent":false', 1))
     bad = tmp_path / "bad.json"
     bad.write_text("[]", encoding="utf-8")
@@ -250,7 +250,7 @@ def test_the_command_goes_on_after_a_wrong_label_and_ends_at_a_malformed_file(tm
 
 
 @pytest.mark.parametrize("name", ["tangent", "invalid"])
-def test_a_file_without_cases_is_no_file_whose_labels_hold(tmp_path, capsys, name):
+def test_cases_check_refuses_a_file_without_cases(tmp_path, capsys, name):
     document = json.loads(frozen.path_of(name).read_text(encoding="utf-8"))
     path = tmp_path / "empty.json"
     path.write_text(json.dumps({**document, "count": 0, "cases": []}), encoding="utf-8")
@@ -258,7 +258,7 @@ def test_a_file_without_cases_is_no_file_whose_labels_hold(tmp_path, capsys, nam
     assert capsys.readouterr().err == f"hypcheck: error: {path} has no cases; nothing was checked\n"
 
 
-def test_the_command_checks_rows_to_be_refused_as_well(tmp_path, capsys):
+def test_cases_check_checks_invalid_rows_too(tmp_path, capsys):
     path = tmp_path / "invalid.json"
     text = frozen.path_of("invalid").read_text(encoding="utf-8")
     document = json.loads(text)

@@ -61,7 +61,7 @@ def test_there_are_at_least_5000_cases_in_at_most_5_megabytes():
     assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 5_000_000
 
 
-def test_families_are_balanced():
+def test_frozen_families_have_60_to_500_cases_and_all_positions_are_common():
     counts = {name: len(vectors.load(name).cases) for name in vectors.NAMES}
     assert min(counts.values()) >= 60
     assert max(counts.values()) <= 500
@@ -90,7 +90,7 @@ def test_the_rows_of_a_file_are_the_first_of_its_family_each_once(name):
 
 
 @pytest.mark.parametrize("name", FULLY_COMPARED)
-def test_a_file_is_what_freezing_from_nothing_makes(name):
+def test_frozen_files_are_those_that_freezing_from_nothing_makes(name):
     assert vectors_text(freezing.frozen(name)) == text_of(name)
 
 
@@ -99,7 +99,7 @@ def test_the_rows_to_be_refused_are_what_freezing_makes():
 
 
 @pytest.mark.parametrize("name", vectors.NAMES)
-def test_a_file_is_written_as_it_is_read(name):
+def test_a_frozen_file_is_written_back_to_the_same_bytes(name):
     assert vectors_text(vectors.load(name)) == text_of(name)
 
 
@@ -139,7 +139,7 @@ def test_every_file_fits_its_schema(name):
     assert violations(document, wanted, closed=True) == []
 
 
-def test_the_schema_refuses_what_is_not_as_it_must_be():
+def test_the_schema_refuses_each_malformed_document():
     document = json.loads(text_of("ring"))
     document["cases"] = document["cases"][:2]
     wanted = schema("vectors")

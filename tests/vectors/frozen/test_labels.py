@@ -84,7 +84,7 @@ def flags_at(*rows):
 
 
 @pytest.mark.parametrize("flag", BY_HAND)
-def test_a_flag_is_where_a_hand_puts_it(flag):
+def test_flags_of_rows_worked_out_by_hand_are_right(flag):
     with_it, without = ([tuple(map(float, row)) for row in rows] for rows in BY_HAND[flag])
     if flag == "on-surface":
         with_it = with_it[1:]  # 5² / 3² − (16/3 + 1)²/4² − 1 is not 0 in floats
@@ -136,7 +136,7 @@ def test_flags_come_in_the_order_of_the_table():
 
 @given(pairs)
 @settings(max_examples=60)
-def test_a_proof_is_short_and_still_one(pair):
+def test_shortened_proofs_still_hold(pair):
     decision = exact.decide(pair.lengths)
     found = stored_certificate(pair, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
@@ -157,7 +157,7 @@ def test_proofs_of_ordinary_crossings_are_of_few_digits():
 
 
 @pytest.mark.parametrize("outward", [True, False])
-def test_a_proof_that_ends_on_the_spheroids_own_surface_is_led_inside(outward):
+def test_a_proof_point_on_the_spheroid_is_moved_inside(outward):
     """The point 3/5 up, 4/5 out (or in) of a unit sphere lies on the hyperboloid, and the two cross there."""
     # (3/5, 4/5) from the centre, on x² − z² = 1 where x = 5/4, z = 3/4: the normal (5/4, −3/4) is not (4/5, 3/5).
     side = Fraction(1 if outward else -1)
@@ -185,7 +185,7 @@ def test_points_outside_the_spheroid_show_nothing():
 
 @given(st.floats(allow_nan=False))
 @settings(max_examples=300)
-def test_numbers_are_written_so_that_they_are_read_back(value):
+def test_written_numbers_read_back_as_themselves(value):
     assert float.fromhex(hex_of(value)) == value
     assert math.copysign(1, float.fromhex(hex_of(value))) == math.copysign(1, value)
     if math.isfinite(value):
@@ -219,7 +219,7 @@ def test_rationals_may_be_longer_than_python_reads_integers_but_not_without_end(
 ROWS = [(1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0), (1.0, 2.0, 1.0, 1.0, 2.5, -0.0, 0.0), (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)]
 
 
-def test_a_row_that_is_there_keeps_its_id_and_new_ones_come_after():
+def test_freezing_keeps_ids_of_old_rows_and_appends_new_ones():
     first = extended("mine", [], [ROWS[0], ROWS[0], ROWS[1]])
     assert first == [("mine-0000", ROWS[0]), ("mine-0001", ROWS[1])]
     assert extended("mine", first, [ROWS[2], ROWS[1]]) == [*first, ("mine-0002", ROWS[2])]
@@ -252,7 +252,7 @@ def test_freezing_writes_files_that_are_read_back(tmp_path, monkeypatch):
     assert (tmp_path / "ring.json").read_bytes() == before
 
 
-def test_freezing_never_overwrites_what_is_not_its_own(tmp_path):
+def test_freezing_does_not_overwrite_a_file_of_another_family(tmp_path):
     (tmp_path / "ring.json").write_text("precious", encoding="utf-8")
     with pytest.raises(InputError, match="line 1"):
         freezing.freeze(["ring"], tmp_path)
@@ -266,7 +266,7 @@ def test_freezing_never_overwrites_what_is_not_its_own(tmp_path):
         freezing.freeze(["ring"], tmp_path / "nowhere")
 
 
-def test_a_label_that_does_not_stand_its_check_is_not_frozen(tmp_path, monkeypatch):
+def test_freezing_refuses_a_label_that_fails_its_check(tmp_path, monkeypatch):
     """A maker of labels that lies about the clearance is found out before anything is written."""
     monkeypatch.setitem(freezing.COUNTS, "ring", 3)
     monkeypatch.setattr(freezing, "labelled", lambda cases: [replace(case, clearance=1.0) for case in labelled(cases)])
@@ -291,5 +291,5 @@ def test_counts_are_for_every_family():
     assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
 
 
-def test_a_search_that_finds_nothing_says_so():
+def test_a_cancellation_search_that_finds_nothing_gives_none():
     assert worst_row(CancellationSearch("local-maximum", "float64", False, "uniform", 0)) is None

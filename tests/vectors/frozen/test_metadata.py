@@ -35,7 +35,7 @@ def checked(tmp_path, capsys, text):
         ('"equality"', '"luck"', 'line 4: the bug_type of the flag tangent is "luck"; it is "equality"'),
     ],
 )
-def test_a_head_that_says_what_is_not_so_is_a_fault(tmp_path, capsys, old, new, sentence):
+def test_a_wrong_description_in_the_metadata_is_a_fault(tmp_path, capsys, old, new, sentence):
     assert old in TEXT
     code, (said, closing) = checked(tmp_path, capsys, TEXT.replace(old, new, 1))
     assert code == 1
@@ -57,7 +57,7 @@ def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
     ],
     ids=["a family of one's own", "made in another way"],
 )
-def test_what_is_not_ours_may_be_told_in_any_words(tmp_path, capsys, changes):
+def test_descriptions_of_unknown_families_are_not_compared(tmp_path, capsys, changes):
     text = TEXT
     for old, new in changes.items():
         assert old in text
@@ -65,20 +65,20 @@ def test_what_is_not_ours_may_be_told_in_any_words(tmp_path, capsys, changes):
     assert checked(tmp_path, capsys, text) == (0, ["6 cases checked, none with a wrong label"])
 
 
-def test_the_words_of_an_earlier_version_are_not_compared():
+def test_descriptions_of_earlier_versions_are_not_compared():
     head = replace(frozen.load("ring").head, title="another")
     right = FAMILIES["ring"].title
     assert list(wrong_description(head)) == [f'family.title is "another"; of ring it is "{right}"']
     assert list(wrong_description(replace(head, version=0))) == []
 
 
-def test_of_what_a_file_says_at_length_the_beginning_is_quoted(tmp_path, capsys):
+def test_messages_quote_the_beginning_of_a_long_value(tmp_path, capsys):
     code, (said, _) = checked(tmp_path, capsys, TEXT.replace("exactly tangent", "nearly" * 10_000, 1))
     assert code == 1
     assert len(said) < 400
 
 
-def test_what_the_shipped_files_say_is_so():
+def test_descriptions_in_the_shipped_files_are_right():
     for name in frozen.NAMES:
         file = frozen.load(name)
         assert file.head.name == name

@@ -297,7 +297,7 @@ def test_a_file_that_was_cut_off_is_refused(tmp_path, share):
         "\n".join([*SOUND, "]"]).encode(),
     ],
 )
-def test_what_is_no_document_is_refused(tmp_path, content):
+def test_reading_a_file_that_is_no_document_raises_an_error(tmp_path, content):
     refused(tmp_path, content)
 
 
@@ -308,7 +308,7 @@ def test_a_binary_byte_among_the_cases_is_refused_with_its_line(tmp_path):
     assert f", line {FIFTH + 1}: a NUL byte" in refused(tmp_path, text[:place] + b"\0" + text[place + 1 :])
 
 
-def test_what_cannot_be_opened_is_refused(tmp_path):
+def test_a_file_that_cannot_be_opened_raises_an_error(tmp_path):
     for path in (tmp_path, tmp_path / "nowhere.json"):
         with pytest.raises(InputError, match=re.escape(str(path))):
             read_vectors(str(path))
