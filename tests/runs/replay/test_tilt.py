@@ -50,7 +50,7 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
 @pytest.mark.parametrize(
     ("case", "spec", "sentence"),
     [
-        (BESIDE, "builtin:fast", "the given row has an axis, and fast takes upright spheroids alone; its description"),
+        (BESIDE, "builtin:fast", "the given row has an axis, but fast takes only upright spheroids; its description"),
         (
             "2,5,1,0.5,2.5,0,0,0,0,0",
             f"{SPEC}exact",
@@ -68,4 +68,4 @@ def test_what_cannot_be_replayed_is_told_in_a_sentence(case, spec, sentence, cap
 def test_a_formula_is_not_shown_for_a_tilted_spheroid(capsys):
     code, said = replayed(capsys, BESIDE, f"{SPEC}exact", "--formula", "table-2")
     assert code == 2
-    assert "the given row is about a tilted spheroid, of which none speaks" in said.err
+    assert "the given row is about a tilted spheroid, which no formula takes" in said.err
