@@ -138,6 +138,27 @@ def test_centres_whose_difference_is_rounded_are_decided_exactly():
         assert Scene(moved).position(*near) == truth(moved, near, scene.mover.axis)
 
 
+@pytest.mark.parametrize("unit", [1.0, 2.0**-300, 2.0**300])
+@pytest.mark.parametrize(("shift", "expected"), [(-(2.0**-60), EXTERIOR), (0.0, CONTACT), (2.0**-60, CONTACT)])
+def test_a_clearance_that_the_difference_of_centres_loses_is_seen(shift, expected, unit):
+    """A spheroid along y touches the waist of α = 1 at x = 2 from outside; 2 + 2^-60 is 2 once it is rounded."""
+    body = Hyperboloid("waist", unit, 4 * unit, (shift * unit, 0.0, 0.0))
+    scene = Scene(SceneModel("s", "position", (body,), Mover(unit, 0.5 * unit, axis=(0.0, 1.0, 0.0))))
+    assert scene.classify(2 * unit, 0.0, 0.0).tolist() == [expected]
+    assert scene.position(2 * unit, 0.0, 0.0) == expected
+    assert truth(scene.model, (2 * unit, 0.0, 0.0), (0.0, 1.0, 0.0)) == expected
+
+
+def test_a_mover_above_a_flaring_wall_touches_it_with_its_lower_side():
+    """At height 2 the surface is 8 from the axis, at height 1.2 it is 5: under the mover's centre."""
+    body = Hyperboloid("bowl", 1.0, 0.25, (0.0, 0.0, 0.0), None, (2.0, 0.0, 0.0))
+    scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 0.75, axis=(1.0, 1.0, 0.0))))
+    places = [(2.0, y, 0.0) for y in np.linspace(0.0, 16.0, 33).tolist()]
+    found = scene.classify(*np.array(places).T).tolist()
+    assert found == [truth(scene.model, place, (1.0, 1.0, 0.0)) for place in places]
+    assert set(found) == {INTERIOR, CONTACT, EXTERIOR}
+
+
 def test_tangent_positions_are_contact_and_the_next_float_is_not():
     """Upright hyperboloid: α = γ = 1, a ball of radius 1 at (2, 0, 0) touches it however its axis points."""
     body = Hyperboloid("waist", 1.0, 4.0, (10.0, 0.0, 0.0), None, (0.0, 3.0, 0.0))

@@ -104,6 +104,24 @@ def test_counts_are_those_of_single_decisions():
     assert counts.body_dangerous == (upright & ~leaning).sum()
 
 
+def test_a_move_back_leans_backwards(monkeypatch):
+    at, heading = near_the_wall(10)
+    back = np.arange(10) % 2 == 0
+    leans = []
+
+    def watched(craft, at, heading, lean):
+        leans.append(lean)
+        return valid_leaning(craft, at, heading, lean)
+
+    monkeypatch.setattr(pitch, "valid_leaning", watched)
+    PitchVerdicts().watch(CRAFT, 40.0, moves_at(at, heading, back=back, accepted=np.ones(10, np.bool_)))
+    (lean,) = leans
+    sign = np.where(back, -1.0, 1.0)
+    assert np.allclose(lean.axis[0], np.sin(np.radians(40)) * sign * heading[0])
+    assert np.allclose(lean.axis[1], np.sin(np.radians(40)) * sign * heading[1])
+    assert (lean.axis[2] > 0).all()
+
+
 def test_moves_up_or_down_and_turns_are_not_counted():
     at, heading = near_the_wall(10)
     moves = moves_at(at, heading, back=np.zeros(10, np.bool_), accepted=np.ones(10, np.bool_))
