@@ -34,14 +34,14 @@ def answered(truth, answers):
     return MethodAnswers("fast-numpy", truth.workload.name, np.arange(len(truth.rows)), answers, "", "")
 
 
-def test_right_answers_make_no_error(contender, truth):
+def test_right_answers_have_no_error_in_bench(contender, truth):
     found = accuracy_line(contender, answered(truth, truth.positions), truth)
     assert (found.asked, found.wrong, found.abstained) == (120, 0, 0)
     assert (found.reliable_above, found.worst) == (0.0, [])
     assert sum(number for _, number, _ in found.octaves) == 120
 
 
-def test_what_is_not_said_is_not_wrong(contender, truth):
+def test_missing_answers_are_not_wrong(contender, truth):
     answers = truth.positions.copy()
     answers[:7] = CANNOT_SAY
     found = accuracy_line(contender, answered(truth, answers), truth)
@@ -49,12 +49,12 @@ def test_what_is_not_said_is_not_wrong(contender, truth):
     assert found.reliable_above > 0
 
 
-def test_who_never_says_anything_is_reliable_nowhere(contender, truth):
+def test_method_that_never_answers_is_reliable_nowhere(contender, truth):
     found = accuracy_line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
     assert (found.wrong, found.reliable_above) == (0, INF)
 
 
-def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender, truth):
+def test_wrong_answer_is_counted_by_its_exponent_with_its_distance(contender, truth):
     place = int(np.flatnonzero(truth.positions == 1)[0])
     answers = truth.positions.copy()
     answers[place] = 0
@@ -67,7 +67,7 @@ def test_a_wrong_answer_is_counted_in_its_octave_with_its_own_distance(contender
     assert 2.0 ** truth.octaves[place] <= worst.flip_distance <= 2.0 ** (truth.octaves[place] + 1)
 
 
-def test_a_one_sided_question_is_judged_as_such(contender, truth):
+def test_yes_no_question_is_judged_as_such(contender, truth):
     one_sided = replace(contender, question="exterior")
     answers = (truth.positions == 1).astype(np.int8)
     assert accuracy_line(one_sided, answered(truth, answers), truth).wrong == 0

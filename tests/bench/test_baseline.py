@@ -48,7 +48,7 @@ def verdict(before, after, allowed=1.1):
 @pytest.mark.parametrize(
     ("slowness", "expected"), [(1.0, "same"), (1.05, "same"), (1.5, "slower"), (6.0, "slower"), (0.5, "faster")]
 )
-def test_quiet_runs_are_told_apart(slowness, expected):
+def test_quiet_runs_with_different_speeds_are_distinguished(slowness, expected):
     assert verdict(run(seed=1), run(slowness, seed=2)) == expected
 
 
@@ -76,7 +76,7 @@ def test_noise_of_either_run_makes_a_verdict_inconclusive():
         assert verdict(before, after) == "inconclusive"
 
 
-def test_what_is_allowed_is_allowed():
+def test_slowdown_within_the_allowed_factor_passes():
     assert verdict(run(seed=1), run(1.5, seed=2), allowed=2.0) == "same"
 
 
@@ -104,14 +104,14 @@ def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():
     assert line.ci95[0] <= line.change <= line.ci95[1]
 
 
-def test_what_gates_is_what_was_named_else_our_certified_methods():
+def test_gated_methods_are_the_named_ones_else_the_certified_ones():
     everything = contenders(BenchPlan())
     assert gated(BenchPlan(), everything) == {name for name, each in everything.items() if each.kind == "certified"}
     some = BenchPlan(methods=("hessian-float64",))
     assert gated(some, contenders(some)) == {"hessian-float64"}
 
 
-def test_a_baseline_without_what_is_to_be_held_to_it_is_refused():
+def test_baseline_without_the_gated_methods_is_refused():
     with pytest.raises(InputError, match="holds no speed of what is to be held to it: other; it has mine"):
         require_common(run(), {"other"})
     require_common(run(), {"other", "mine"})
@@ -136,7 +136,7 @@ def recorded(path, lines=(), **options):
         ({}, "holds no speed relative to"),
     ],
 )
-def test_what_is_no_baseline_for_this_run_is_refused(tmp_path, options, message):
+def test_record_that_is_no_baseline_for_this_run_is_refused(tmp_path, options, message):
     plan = recorded(tmp_path / "record.jsonl", **options)
     with pytest.raises(InputError, match=message):
         read_baseline(plan)
@@ -159,7 +159,7 @@ def test_a_run_does_not_replace_its_baseline(tmp_path):
     assert path.read_bytes() == before
 
 
-def test_a_record_that_is_not_there_is_refused(tmp_path):
+def test_missing_baseline_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"none\.jsonl"):
         read_baseline(BenchPlan(baseline=tmp_path / "none.jsonl"))
     assert read_baseline(BenchPlan()) is None

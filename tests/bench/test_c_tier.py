@@ -75,12 +75,12 @@ def test_the_empty_call_answers_nothing(methods, rows):
         assert empty.ready.run(5)[1] == 0
 
 
-def test_nothing_that_changes_results_is_asked_of_the_compiler():
+def test_compiler_flags_do_not_change_results():
     assert "-ffp-contract=off" in FLAGS
     assert not {flag for flag in FLAGS if "fast" in flag or "unsafe" in flag or flag == "-Ofast"}
 
 
-def test_without_a_compiler_one_sentence_says_so(tmp_path, monkeypatch):
+def test_missing_compiler_is_reported_in_one_sentence(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
     with pytest.raises(UnavailableError, match="no C compiler is found"):
@@ -97,7 +97,7 @@ def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
         compiled(tmp_path)
 
 
-def test_a_run_without_a_compiler_goes_on_with_the_rest_and_says_what_is_missing(tmp_path, monkeypatch):
+def test_run_without_a_compiler_measures_the_rest_and_names_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr(
         c_library, "compiler_here", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
     )

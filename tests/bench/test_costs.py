@@ -52,7 +52,7 @@ def test_the_procedures_in_c_answer_what_they_do_in_numpy(answers):
         assert (answers["procedures", "C"][name] == answers["procedures", "numpy"][name]).all()
 
 
-def test_what_is_compared_in_c_and_in_numpy_is_the_same(answers):
+def test_comparisons_in_c_and_in_numpy_have_the_same_answers(answers):
     for name in (PRINTED, RECIPROCALS, REPAIRED_1):
         assert (answers["divisions", "C"][name] == answers["divisions", "numpy"][name]).all()
     assert (answers["roots", "C"][PRINTED] == answers["roots", "numpy"][PRINTED]).all()
@@ -114,7 +114,7 @@ def measured(times):
     }
 
 
-def test_lines_say_what_was_found():
+def test_cost_lines_hold_the_findings():
     times = {
         "procedures-numpy": {
             PRINTED_A: 90.0,

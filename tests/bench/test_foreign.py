@@ -95,7 +95,7 @@ def test_a_clock_with_a_wrong_checksum_is_refused():
     way.close()
 
 
-def test_a_clock_that_tells_far_too_little_is_refused(monkeypatch):
+def test_clock_that_reports_far_too_little_time_is_refused(monkeypatch):
     monkeypatch.setattr(implementation, "_SLACK_NS", 10**9)
     way = opened(command("boasts", "binary"))
     with pytest.raises(TimingRefusedError, match=r"says that it took 3,000 ns for what took [\d,]+ ns by our clock"):
@@ -114,7 +114,7 @@ def test_of_a_command_without_a_clock_a_question_about_one_row_is_taken_off():
     way.close()
 
 
-def test_two_that_call_themselves_alike_keep_apart(tmp_path):
+def test_two_specs_with_the_same_name_are_distinguished(tmp_path):
     first, second = subject(tmp_path), subject(tmp_path, times=2)
     one = foreign.foreign_method(first, Limits(), [])
     other = foreign.foreign_method(second, Limits(), [one.name])
@@ -124,28 +124,28 @@ def test_two_that_call_themselves_alike_keep_apart(tmp_path):
     assert found[one.name].tier == "foreign"
 
 
-def test_a_slow_one_is_asked_about_fewer_rows(tmp_path):
+def test_slow_spec_is_asked_fewer_rows(tmp_path):
     quick = foreign.foreign_method(subject(tmp_path), Limits(), [])
     slow = foreign.foreign_method(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed
     assert slow.judged < quick.judged
 
 
-def test_an_interruption_while_it_is_met_does_not_make_it_seem_slow(tmp_path, monkeypatch):
+def test_interruption_of_the_trial_does_not_make_a_spec_look_slow(tmp_path, monkeypatch):
     """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
     times = itertools.cycle([0.05, 0.0])
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
     assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 10_000
 
 
-def test_one_that_takes_long_is_tried_once_a_batch(tmp_path, monkeypatch):
+def test_slow_spec_is_tried_once_a_batch(tmp_path, monkeypatch):
     tried = []
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
     assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 1
     assert len(tried) == 1
 
 
-def test_held_to_a_baseline_it_is_timed_on_as_many_rows_as_there(tmp_path):
+def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_there(tmp_path):
     other = foreign.foreign_method(subject(tmp_path), Limits(), [])
     line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), SpeedLine)
     asked = {("uniform", "batch"): 53, ("flight", "batch"): 50, ("uniform", "single"): 256}
@@ -155,7 +155,7 @@ def test_held_to_a_baseline_it_is_timed_on_as_many_rows_as_there(tmp_path):
     assert [each.timed for each in alike(before, [replace(other, name="one"), other])] == [53, other.timed]
 
 
-def test_one_that_never_answers_is_waited_for_once(tmp_path):
+def test_spec_that_never_answers_times_out_once(tmp_path):
     path = tmp_path / "never.py"
     path.write_text("def classify(rows):\n    while True:\n        pass\n", encoding="utf-8")
     with pytest.raises(StartError, match=r"does not answer its first question, about one row: no answer within 0\.7 s"):
@@ -172,7 +172,7 @@ def before(tmp_path_factory):
     return code, record, folder / "out" / "record.jsonl"
 
 
-def test_it_is_judged_and_timed_as_the_others_are(before):
+def test_spec_is_judged_and_timed_like_other_methods(before):
     code, record, _ = before
     assert code == 0
     (judged,) = [line for line in record.of(AccuracyLine) if line.method == "subject"]
@@ -194,7 +194,7 @@ def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp
     assert {line.method for line in record.of(ComparisonLine)} == {"subject", "fast-numpy"}
 
 
-def test_the_same_again_is_not_found_slower(before, tmp_path):
+def test_unchanged_spec_is_not_slower_than_its_baseline(before, tmp_path):
     *_, baseline = before
     code, record = ended(
         tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", subject(tmp_path)
@@ -203,14 +203,14 @@ def test_the_same_again_is_not_found_slower(before, tmp_path):
     assert code in (0, 4) or max(line.change for line in record.of(ComparisonLine) if line.gates) > 1.5
 
 
-def test_what_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
+def test_spec_that_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, f"python:{tmp_path / 'nowhere.py'}:classify")
     assert code == 5
     assert record.of(NotStartedLine)
     assert record.of(SpeedLine)
 
 
-def test_one_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
+def test_spec_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
     code, record = ended(tmp_path / "out", *SMALL, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0"))
     assert code == 1
     refused = record.of(RefusedLine)

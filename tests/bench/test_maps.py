@@ -38,7 +38,7 @@ def test_cells_hold_the_rows_of_their_sizes():
     assert set(Counter(float_filter.positions(rows).tolist())) == {-1, 0, 1}
 
 
-def test_the_maps_know_the_ring():
+def test_maps_show_the_ring():
     whole, ring = next(error_maps.place_lines(PLAN, ["table-2-float32"], None))
     assert (whole.region, ring.region) == ("whole", "ring")
     for line, columns in ((whole, 29), (ring, 15)):

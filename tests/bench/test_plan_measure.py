@@ -41,7 +41,7 @@ def test_the_sentences_stand_below_the_plan(few, capsys):
     assert rotors.startswith("2. In C")
 
 
-def test_without_a_compiler_it_says_so(monkeypatch, capsys):
+def test_scene_without_a_compiler_is_reported_in_one_sentence(monkeypatch, capsys):
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
     assert main(["plan", "tower", "--measure"]) == 2

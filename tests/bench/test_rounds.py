@@ -65,7 +65,7 @@ def test_given_loops_are_kept():
     assert measured([TimingEntry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
 
 
-def test_who_answers_otherwise_while_it_is_timed_is_refused_and_no_longer_asked():
+def test_method_with_other_answers_during_timing_is_refused_and_asked_no_more():
     order = []
     changing = Clock("b", order, checksums=[7, 7, 8])
     found = measured([TimingEntry("a", 1, Clock("a", order), 7, 1), TimingEntry("b", 1, changing, 7, 1)], rounds=5)

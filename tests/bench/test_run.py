@@ -44,7 +44,7 @@ def small(tmp_path_factory):
     return ended(tmp_path_factory.mktemp("bench"), *METHODS, "--workloads", "uniform,ring")
 
 
-def test_it_ends_well_and_every_line_fits_the_schema(small):
+def test_quick_run_ends_with_0_and_every_line_fits_the_schema(small):
     code, record = small
     assert code == 0
     for line in record.lines:
@@ -54,7 +54,7 @@ def test_it_ends_well_and_every_line_fits_the_schema(small):
     assert record.header.options["reference"] == REFERENCE
 
 
-def test_what_was_chosen_is_compared_and_the_reference_with_it(small):
+def test_chosen_methods_are_compared_with_the_reference(small):
     _, record = small
     assert [line.method for line in record.of(MethodLine)] == [
         REFERENCE,
@@ -114,13 +114,13 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
         (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )
-def test_what_does_not_exist_is_refused_and_nothing_is_written(tmp_path, options, message):
+def test_unknown_choice_is_refused_and_nothing_is_written(tmp_path, options, message):
     with pytest.raises(InputError, match=message):
         ended(tmp_path, *options)
     assert not list(tmp_path.glob("record*"))
 
 
-def test_reasons_to_end_have_an_order():
+def test_first_reason_in_the_order_of_exit_codes_ends_the_run():
     outcome = RunOutcome()
     for code in (4, 3, 1, 5, 6):
         outcome.because[Exit(code)].append("a reason")

@@ -52,7 +52,7 @@ def small(monkeypatch):
     monkeypatch.setattr(scene_kernel, "ROWS", 4096)
 
 
-def test_a_walker_s_step_is_told_for_each_forest(small, tmp_path):
+def test_step_of_a_walker_is_recorded_for_each_forest(small, tmp_path):
     code, record, report = ended(tmp_path, "--forest")
     assert code == 0
     lines = record.of(ForestLine)
@@ -154,7 +154,7 @@ def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatc
         ({"scenes": ("tower",), "specs": ("builtin:fast",)}, "--scene measures scenes and nothing else"),
     ],
 )
-def test_what_is_measured_alone_goes_with_nothing(options, sentence):
+def test_kernel_forest_and_scene_options_exclude_other_choices(options, sentence):
     with pytest.raises(InputError, match=sentence):
         BenchPlan(**options)
 

@@ -22,15 +22,15 @@ def coverage(processes, rounds, between, within, median=1.0):
 
 
 @pytest.mark.parametrize("median", [1e-3, 1.0, 250.0])
-def test_where_rounds_alone_differ_the_interval_holds_the_median(median):
+def test_interval_contains_the_median_if_only_rounds_differ(median):
     assert coverage(5, 5, 0.0, 0.02, median) >= 0.94
 
 
-def test_where_processes_differ_as_much_as_rounds_it_still_does():
+def test_interval_contains_the_median_if_processes_differ_as_much_as_rounds():
     assert coverage(5, 5, 0.02, 0.02) >= 0.90
 
 
-def test_where_processes_alone_differ_five_of_them_are_few_and_the_interval_is_known_to_fall_short():
+def test_interval_of_five_processes_is_too_short_if_only_processes_differ():
     assert 0.75 <= coverage(5, 5, 0.05, 0.001) <= 0.96
 
 
@@ -53,7 +53,7 @@ def test_the_interval_shrinks_with_more_rounds():
     assert width(3) > 3 * width(300)
 
 
-def test_it_is_an_interval_about_the_median_and_the_same_each_time():
+def test_interval_contains_the_sample_median_and_is_repeatable():
     samples = [[3.0, 1.0, 2.0], [5.0, 4.0]]
     assert estimate(samples) == estimate(samples)
     found = estimate(samples)

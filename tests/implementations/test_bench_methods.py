@@ -37,7 +37,7 @@ def scene(rows):
 
 @pytest.mark.parametrize("format_name", ["float16", "float32", "float64", "longdouble"])
 @pytest.mark.parametrize("name", BY_PAIRS)
-def test_a_formula_made_ready_is_the_formula(name, format_name, rows):
+def test_prepared_formula_answers_as_the_formula(name, format_name, rows):
     right = answers(FORMULAS[name], float_arithmetic(format_name), dict(zip(COLUMNS, rows.T, strict=True)))
     assert (formula.by_rows(FORMULAS[name], format_name)(rows) == right).all()
 
@@ -89,20 +89,20 @@ def test_more_digits_settle_what_fewer_cannot():
     assert (more == truth).all()
 
 
-def test_roots_that_do_not_exist_in_float64_are_not_said():
+def test_roots_beyond_float64_give_cannot_say():
     huge = np.array([[1e200, 1e200, 1.0, 1.0, 0.0, 0.0, 0.0]])
     assert alternatives.numpy_roots(huge).tolist() == [CANNOT_SAY]
 
 
 @pytest.mark.parametrize("answer", [alternatives.bounding_sphere, alternatives.bounding_cylinder])
-def test_a_circumscribed_shape_calls_nothing_clear_that_is_not(answer, rows):
+def test_circumscribed_shape_has_no_false_clear(answer, rows):
     found = answer(rows)
     claimed = found != 0
     assert claimed.any()
     assert (found[claimed] == float_filter.positions(rows)[claimed]).all()
 
 
-def test_the_sphere_is_the_spheroid_where_that_is_a_sphere_and_no_smaller_elsewhere(tower):
+def test_bounding_sphere_equals_a_spherical_spheroid_and_contains_others(tower):
     spheres = tower.copy()
     spheres[:, 3] = spheres[:, 2]
     assert (alternatives.bounding_sphere(spheres) == numpy_kernel.positions(spheres)).all()
@@ -114,12 +114,12 @@ def test_the_sphere_is_the_spheroid_where_that_is_a_sphere_and_no_smaller_elsewh
 
 
 @pytest.mark.parametrize("name", ["exact-integers", "exact-oracle", "nearest-point"])
-def test_what_promises_to_be_exact_is(name, rows):
+def test_exact_methods_are_never_wrong(name, rows):
     some = rows[::9]
     assert (builtin(name).answer(some) == float_filter.positions(some)).all()
 
 
-def test_methods_that_are_only_measured_can_be_named_and_are_left_to_bench():
+def test_measured_methods_can_be_named_but_verify_leaves_them_out():
     measured = [name for name, method in builtin_methods().items() if method.measured]
     assert {"table-2-float16", "trigonometric-float64", "mpmath-roots-100", "bounding-sphere"} <= set(measured)
     assert all(builtin(name).name == name for name in measured)

@@ -47,7 +47,7 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
 
 
 @pytest.mark.parametrize("name", ["short", "long", "silent"])
-def test_the_binary_form_is_guarded_alike(name):
+def test_binary_form_has_the_same_faults_as_text(name):
     some = rows()
     with open_implementation(command(name, "binary"), QUICK if name in HANGS else LIMITS) as it:
         assert it.description.binary
@@ -77,7 +77,7 @@ def test_a_right_command_is_right_in_questions_of_every_size(form):
         assert it.restarts == 0
 
 
-def test_text_reads_back_as_the_same_numbers_to_the_bit():
+def test_text_rows_read_back_to_the_bit():
     bits = np.random.default_rng(3).integers(0, 2**64, 7 * 700, dtype=np.uint64)
     some = bits.view(np.float64).reshape(-1, 7)
     some = np.vstack([some[np.isfinite(some).all(axis=1)], [[5e-324, 1.0, 1e22, 1e23, -0.0, 0.1, 2.0**-1022]]])
@@ -95,7 +95,7 @@ def test_a_flood_on_standard_error_is_evidence_and_no_fault():
         assert sum(map(len, it.stderr)) < 50_000
 
 
-def test_who_takes_long_over_a_row_is_not_taken_for_one_that_skips_it():
+def test_slow_row_is_not_mistaken_for_a_skipped_one():
     """The second question that is sent after a while is answered behind the first, and nothing is lost or shifted."""
     some = rows()
     with open_implementation(command("slow_reply"), QUICK) as it:
@@ -104,7 +104,7 @@ def test_who_takes_long_over_a_row_is_not_taken_for_one_that_skips_it():
 
 
 @pytest.mark.parametrize("words", [("0.04",), ("0.04", "0.5")], ids=["steadily", "with a pause"])
-def test_who_goes_on_answering_is_waited_for(words):
+def test_command_that_keeps_answering_does_not_time_out(words):
     some = rows(lucky=True)
     with open_implementation(command("steady", *words), QUICK) as it:
         began = time.monotonic()
@@ -114,7 +114,7 @@ def test_who_goes_on_answering_is_waited_for(words):
     assert answered.answers.tolist() == truth(some).tolist()
 
 
-def test_who_answers_ever_so_slowly_is_not_waited_for_for_ever():
+def test_command_that_answers_too_slowly_times_out():
     """Two and a half answers in forty are a sixteenth; of a question with one row, its answer is all."""
     with open_implementation(command("steady", "0.45"), QUICK) as it:
         began = time.monotonic()
@@ -132,7 +132,7 @@ def test_cannot_say_is_an_answer():
     assert set(answered.answers.tolist()) == {2}
 
 
-def test_noise_throughout_is_known_as_that():
+def test_constant_noise_breaks_the_protocol_throughout():
     with open_implementation(command("without_number"), LIMITS) as it:
         answered = it.classify(rows())
         assert it.restarts == LIMITS.restarts
@@ -185,7 +185,7 @@ def test_a_program_for_one_question_is_not_one_for_many():
     assert "ended by itself with exit status 0" in answered.reasons[1]
 
 
-def test_who_describes_itself_anew_after_a_restart_is_not_asked_further():
+def test_implementation_with_another_description_after_a_restart_is_given_up():
     with open_implementation(command("changes_its_mind"), LIMITS) as it:
         answered = it.classify(rows())
     assert answered.count(Outcome.CRASH) == 1
@@ -193,7 +193,7 @@ def test_who_describes_itself_anew_after_a_restart_is_not_asked_further():
     assert answered.reasons[39] == "not asked: started again, it describes itself otherwise than before"
 
 
-def test_faults_of_memory_are_not_mended_by_restarts_of_others():
+def test_memory_faults_are_not_repaired_by_restarts():
     """A restart is a new process: what was counted in the old one is gone."""
     some = rows()
     with open_implementation(command("stateful"), LIMITS) as it:
@@ -233,7 +233,7 @@ BAD_DESCRIPTIONS = [
 
 
 @pytest.mark.parametrize(("line", "sentence"), BAD_DESCRIPTIONS, ids=range(len(BAD_DESCRIPTIONS)))
-def test_who_describes_itself_badly_is_not_started(line, sentence):
+def test_command_with_an_invalid_description_is_not_started(line, sentence):
     with pytest.raises(StartError, match=sentence) as caught:
         open_implementation(command("describes", line), LIMITS)
     assert caught.value.exit_code == 5
@@ -241,7 +241,7 @@ def test_who_describes_itself_badly_is_not_started(line, sentence):
     assert str(caught.value).isprintable()
 
 
-def test_who_never_describes_itself_is_not_started_and_its_last_words_are_told():
+def test_command_without_a_description_is_not_started_and_its_stderr_is_quoted():
     for way in ("nothing", "drip"):
         with pytest.raises(StartError, match=r"no description came within 0\.5 s; stderr: loading tables"):
             open_implementation(command("never_describes", way), Limits(startup_timeout=0.5))
@@ -251,7 +251,7 @@ def test_who_never_describes_itself_is_not_started_and_its_last_words_are_told()
         open_implementation(command("dies_at_start"), LIMITS)
 
 
-def test_what_the_system_cannot_run_is_not_started(tmp_path):
+def test_command_that_the_system_cannot_run_is_refused_with_the_reason(tmp_path):
     script = tmp_path / "no interpreter"
     script.write_text("#!/no/such/interpreter\n")
     plain = tmp_path / "plain"
@@ -277,7 +277,7 @@ def test_a_command_is_run_where_the_caller_is_and_without_a_shell(tmp_path, monk
     assert list(tmp_path.iterdir()) == []
 
 
-def test_it_is_timed_by_its_own_clock_and_checked_by_its_own_answers():
+def test_command_is_timed_by_its_clock_and_checked_by_its_answers():
     some = rows(lucky=True)
     with open_implementation(command("right", "binary"), LIMITS) as it:
         assert it.time(some, 5) == 5000
@@ -298,7 +298,7 @@ def test_a_compiled_command_answers_large_questions(form, tmp_path):
         assert it.classify(some).answers.tolist() == signs(some).tolist()
 
 
-def test_who_replies_before_it_read_the_rows_cannot_know():
+def test_reply_before_all_rows_were_read_breaks_the_protocol():
     """Seen where a question is more than a pipe holds; after an error the rest would be taken for questions."""
     some = rows(4096)
     with open_implementation(command("hasty"), Limits(restarts=0)) as it:

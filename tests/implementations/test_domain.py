@@ -23,7 +23,7 @@ def test_regimes_are_decided_exactly(some):
 
 
 @pytest.mark.parametrize("ulps", [-1, 0, 1])
-def test_a_border_regime_is_told_from_its_neighbours(ulps):
+def test_regime_at_its_border_is_distinguished_from_its_neighbours(ulps):
     """(γ/d)² = α/b at γ = 3, d = 1, α = 9, b = 1; one ulp of α to either side."""
     row = np.array([[9.0 + ulps * 2.0**-49, 3.0, 1.0, 1.0, 0.0, 0.0, 0.0]])
     assert in_regime(row, "c2>=a").tolist() == [ulps <= 0]
@@ -44,13 +44,13 @@ LONG_RATIO = [1e6, 1.0, 1e-3, 1.0, 1.0, 0.0, 0.0]
 FAR = [1e7, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
 
 
-def test_what_is_not_declared_is_ordinary_and_without_bounds_where_more_is_asked_for():
+def test_undeclared_range_is_ordinary_and_unbounded_for_extreme_families():
     rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
     assert Domain().holds(rows).tolist() == [True, False, False]
     assert Domain().holds(rows, extreme=True).all()
 
 
-def test_what_is_declared_bounds_the_extremes_too():
+def test_declared_range_bounds_extreme_families():
     rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
     assert Domain(ratio=(0.5, 1e8)).holds(rows, extreme=True).tolist() == [True, False, True]
     assert Domain(magnitude=(0.1, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
@@ -77,6 +77,6 @@ def test_only_normal_numbers_of_the_precision_are_asked(value, precision, expect
 
 
 @pytest.mark.parametrize("bad", [{"regimes": ("a>1",)}, {"ratio": (2.0, 1.0)}, {"magnitude": (-1.0, 1.0)}])
-def test_a_domain_that_makes_no_sense_is_refused(bad):
+def test_invalid_domain_is_refused(bad):
     with pytest.raises(InputError, match="the domain"):
         Domain(**bad)

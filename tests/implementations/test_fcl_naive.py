@@ -35,7 +35,7 @@ CLEAR_OF_DOUBT = np.array(
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_far_from_touching_all_are_right(method):
+def test_naive_fcl_is_right_far_from_contact(method):
     assert method(CLEAR_OF_DOUBT).tolist() == [exact_position(row) for row in CLEAR_OF_DOUBT]
 
 
@@ -61,7 +61,7 @@ def test_a_plain_mesh_is_wrong_near_contact_where_the_certified_one_is_not(metho
     assert [verdict(Pair(*row)).position for row in rows] == positions.tolist()
 
 
-def test_more_triangles_help_but_do_not_cure():
+def test_more_triangles_reduce_errors_but_leave_some():
     rows, positions = rows_at_gap(Fraction(1, 2**16), 1.0)
     wrong = [np.count_nonzero(point_mesh(rows, triangles) != positions) for triangles in (50, 5000)]
     assert wrong[0] > wrong[1] > 0
@@ -78,13 +78,13 @@ def test_the_ellipsoid_query_loses_the_contacts_of_flat_spheroids():
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_numbers_beyond_fcl_are_not_guessed(method):
+def test_numbers_beyond_fcl_give_cannot_say(method):
     huge = np.array([(1e200, 1e-150, 1e200, 1e200, 1e200, 0, 0), (1e-200, 1e-200, 1e200, 1e-300, 1e300, 0, 1e300)])
     assert method(huge).tolist() == [CANNOT_SAY, CANNOT_SAY]
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_no_rows_and_no_fcl(method, monkeypatch):
+def test_naive_fcl_answers_no_rows_and_reports_missing_fcl(method, monkeypatch):
     assert method(np.empty((0, 7))).shape == (0,)
     monkeypatch.setitem(sys.modules, "fcl", None)
     with pytest.raises(UnavailableError, match="not available"):

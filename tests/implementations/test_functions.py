@@ -48,7 +48,7 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
         ("ragged", "it returned a list that is no array of one integer a row"),
     ],
 )
-def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, sentence):
+def test_result_without_one_integer_for_each_row_breaks_the_protocol(name, sentence):
     with open_implementation(function(name), LIMITS) as it:
         answered = it.classify(rows())
         assert it.restarts == 0
@@ -56,7 +56,7 @@ def test_what_is_no_integer_for_each_row_breaks_the_protocol_throughout(name, se
     assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
 
 
-def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
+def test_implementation_that_always_fails_is_given_up(monkeypatch):
     monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 200)
     with open_implementation(function("floats"), LIMITS) as it:
         answered = it.classify(rows(3000), batch=150)
@@ -66,7 +66,7 @@ def test_who_always_fails_is_not_asked_for_every_row(monkeypatch):
 
 
 @pytest.mark.parametrize(("name", "restarts"), [("leaves", 3), ("raises", 0)])
-def test_what_faults_come_to_is_the_same_however_many_rows_are_asked_at_once(monkeypatch, name, restarts):
+def test_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, name, restarts):
     """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
     monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 4)
     some = rows(9000, lucky=True)
@@ -93,7 +93,7 @@ def intruder(name):
 
 
 @pytest.mark.parametrize(("name", "seen"), [("garbage", r"'�\\x1b\[31m"), ("error", "'erro")])
-def test_what_is_written_into_our_own_pipe_costs_its_own_row_and_is_never_taken_for_a_reply(name, seen):
+def test_bytes_written_into_the_pipe_of_the_worker_cost_their_row_and_are_no_reply(name, seen):
     some = rows()
     with open_implementation(intruder(name), LIMITS) as it:
         for _ in range(2):
@@ -109,7 +109,7 @@ def test_forged_times_are_refused():
         it.time(rows(), 1)
 
 
-def test_what_is_printed_is_kept_as_evidence():
+def test_output_of_foreign_code_is_kept_as_evidence():
     with open_implementation(function("prints"), LIMITS) as it:
         it.classify(rows())
         assert it.stderr[-2:] == ("computing", r"�\x00 from C")
@@ -147,7 +147,7 @@ def test_a_description_is_read_and_overridden():
         assert not it.description.domain.holds(rows()).any()
 
 
-def test_a_bad_override_is_the_callers_fault_and_leaves_nothing_behind():
+def test_invalid_override_is_refused_and_leaves_no_process():
     with pytest.raises(InputError, match="the precision is 'double'; it must be one of float16"):
         open_implementation(function("right"), LIMITS, precision="double")
 
@@ -160,7 +160,7 @@ def test_answers_are_those_of_the_question_asked():
     assert "it must be one of 0, 1 or 2" in answered.reasons[int(np.flatnonzero(truth(some) == -1)[0])]
 
 
-def test_refusals_are_answers_to_invalid_rows_of_those_who_declare_them():
+def test_refusals_are_allowed_for_invalid_rows_if_declared():
     some = rows()
     some[3, 0], some[4, 6] = -1.0, np.nan
     with open_implementation(function("refuses"), LIMITS) as it:
@@ -173,7 +173,7 @@ def test_refusals_are_answers_to_invalid_rows_of_those_who_declare_them():
         assert "answered 127, which refuses the row, but the row is valid" in answered.reasons[0]
 
 
-def test_addresses_differ_from_call_to_call_so_that_one_that_minds_them_is_seen():
+def test_row_addresses_vary_so_that_code_that_depends_on_them_fails():
     some = rows()
     with open_implementation(function("minds_alignment"), LIMITS) as it:
         answers = {bytes(it.classify(some).answers) for _ in range(8)}
@@ -192,7 +192,7 @@ def test_memory_of_a_function_ends_with_its_process():
     assert seen == [truth(some).tolist()] * 3 + [(-truth(some)).tolist()] * 2
 
 
-def test_who_is_slow_is_asked_less_at_once_and_is_no_fault():
+def test_slow_implementation_gets_smaller_batches_and_no_fault():
     """All 260 rows at once would take 1.3 s."""
     with open_implementation(function("slow"), QUICK) as it:
         assert it.classify(rows(260)).answered.all()
@@ -220,19 +220,19 @@ def test_who_is_slow_is_asked_less_at_once_and_is_no_fault():
         ("python:no.such.module:f", r"raised ModuleNotFoundError: No module named 'no'( \(.*\.py, line \d+\))?$"),
     ],
 )
-def test_what_cannot_be_loaded_is_not_started(spec, sentence):
+def test_code_that_cannot_be_loaded_is_not_started(spec, sentence):
     with pytest.raises(StartError, match=sentence) as caught:
         open_implementation(spec, LIMITS)
     assert str(caught.value).startswith(spec[:30])
 
 
-def test_what_takes_too_long_to_load_is_not_started(tmp_path):
+def test_code_that_loads_too_slowly_is_not_started(tmp_path):
     (tmp_path / "slow.py").write_text("import time\ntime.sleep(60)\n")
     with pytest.raises(StartError, match=r"it was not loaded within 0\.5 s"):
         open_implementation(f"python:{tmp_path / 'slow.py'}:f", Limits(startup_timeout=0.5))
 
 
-def test_a_function_is_timed_and_a_fault_is_told():
+def test_function_is_timed_and_its_fault_is_reported():
     some = rows(1000, lucky=True)
     with open_implementation(function("right"), LIMITS) as it:
         # the least of five, for whatever else the machine does may fall on any one of them
@@ -277,7 +277,7 @@ def test_a_change_of_the_rounding_mode_is_seen_and_undone():
 @pytest.mark.parametrize(
     ("call", "line"), [("np.broadcast_arrays([1, 2], [1, 2, 3])", 6), ("json.loads('{')", 6), ("helper.f()", 4)]
 )
-def test_what_a_called_package_raises_is_told_with_the_line_that_calls_it(call, line, tmp_path):
+def test_error_of_a_called_package_is_reported_with_the_calling_line(call, line, tmp_path):
     (tmp_path / "helper.py").write_text("import numpy as np\n\ndef f():\n    np.broadcast_arrays([1, 2], [1, 2, 3])\n")
     text = f"import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n    {call}\n"
     (tmp_path / "calls.py").write_text(text, encoding="utf-8")

@@ -42,7 +42,7 @@ def test_a_fault_costs_its_own_row_and_says_why(fault, tmp_path):
     assert re.search(sentence, reason), reason
 
 
-def test_what_a_library_prints_is_no_answer(tmp_path):
+def test_output_of_a_library_is_no_answer(tmp_path):
     library = compiled("faulty", tmp_path / "faulty.so", *SHARED, "-DFAULT=PRINTS")
     with open_implementation(f"library:{library}", LIMITS) as it:
         assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
@@ -50,7 +50,7 @@ def test_what_a_library_prints_is_no_answer(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
-def test_a_library_may_lie_in_a_folder_whose_name_is_no_text(tmp_path):
+def test_library_in_a_folder_whose_name_is_not_utf8_is_loaded(tmp_path):
     folder = tmp_path / os.fsdecode(b"\xff \n")
     folder.mkdir()
     library = compiled("faulty", folder / "faulty.so", *SHARED, "-DFAULT=PRINTS")  # it exports no description
@@ -110,7 +110,7 @@ def test_the_entry_for_scenes_is_asked_about_rows_of_one_size(right, tmp_path):
             it.classify(one, by_scene=True)
 
 
-def test_what_is_no_library_of_ours_is_not_started(tmp_path):
+def test_file_that_is_no_library_for_hypcheck_is_not_started(tmp_path):
     text = tmp_path / "text.so"
     text.write_text("this is a file of text, and longer than the head of a program that a system runs" * 10)
     without = compiled("without_entry", tmp_path / "without.so", *SHARED)

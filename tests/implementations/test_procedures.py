@@ -25,7 +25,7 @@ def test_a_procedure_is_the_program_that_is_listed(name, flight):
     assert 0 < right.sum() < len(right)
 
 
-def test_ours_calls_valid_what_fits_as_a_whole_or_by_its_rotors(flight):
+def test_certified_procedure_accepts_bodies_that_fit_as_a_whole_or_by_their_rotors(flight):
     ours, second = PROCEDURES["certified"](flight), PROCEDURES["procedure-2b"](flight)
     assert np.count_nonzero(ours != second) <= 2  # along a flight nothing is near enough to matter
 

@@ -104,7 +104,7 @@ def test_a_small_question_arrives_at_one_go_and_a_large_one_whole(run):
     assert int(hear(process, 14)[3:]) == zlib.crc32(b"".join((*small, *large)))
 
 
-def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
+def test_program_that_ends_at_the_end_of_its_input_is_not_killed(tmp_path, run):
     left = tmp_path / "left"
     code = f"import sys, pathlib; sys.stdin.read(); pathlib.Path({str(left)!r}).write_text('by itself')"
     run(code).goodbye()
@@ -113,7 +113,7 @@ def test_who_leaves_at_goodbye_is_not_killed(tmp_path, run):
 
 @needs_proc
 @pytest.mark.parametrize("name", ["ignores_goodbye", "detaches"])
-def test_who_does_not_leave_is_killed_with_its_children(name, token):
+def test_program_that_does_not_end_is_killed_with_its_children(name, token):
     with open_implementation(command(name), LIMITS) as it:
         it.classify(rows())
         eventually(lambda: len(living(token)) == 5)  # the command, its child, the guard with its clock
@@ -122,7 +122,7 @@ def test_who_does_not_leave_is_killed_with_its_children(name, token):
     assert all_gone(token) == []
 
 
-def test_an_error_of_ours_in_the_middle_of_a_question_leaves_nothing(token):
+def test_error_of_hypcheck_during_a_question_leaves_no_process(token):
     """As an interrupt from the keyboard, which reaches us alone, since they are in another group."""
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     it = open_implementation(function("loops"), Limits())
@@ -174,7 +174,7 @@ def test_an_implementation_that_stops_its_parent_does_not_hang_the_run(token):
 
 @needs_proc
 @pytest.mark.parametrize("name", ["loops", "ignores_goodbye", "detaches"])
-def test_nothing_outlives_us_even_if_we_are_killed(name, token):
+def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, token):
     """An endless loop does not see that its input ended, nor does a child: the guard does."""
     code = (
         "import sys\n"
@@ -235,7 +235,7 @@ def test_memory_of_children_in_sessions_of_their_own_counts(run, code):
 
 
 @needs_proc
-def test_memory_of_an_orphan_without_our_environment_counts_if_it_was_seen_before(run):
+def test_memory_of_an_orphan_without_the_mark_counts_if_it_was_seen_before(run):
     """A look finds it while its parent lives, which ends when it is told to."""
     code = (
         "import os, subprocess, sys\n"
@@ -269,7 +269,7 @@ def test_memory_that_processes_share_counts_once(run):
     assert 150 << 20 < process._memory.used() < 300 << 20
 
 
-def test_memory_that_is_only_reserved_is_no_memory(run):
+def test_reserved_memory_does_not_count(run):
     """As sanitizers, Go and the JVM do: 64 GB of addresses, none of them used."""
     reserved = "mmap.mmap(-1, 64 << 30, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS, prot=0)"
     process = run(f"import mmap, sys; m = {reserved}; print(1, flush=True); sys.stdin.read()")
@@ -299,7 +299,7 @@ def test_a_leak_over_many_questions_is_noticed_though_each_is_short(tmp_path):
         ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "ended by SIGTERM$"),
     ],
 )
-def test_an_end_is_told_by_its_cause(code, sentence, run):
+def test_end_of_a_process_is_reported_with_its_cause(code, sentence, run):
     process = run(code)
     with pytest.raises(FaultError, match=sentence) as caught:
         to_the_end(process)
@@ -308,7 +308,7 @@ def test_an_end_is_told_by_its_cause(code, sentence, run):
     assert caught.value.outcome is Outcome.CRASH
 
 
-def test_what_was_said_last_is_heard_even_after_the_end(run):
+def test_last_output_is_read_even_after_the_end(run):
     code = "import os, time; os.write(2, b'first\\n'); os.close(1); time.sleep(0.2); os.write(2, b'last words\\n')"
     process = run(code)
     with pytest.raises(FaultError):
@@ -317,7 +317,7 @@ def test_what_was_said_last_is_heard_even_after_the_end(run):
     assert process.stderr == ("first", "last words")
 
 
-def test_nothing_is_held_open_after_many_runs():
+def test_no_file_stays_open_after_many_runs():
     def descriptors() -> int:
         return len(os.listdir("/dev/fd"))
 
@@ -343,7 +343,7 @@ with open_implementation(sys.argv[1], Limits(timeout=0.7, restarts=0)) as it:
 
 
 @pytest.mark.parametrize("spec", [command("steady", "0.02"), function("naps")], ids=["command", "function"])
-def test_the_time_for_which_everything_is_stopped_is_not_taken_from_an_implementation(spec):
+def test_time_in_which_everything_is_stopped_does_not_count_for_the_timeout(spec):
     """As a container is frozen and a virtual machine is moved."""
     with subprocess.Popen([sys.executable, "-c", ASKS, spec], stdout=subprocess.PIPE, text=True) as asking:
         asked = int(asking.stdout.readline())

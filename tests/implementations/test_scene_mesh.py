@@ -49,7 +49,7 @@ def test_the_grid_has_about_the_triangles_asked_for_and_is_as_far_off_both_ways(
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("pairing", PAIRINGS)
-def test_it_is_right_wherever_the_mesh_is_near_enough(engine, pairing):
+def test_scene_mesh_is_right_beyond_its_deviation(engine, pairing):
     rows = WORKLOADS["uniform"].rows(1, 400)
     mesh = scene_mesh(engine, pairing, TOWER, height_of(TOWER, rows), 3000)
     doubtful = np.abs(clearances(rows).clearance) <= mesh.deviation
@@ -74,7 +74,7 @@ def test_a_mesh_that_the_engine_refuses_answers_nothing():
     assert scene_mesh(refusing, "point", TOWER, 25.0, 100).positions(rows).tolist() == [CANNOT_SAY] * 3
 
 
-def test_rows_are_parted_by_their_sizes():
+def test_rows_are_grouped_by_their_sizes():
     rows = WORKLOADS["near-contact"].rows(1, 60)
     found = dict(rows_by_sizes(rows))
     assert len(found) == 6

@@ -39,7 +39,7 @@ WORDS = [
 
 
 @pytest.mark.parametrize(("text", "words"), WORDS)
-def test_a_spec_is_taken_apart(text, words):
+def test_spec_is_parsed_into_kind_and_words(text, words):
     parsed = parse_spec(text)
     assert (parsed.text, parsed.kind, parsed.words) == (text, text.partition(":")[0], words)
 
@@ -75,7 +75,7 @@ def test_a_spec_is_taken_apart(text, words):
         ("\x1b[31m", r"'\\x1b\[31m' begins with none of"),
     ],
 )
-def test_what_is_no_spec_is_refused_with_what_would_be_one(text, sentence):
+def test_text_that_is_no_spec_is_refused_with_a_correct_example(text, sentence):
     with pytest.raises(InputError, match=sentence) as caught:
         parse_spec(text)
     assert str(caught.value).isprintable()
@@ -98,11 +98,11 @@ def test_every_kind_that_can_be_written_can_be_started():
     assert set(implementation.STARTS) == set(spec._KINDS)
 
 
-def test_every_way_to_end_is_one_of_the_judge():
+def test_every_outcome_has_a_status_of_the_judge():
     assert {each.label for each in Outcome} - {"answered"} <= {each.value for each in judge.Status}
 
 
-def test_a_built_in_method_goes_through_the_same_door():
+def test_built_in_method_has_the_interface_of_all_implementations():
     some = rows(300)
     with open_implementation("builtin:fast") as it:
         answered = it.classify(some)
@@ -151,7 +151,7 @@ def test_a_foreign_spec_loads_none_of_our_methods():
 DEFAULTS = description.Description(name="it")
 
 
-def test_everything_can_be_said():
+def test_description_with_all_keys_is_read():
     said = description.described_by_json(
         '{"protocol":1,"name":"a\\u001b","version":"2","language":"go","precision":"x87","question":"contact",'
         '"domain":{"regimes":["c2>=a"],"ratio":[1,1e9],"magnitude":[0,1e999]},"refuses":true,"binary":true,"time":false}',
@@ -170,7 +170,7 @@ def test_a_domain_may_have_no_end_as_python_and_toml_write_it_but_no_nan():
         description.parse_domain('{"magnitude":[1e-6,NaN]}')
 
 
-def test_nothing_need_be_said():
+def test_empty_description_gets_defaults():
     assert description.described({}, DEFAULTS) == DEFAULTS
 
 
@@ -194,7 +194,7 @@ def test_nothing_need_be_said():
         ({1: 2}, "has the key '1'"),
     ],
 )
-def test_what_makes_no_sense_is_refused(said, sentence):
+def test_invalid_description_is_refused_with_key_and_value(said, sentence):
     with pytest.raises(InputError, match=sentence):
         description.described(said, DEFAULTS)
 
@@ -205,13 +205,13 @@ def test_a_domain_can_be_given_on_the_command_line():
         description.parse_domain("1 to 2")
 
 
-def test_overrides_are_checked_as_what_they_override():
+def test_overrides_are_checked_like_declared_values():
     with pytest.raises(InputError, match="the question is 'where'"):
         DEFAULTS.overridden(question="where")
 
 
 @given(st.binary())
-def test_bytes_are_shown_whatever_they_are(data):
+def test_any_bytes_are_quoted_safely(data):
     assert quoted(data).isprintable()
 
 
@@ -233,7 +233,7 @@ def test_a_long_stream_is_held_in_little_memory():
     assert tail.lines() == (escaped("0296" * 1024 + "0297" * 1024 + "0298" * 1024 + "0299" * 1024, WIDTH),)
 
 
-def test_only_what_came_since_the_mark_is_recent():
+def test_recent_lines_are_those_since_the_mark():
     tail = OutputTail()
     tail.add(b"old\n")
     tail.mark()

@@ -44,7 +44,7 @@ def judged(row, answer, criterion=Criterion()):  # noqa: B008  frozen
         (CLEAR, 1, "contact", Mistake.FALSE_CONTACT),
     ],
 )
-def test_a_mistake_is_named_for_what_it_does(row, answer, question, mistake):
+def test_mistake_is_named_after_its_consequence(row, answer, question, mistake):
     (case,) = judged(row, answer, Criterion(question))
     assert case.mistake is mistake
     assert case.status is Status.WRONG
@@ -64,7 +64,7 @@ def test_right_answers_and_abstentions_are_not_wrong(row, answer, question):
     assert judged(row, answer, Criterion(question)) == []
 
 
-def test_a_wrong_answer_at_a_tangency_is_tolerated_unless_nothing_is():
+def test_wrong_answer_at_a_tangency_is_tolerated_unless_the_tolerance_is_0():
     assert judged(TOUCH, 1)[0].status is Status.TOLERATED
     assert judged(TOUCH, 1, Criterion(tolerance=Fraction(0)))[0].status is Status.WRONG
 
@@ -89,7 +89,7 @@ def test_units_are_those_of_the_declared_precision():
 
 
 @pytest.mark.parametrize("units", [256, 1000])
-def test_a_tolerance_of_the_whole_input_excuses_all_but_what_no_change_makes_right(units):
+def test_tolerance_of_1_tolerates_all_errors_except_infinite_ones(units):
     """256 u of bfloat16 are a relative change of 1."""
     criterion = Criterion(precision="bfloat16", tolerance=Fraction(units))
     assert judged((2.0, 5.0, 1.0, 1.0, 90.0, 0.0, 0.0), -1, criterion)[0].status is Status.TOLERATED
@@ -103,13 +103,13 @@ def test_no_change_makes_the_axis_exterior():
 
 
 @pytest.mark.parametrize("bad", [{"question": "where"}, {"precision": "float8"}, {"tolerance": Fraction(-1)}])
-def test_a_criterion_that_makes_no_sense_is_refused(bad):
+def test_invalid_criterion_is_refused(bad):
     with pytest.raises(InputError, match=r"must be"):
         Criterion(**bad)
 
 
 @given(st.lists(ordinary_pairs, min_size=1, max_size=10), st.integers(0, 2**32))
-def test_recorded_octaves_contain_the_measured_error(some, seed):
+def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
     rows = np.array([pair.row for pair in some])
     answers = np.random.default_rng(seed).integers(-1, 2, len(rows)).astype(np.int8)
     for case in judge.wrong_cases(rows, float_filter.positions(rows), answers, Criterion()):
@@ -119,7 +119,7 @@ def test_recorded_octaves_contain_the_measured_error(some, seed):
             assert 2.0**case.exponent <= error <= 2.0 ** (case.exponent + 1)
 
 
-def test_octaves_of_rows_are_distances_to_the_nearest_other_position():
+def test_flip_exponents_are_those_of_the_distance_to_the_nearest_other_position():
     """CROSS: exterior after 1/11 (see test_flip), interior only later; TOUCH: 0."""
     assert judge.flip_exponents(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
     assert Position.CONTACT not in judge.right_positions(Position.CONTACT, 0, "contact")
@@ -137,5 +137,5 @@ def test_octaves_of_rows_are_distances_to_the_nearest_other_position():
         (-1, "interior", "-1"),
     ],
 )
-def test_an_answer_has_words_and_what_is_none_stays_a_number(answer, question, words):
+def test_in_words_names_answers_and_keeps_other_numbers(answer, question, words):
     assert judge.in_words(answer, question) == words

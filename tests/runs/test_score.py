@@ -56,7 +56,7 @@ def test_each_row_ends_in_one_status(scored):
     assert scored.wrong.tolist() == [1, 2, 3, 4]
 
 
-def test_wrong_answers_are_counted_by_what_they_mean(scored):
+def test_wrong_answers_are_counted_by_mistake(scored):
     assert scored.mistakes == {Mistake.FALSE_CONTACT: 2, Mistake.FALSE_CLEAR: 2}
     sides = score(ROWS[:1], TRUTH[:1], Answered.of(np.array([-1], dtype=np.int8)), Criterion())
     assert sides.mistakes == {Mistake.WRONG_SIDE: 1}
@@ -79,7 +79,7 @@ def test_a_part_of_a_score_keeps_the_reasons_of_its_rows(scored):
     assert scored.part(np.arange(3)).reasons == {}
 
 
-def test_an_answer_that_does_not_count_is_not_wrong(scored):
+def test_answer_that_is_taken_out_of_a_score_is_not_wrong(scored):
     lost = scored.without({1: (Status.NONDETERMINISTIC, "it changed")})
     assert statuses(lost)[1] == "nondeterministic"
     assert lost.wrong.tolist() == [2, 3, 4]

@@ -16,7 +16,7 @@ def test_a_log_gets_a_line_once_it_is_time(capsys):
     assert capsys.readouterr().err == "0 s: 2 of 9\n"
 
 
-def test_a_terminal_is_told_at_once(capsys, monkeypatch):
+def test_terminal_gets_progress_at_once(capsys, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     progress_line("{} of 9".format, every=3600.0)(3)
     assert capsys.readouterr().err == "\r3 of 9 "

@@ -60,7 +60,7 @@ def pids(client):
     return client.run(os.getpid)
 
 
-def test_killed_workers_cost_nothing(client):
+def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client):
     some = steps_of(["tower-body", "ring"], 9000)
 
     def kill(number):
@@ -70,7 +70,7 @@ def test_killed_workers_cost_nothing(client):
     assert saved_state(there(client, KILLS, some, kill)) == saved_state(here(KILLS, some))
 
 
-def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(client):
+def test_only_cases_that_kill_their_worker_end_as_crashes(client):
     some = steps_of(["uniform", "tower-body"], 4000)
     culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
@@ -84,7 +84,7 @@ def _subject(folder: Path) -> tuple[Path, ImplementationOpener]:
     return file, ImplementationOpener(f"python:{file}:f", Limits())
 
 
-def test_a_file_that_a_worker_does_not_have_is_sent(client, tmp_path):
+def test_file_that_a_worker_lacks_is_sent_to_it(client, tmp_path):
     file, opening = _subject(tmp_path)
     some = steps_of(["ring"], 2000)
     expected = here(opening, some)
@@ -94,7 +94,7 @@ def test_a_file_that_a_worker_does_not_have_is_sent(client, tmp_path):
     assert saved_state(state) == saved_state(expected)
 
 
-def test_another_file_on_a_worker_is_refused(client, tmp_path):
+def test_worker_with_another_file_under_test_is_refused(client, tmp_path):
     file, opening = _subject(tmp_path)
     with opening.open() as it, execution_on_cluster(client, opening, rules_of(it), it) as performing:
         file.write_text(file.read_text() + "\n")
@@ -104,7 +104,7 @@ def test_another_file_on_a_worker_is_refused(client, tmp_path):
             list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
 
 
-def test_nothing_is_left_on_the_workers(client, cluster):
+def test_workers_keep_no_files_or_processes_after_a_run(client, cluster):
     """Neither an implementation nor a copy of its file: all of the tests above are over."""
     held = client.run(lambda: len(sys.modules["hypcheck.runs.dask_executor"]._OPENED))
     assert set(held.values()) == {0}

@@ -41,7 +41,7 @@ def lost(tmp_path, out, strike):
     return said
 
 
-def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
+def test_record_of_a_run_whose_scheduler_died_can_be_resumed(tmp_path, whole):
     out = tmp_path / "out"
     said = lost(tmp_path, out, Cluster.kill_scheduler)
     assert "the cluster was lost: its scheduler is gone; the record holds the finished part" in said
@@ -51,13 +51,13 @@ def test_a_scheduler_that_dies_leaves_a_record_to_go_on_with(tmp_path, whole):
     assert came_to(out) == whole
 
 
-def test_a_scheduler_that_stands_still_is_waited_for_and_then_lost(tmp_path):
+def test_stopped_scheduler_ends_the_run_after_a_timeout(tmp_path):
     """Its system goes on to say that it is there."""
     said = lost(tmp_path, tmp_path / "out", Cluster.stop_scheduler)
     assert "the cluster was lost: its scheduler has not answered for 2 s; the record holds the finished part" in said
 
 
-def test_an_interrupted_run_on_workers_here_leaves_none_of_them_and_goes_on(tmp_path, whole, token):  # noqa: F811
+def test_interrupted_run_on_a_local_cluster_ends_its_workers_and_can_be_resumed(tmp_path, whole, token):  # noqa: F811
     process = started(tmp_path, "--cluster", "local:2", start_new_session=True)
     wait_for(process, tmp_path, b"progress")
     process.send_signal(signal.SIGINT)

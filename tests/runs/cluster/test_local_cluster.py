@@ -90,7 +90,7 @@ def test_local_cluster_listens_on_loopback_alone_and_on_no_more_than_dask_needs(
     assert 8787 not in {port for _, port in found}
 
 
-def test_every_socket_of_a_local_cluster_refuses_whoever_has_no_certificate(sockets):
+def test_every_socket_of_a_local_cluster_refuses_clients_without_a_certificate(sockets):
     found, _, _ = sockets
     for _, port in found:
         with pytest.raises((ssl.SSLError, ConnectionError)):

@@ -44,20 +44,20 @@ def test_the_ring_fails_table_2_and_its_own_scenes_do_not(tmp_path):
     assert gate(tmp_path, "builtin:table-2-float64", "--families", "forest-type-1,forest-type-2")[0] == 0
 
 
-def test_a_constant_fails(tmp_path):
+def test_implementation_with_a_constant_answer_fails(tmp_path):
     code, record = gate(tmp_path, subject("contact_everywhere"))
     assert code == 1
     assert statuses(record)["wrong"] > 1000
 
 
-def test_false_clear_alone_can_be_asked_for(tmp_path):
+def test_fail_on_false_clear_passes_other_wrong_answers(tmp_path):
     families = ["--families", "near-tangent-outside"]
     assert gate(tmp_path, subject("never_clear_by_a_little"), *families)[0] == 1
     assert gate(tmp_path, subject("never_clear_by_a_little"), *families, "--fail-on", "false-clear")[0] == 0
     assert gate(tmp_path, subject("too_clear"), *families, "--fail-on", "false-clear")[0] == 1
 
 
-def test_abstaining_is_allowed_as_far_as_it_was_said(tmp_path):
+def test_run_passes_with_at_most_max_abstained_abstentions(tmp_path):
     families = ["--families", "tower-body"]
     code, record = gate(tmp_path, subject("cannot_say"), *families)
     assert code == 1
@@ -66,7 +66,7 @@ def test_abstaining_is_allowed_as_far_as_it_was_said(tmp_path):
     assert gate(tmp_path, subject("cannot_say"), *families, "--max-abstained", str(number))[0] == 0
 
 
-def test_answers_that_change_fail(tmp_path):
+def test_implementation_with_changing_answers_fails(tmp_path):
     code, record = gate(tmp_path, subject("forgetful"), "--families", "tower-*,uniform", "--tolerance", "0")
     assert code == 1
     assert statuses(record).get("nondeterministic", 0) + statuses(record).get("wrong", 0) > 0
@@ -95,20 +95,20 @@ def test_a_hang_ends_as_timeout(tmp_path):
     assert statuses(record)["not-run"] > 0
 
 
-def test_what_cannot_be_started_ends_with_5(tmp_path):
+def test_implementation_that_cannot_be_started_ends_the_run_with_5(tmp_path):
     code, record = gate(tmp_path, "command:/nowhere/at/all", "--families", "ring")
     assert code == 5
     assert record.of(NotStartedLine)
 
 
-def test_a_domain_that_skips_everything_is_no_pass(tmp_path, capsys):
+def test_run_whose_domain_skips_every_case_does_not_pass(tmp_path, capsys):
     code, record = gate(tmp_path, subject("exact"), "--domain", '{"magnitude": [1e5, 1e5]}', "--families", "tower-body")
     assert code == 2
     assert record is None
     assert "no case was judged" in capsys.readouterr().err
 
 
-def test_refusing_is_tested_where_it_is_declared(tmp_path):
+def test_invalid_rows_are_asked_only_if_refuses_is_declared(tmp_path):
     families = ["--families", "tower-body"]
     code, record = gate(tmp_path, "python:tests.runs.refusing:keeps_its_word", *families)
     assert code == 0
@@ -130,7 +130,7 @@ reason = "likewise"
 """
 
 
-def test_known_failures_excuse_and_bite_back(tmp_path, capsys):
+def test_known_failures_excuse_cases_and_fail_the_run_when_they_no_longer_occur(tmp_path, capsys):
     path = tmp_path / "known.toml"
     path.write_text(LIST, encoding="utf-8")
     table_2 = ("builtin:table-2-float64", "--known-failures", str(path), "--families")
@@ -145,7 +145,7 @@ def test_known_failures_excuse_and_bite_back(tmp_path, capsys):
     assert gate(tmp_path, *table_2, "ring-neighbourhood")[0] == 1  # further off than what is excused
 
 
-def test_known_failures_are_rewritten_from_a_whole_run_only(tmp_path, capsys):
+def test_known_failures_are_updated_only_from_a_run_of_all_families(tmp_path, capsys):
     path = tmp_path / "known.toml"
     update = ["--known-failures", str(path), "--update"]
     assert gate(tmp_path, "builtin:table-2-float64", *update, "--families", "ring")[0] == 2
@@ -166,7 +166,7 @@ def test_known_failures_are_rewritten_from_a_whole_run_only(tmp_path, capsys):
         ("other = 1", "other is not an array"),
     ],
 )
-def test_a_bad_list_is_refused(tmp_path, capsys, text, message):
+def test_invalid_list_of_known_failures_is_refused(tmp_path, capsys, text, message):
     path = tmp_path / "known.toml"
     path.write_text(text, encoding="utf-8")
     code, _ = gate(tmp_path, subject("exact"), "--known-failures", str(path), "--families", "ring")
@@ -210,13 +210,13 @@ def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
 
-def test_the_worst_cancellations_are_asked_where_nothing_else_was_chosen(tmp_path):
+def test_worst_cancellations_are_asked_if_no_families_are_chosen(tmp_path):
     _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
     asked = {line.family: line for line in record.of(GroupLine)}
     assert asked["worst-cancellation"].counts["wrong"] > 10
 
 
-def test_more_rows_than_distances_are_recorded_of(tmp_path):
+def test_distances_are_recorded_of_the_first_cases_of_a_large_family_only(tmp_path):
     code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
     assert code == 0
     (line,) = record.of(GroupLine)

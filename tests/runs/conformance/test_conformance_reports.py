@@ -67,7 +67,7 @@ def test_the_record_fits_its_schema(out):
         lambda line: line.update(surprise=1),
     ],
 )
-def test_a_spoilt_line_does_not_fit(record, spoil):
+def test_spoilt_line_does_not_fit_the_schema(record, spoil):
     line = as_json(record.of(ImplementationLine)[0])
     assert violations(line, RECORD, closed=True) == []
     spoil(line)
@@ -93,7 +93,7 @@ def test_reports_show_what_is_declared_and_what_was_judged(record):
     assert any(line.startswith("table-2-float64: declares exterior, float64, c2>=a,") for line in lines)
 
 
-def test_a_name_that_two_bear_is_told_apart(tmp_path):
+def test_two_implementations_with_the_same_name_are_distinguished_in_reports(tmp_path):
     specs = [f"python:{folder}/same.py:classify" for folder in (tmp_path / "a", tmp_path / "b")]
     for spec, answer in zip(specs, ("0", "numpy_kernel.positions(rows)"), strict=True):
         path = spec.partition(":")[2].rpartition(":")[0]
@@ -139,7 +139,7 @@ def test_the_command_of_a_failure_shows_the_failure(record, capsys):
     assert json.loads(capsys.readouterr().out)["status"] == "crash"
 
 
-def test_the_number_of_a_failure_names_its_case(out, record):
+def test_number_of_a_failure_in_reports_names_its_case(out, record):
     for each in failures(record):
         if each.place:
             assert case_of(f"{out}/{each.place}").name == each.case

@@ -19,20 +19,20 @@ def counts(tmp_path, spec, *options, families=FAMILY):
     return code, read(out / "record.jsonl").of(GroupLine)[0].counts
 
 
-def test_who_declares_no_ranges_is_asked_every_row(tmp_path):
+def test_implementation_without_declared_ranges_is_asked_every_extreme_row(tmp_path):
     code, counted = counts(tmp_path, "python:tests.runs.faulty:exact")
     assert code == 0
     assert counted == {"right": 160}
 
 
-def test_a_plain_formula_is_asked_too_and_overflows(tmp_path):
+def test_plain_formula_overflows_on_extreme_rows(tmp_path):
     code, counted = counts(tmp_path, "builtin:dual-float64")
     assert code == 1
     assert counted["wrong"] > 50
 
 
 @pytest.mark.parametrize("domain", ['{"ratio": [1e-8, 1e8], "magnitude": [1e-6, 1e6]}', '{"magnitude": [1e-6, 1e6]}'])
-def test_a_declared_range_holds_there_as_well(tmp_path, capsys, domain):
+def test_declared_range_limits_extreme_rows(tmp_path, capsys, domain):
     out = tmp_path / "out"
     options = ["--families", FAMILY, "--domain", domain]
     assert main(["verify", "builtin:dual-float64", "--out", str(out), *options]) == 2

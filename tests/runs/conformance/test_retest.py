@@ -22,7 +22,7 @@ def counts(record):
     return {line.family: line.counts for line in record.of(GroupLine)}
 
 
-def test_answers_carried_over_from_moment_to_moment_are_found(tmp_path):
+def test_retest_finds_answers_carried_over_from_moment_to_moment(tmp_path):
     code, record = gate(tmp_path, "carries_over", "--families", "flight")
     assert code == 1
     (line,) = record.of(GroupLine)
@@ -32,7 +32,7 @@ def test_answers_carried_over_from_moment_to_moment_are_found(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "code"), [("loses_the_second_thread", 1), ("slowly_loses_the_second_thread", 0)])
-def test_a_question_as_large_as_it_stands_is_asked_by_default(tmp_path, name, code):
+def test_retest_asks_the_largest_proven_batch(tmp_path, name, code):
     count = ("--count", "4000" if code else "1")  # enough questions to grow, though the machine be busy
     ended, record = gate(tmp_path, name, "--families", "tower-body", *count)
     assert ended == code
@@ -41,13 +41,13 @@ def test_a_question_as_large_as_it_stands_is_asked_by_default(tmp_path, name, co
 
 
 @pytest.mark.parametrize("name", ["forgets_what_comes_again", "forgets_twins"])
-def test_a_small_run_asks_the_same_row_again_too(tmp_path, name):
+def test_small_run_retests_rows_too(tmp_path, name):
     code, record = gate(tmp_path, name, "--families", "tower-body", "--count", "40")
     assert code == 1
     assert record.of(GroupLine)[0].counts["nondeterministic"] > 0
 
 
-def test_one_case_in_a_hundred_is_asked_again_of_many(tmp_path):
+def test_one_case_in_a_hundred_of_a_large_family_is_retested(tmp_path):
     code, record = gate(tmp_path, "exact", "--families", "tower-body,ring", "--count", "20000")
     assert code == 0
     (line,) = record.of(ImplementationLine)
@@ -56,7 +56,7 @@ def test_one_case_in_a_hundred_is_asked_again_of_many(tmp_path):
     assert line.again.within == line.again.beyond == 0
 
 
-def test_a_change_that_rounding_explains_fails_those_alone_who_must_not_change(tmp_path):
+def test_answer_that_changes_within_the_tolerance_fails_only_with_deterministic(tmp_path):
     families = ("--families", "tangent,tower-body")
     code, record = gate(tmp_path, "forgets_a_little", *families)
     assert record.of(ImplementationLine)[0].again.within > 0
@@ -65,7 +65,7 @@ def test_a_change_that_rounding_explains_fails_those_alone_who_must_not_change(t
     assert gate(tmp_path, "forgets_a_little", *families, "--deterministic")[0] == 1
 
 
-def test_who_fails_when_asked_again_is_told_with_the_reason(tmp_path):
+def test_fault_during_the_retest_is_recorded_with_its_reason(tmp_path):
     code, record = gate(tmp_path, "raises_when_asked_alone", "--families", "tower-body")
     assert code == 1
     (line,) = record.of(GroupLine)

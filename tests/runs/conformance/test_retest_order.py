@@ -21,12 +21,12 @@ def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0):
 @pytest.mark.parametrize("part", [0, 1])
 @pytest.mark.parametrize("stands", [1, 64, LARGE_QUESTION, FULL_QUESTION, LONGEST])
 @pytest.mark.parametrize("n", [0, 1, 15, 31, 33, 40, 700])
-def test_every_case_is_asked_again(stands, n, part):
+def test_retest_asks_every_pending_case(stands, n, part):
     again = asked(stands, TRUTH[:n], STILL[:n], part=part)
     assert set(np.concatenate([places for places, _ in again])) == set(range(n))
 
 
-def test_two_parts_of_a_round_share_the_small_questions_and_leave_the_many_to_another():
+def test_parts_1_and_2_of_a_round_share_the_small_batches():
     shares = [asked(LONGEST, np.resize(TRUTH, 3 * N), np.full(3 * N, -1), part=part) for part in (1, 2)]
     for share in shares:
         assert [len(places) for places, batch in share if batch == 1] == [ALONE // 2]
@@ -34,12 +34,12 @@ def test_two_parts_of_a_round_share_the_small_questions_and_leave_the_many_to_an
     assert shares[0][0][0].tolist() != shares[1][0][0].tolist()
 
 
-def test_who_is_slow_is_asked_hardly_more_than_once():
+def test_slow_implementation_is_retested_with_few_rows():
     once = N + 4 * retest.TWINS
     assert sum(len(places) for places, _ in asked(LARGE_QUESTION - 1)) == once
 
 
-def test_the_rounds_after_the_first_cost_little():
+def test_rounds_after_the_first_ask_few_rows():
     once = N + 4 * retest.TWINS
     assert sum(len(places) for places, _ in asked(LONGEST, number=1)) < once + FULL_QUESTION
 
@@ -53,12 +53,12 @@ def test_each_place_of_full_and_of_longest_questions_has_each_position():
         assert TRUTH[large[0][-1]] != TRUTH[large[1][-1]]
 
 
-def test_who_takes_long_over_full_questions_is_not_asked_the_longest(monkeypatch):
+def test_implementation_that_is_slow_with_full_batches_gets_no_longest_batches(monkeypatch):
     monkeypatch.setattr(retest, "SOON_S", 0.0)
     assert max(len(places) for places, _ in asked(LONGEST)) == FULL_QUESTION
 
 
-def test_small_questions_leave_every_rest_of_a_vector():
+def test_small_batches_have_every_remainder_of_a_vector_length():
     lengths = {len(places) for places, batch in asked(LONGEST) if batch and batch > 1}
     assert lengths >= set(LENGTHS)
     for lanes in (2, 4, 8, 16):
@@ -66,7 +66,7 @@ def test_small_questions_leave_every_rest_of_a_vector():
 
 
 @pytest.mark.parametrize(("limit", "count"), [(1.0, [ALONE, MANY]), (0.0, [ALONE])])
-def test_who_is_quick_over_a_question_is_asked_many_lone_ones(monkeypatch, limit, count):
+def test_quick_implementation_is_asked_many_single_rows(monkeypatch, limit, count):
     monkeypatch.setattr(retest, "QUICK_S", limit)
     assert [len(places) for places, batch in asked(LONGEST) if batch == 1] == count
 

@@ -95,7 +95,7 @@ def test_results_add_up_in_any_order():
         assert saved_result(replace(together, pending=())) == whole
 
 
-def test_the_order_in_which_steps_are_performed_makes_no_difference():
+def test_result_does_not_depend_on_the_order_in_which_tasks_finish():
     some = steps_of(["uniform", "flight", "ring"], 625)
     assert {(step.number, step.part) for step in some if isinstance(step, RetestStep)} >= {
         (0, 0),
@@ -113,7 +113,7 @@ def test_the_order_in_which_steps_are_performed_makes_no_difference():
             assert saved_state(last(perform_steps(some, shuffled(it, rules, seed), begun))) == saved_state(expected)
 
 
-def test_every_open_case_is_asked_again_in_one_part_of_one_round():
+def test_every_pending_case_is_retested_in_one_part_of_one_round():
     some = steps_of(["uniform", "flight"], 1250)
     with RIGHT.open() as it:
         rules = rules_of(it)
@@ -127,7 +127,7 @@ def test_every_open_case_is_asked_again_in_one_part_of_one_round():
     assert not total.pending
 
 
-def test_restarts_are_used_up_in_order_whoever_is_first():
+def test_restarts_are_charged_in_the_order_of_steps():
     """Cases on the axis end the process: the first few do, and all others are not run."""
     some = steps_of(["tower-body", "axis", "tower-rotors"], 375)
     with DIES.open() as it:
@@ -144,7 +144,7 @@ def test_restarts_are_used_up_in_order_whoever_is_first():
             assert saved_state(last(perform_steps(some, performing, begun))) == saved_state(expected)
 
 
-def test_a_run_goes_on_from_any_state_as_if_it_had_never_paused():
+def test_run_resumed_from_any_state_gives_the_result_of_an_unbroken_run():
     some = steps_of(["flight", "ring", "uniform"], 625)
     with RIGHT.open() as it:
         rules = rules_of(it)
@@ -165,7 +165,7 @@ def _but_for_bins(state):
     return state
 
 
-def test_what_is_kept_of_a_run_does_not_grow_with_it():
+def test_saved_state_does_not_grow_with_the_run():
     some = steps_of(["uniform"], 9000)
     with RIGHT.open() as it:
         passed = [state for _, state in in_this_process(some, it, rules_of(it))]
@@ -175,7 +175,7 @@ def test_what_is_kept_of_a_run_does_not_grow_with_it():
     assert max(sizes[-quarter:]) < 1.1 * max(sizes[quarter : 2 * quarter])
 
 
-def test_a_process_of_ours_that_is_killed_costs_nothing():
+def test_killed_worker_process_does_not_change_the_result():
     some = steps_of(["tower-body"], 1500)
     with RIGHT.open() as it:
         rules = rules_of(it)
@@ -189,7 +189,7 @@ def test_a_process_of_ours_that_is_killed_costs_nothing():
             assert saved_state(last(found)) == saved_state(expected)
 
 
-def test_whoever_describes_itself_otherwise_in_each_process_is_not_gated(tmp_path):
+def test_implementation_with_another_description_in_each_process_is_refused(tmp_path):
     (tmp_path / "fickle.py").write_text(
         "import os\nhypcheck = {'name': f'by {os.getpid()}'}\n\n\ndef f(rows):\n    return [0] * len(rows)\n"
     )
@@ -272,7 +272,7 @@ def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_ch
             assert saved_state(last(perform_steps(some, performing, begun))) == expected
 
 
-def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp_path):
+def test_implementation_that_never_answered_is_given_up_after_three_hangs_with_any_executor(tmp_path):
     """Several processes find it out at the same time, and the run comes to what one process makes of it."""
     (tmp_path / "hangs.py").write_text("import time\n\n\ndef f(rows):\n    time.sleep(60)\n")
     hangs = ImplementationOpener(f"python:{tmp_path / 'hangs.py'}:f", Limits(timeout=0.3))
@@ -287,7 +287,7 @@ def test_what_never_answered_is_asked_no_more_after_three_hangs_whoever_asks(tmp
     assert {name: count for name, count in only.counts.items() if count} == {"timeout": 2, "not-run": only.asked - 2}
 
 
-def test_a_result_comes_back_from_json():
+def test_result_is_restored_from_json():
     fault = tally.UnansweredCase(
         (0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0, 1.0, 1.0, 1.0, 1.0), "wrong", "said \ud83d"
     )

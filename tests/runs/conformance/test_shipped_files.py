@@ -33,7 +33,7 @@ def files(tmp_path, monkeypatch):
         ("command:run.sh rows.txt", ["rows.txt"], ["rows.txt"]),
     ],
 )
-def test_what_is_named_and_what_is_sent(files, spec, named, sent):
+def test_files_of_a_spec_are_found_and_those_given_by_path_are_sent(files, spec, named, sent):
     assert [each.path.name for each in files_of(spec)] == named
     assert [each.path.rpartition("/")[2] for each in files_to_ship(spec)] == sent
     assert list(fingerprints([spec]).values()) == [sha256(files / name) for name in named]
@@ -45,13 +45,13 @@ def test_a_program_is_found_on_the_path_and_each_worker_has_its_own():
     assert files_to_ship("command:sh -c true") == ()
 
 
-def test_a_module_is_told_by_its_file(files):
+def test_fingerprint_of_a_python_module_is_that_of_its_file(files):
     assert module_sha256("python:module:f") == sha256(files / "module.py")
     assert module_sha256("python:nowhere:f") == "(not found)"
     assert module_sha256("python:module.py:f") == module_sha256("command:sh") == ""
 
 
-def test_what_is_sent_stands_in_the_words_of_the_command(files, tmp_path):
+def test_paths_of_sent_files_replace_words_of_the_command(files, tmp_path):
     spec = f"command:{sys.executable} rows.txt -v"
     sent = files_to_ship(spec)
     assert spec_on_worker(spec, sent, "w", tmp_path) == "command:" + json.dumps(
@@ -65,7 +65,7 @@ def test_what_is_sent_stands_in_the_words_of_the_command(files, tmp_path):
     assert (there / "1" / "rows.txt").read_text() == "rows.txt"
 
 
-def test_a_file_of_other_content_is_refused(files, tmp_path):
+def test_file_with_other_content_on_a_worker_is_refused(files, tmp_path):
     sent = files_to_ship("command:./run.sh")
     (files / "run.sh").write_text("another")
     with pytest.raises(InputError, match=r"run\.sh is another file on worker w: sha256 \w{64} there, and \w{64} here"):

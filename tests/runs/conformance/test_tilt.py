@@ -165,7 +165,7 @@ class AskedAgain:
         return Answered.of(judge.exact_positions(rows))
 
 
-def test_open_cases_of_upright_and_tilted_spheroids_are_asked_again_together():
+def test_pending_cases_of_upright_and_tilted_spheroids_are_retested_together():
     chunks = [CaseChunk("uniform", 1, 0, 20), CaseChunk(LEANING, 1, 0, 20)]
     some = tuple(PendingRetest(chunk, np.arange(20), cases_of_chunk(chunk).positions) for chunk in chunks)
     subject = AskedAgain()
@@ -178,7 +178,7 @@ def test_open_cases_of_upright_and_tilted_spheroids_are_asked_again_together():
     }
 
 
-def test_what_is_kept_of_an_interrupted_run_has_the_axis_of_its_cases():
+def test_saved_state_of_an_interrupted_run_holds_the_axis_of_its_cases():
     worst = WorstCase((1, 3), f"{LEANING}/1/1/3", BESIDE, 0, 1, "false-clear", "wrong", 0.25)
     fault = UnansweredCase((0, 2), "invalid-0100", (*BESIDE[:7], 0.0, float("nan"), 0.0), "error", "no heading")
     total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), unanswered=(fault,))})

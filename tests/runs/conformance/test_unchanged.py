@@ -61,7 +61,7 @@ def gated(site, folder, attack, *options):
 
 
 @pytest.mark.parametrize("options", [(), ("--workers", "2")], ids=["alone", "two-workers"])
-def test_an_implementation_that_writes_over_the_judge_fails_and_the_file_is_named(installed, tmp_path, options):
+def test_implementation_that_overwrites_the_judge_fails_and_the_file_is_named(installed, tmp_path, options):
     site = tmp_path / "site"
     shutil.copytree(installed, site)
     verdict, lines = (site / "hypcheck" / part for part in ("report/verdict.py", "runs/consistency.py"))
@@ -78,7 +78,7 @@ def test_an_implementation_that_writes_over_the_judge_fails_and_the_file_is_name
     assert json.loads((tmp_path / "run" / "out" / "summary.json").read_text())["passed"] is False
 
 
-def test_an_implementation_that_writes_over_our_compiled_python_fails(installed, tmp_path):
+def test_implementation_that_overwrites_compiled_python_of_hypcheck_fails(installed, tmp_path):
     site = tmp_path / "site"
     shutil.copytree(installed, site)
     source = site / "hypcheck" / "runs" / "judge.py"
@@ -91,13 +91,13 @@ def test_an_implementation_that_writes_over_our_compiled_python_fails(installed,
     assert ".pyc was changed while an implementation was asked" in said
 
 
-def test_an_implementation_that_writes_over_itself_fails(installed, tmp_path):
+def test_implementation_that_overwrites_itself_fails(installed, tmp_path):
     said = gated(installed, tmp_path / "run", "Path('subject.py').write_text('def attacks(rows): return right(rows)')")
     assert "ended with 1" in said
     assert "subject.py, which is under test, was changed while it was asked" in said
 
 
-def test_a_run_in_which_nothing_changes_holds_and_its_header_has_the_hash_of_the_program(installed, tmp_path):
+def test_unchanged_run_passes_and_its_header_has_the_fingerprint(installed, tmp_path):
     said = gated(installed, tmp_path / "run", "pass")
     assert "ended with 0" in said
     program = read(tmp_path / "run" / "out" / FILE).header.program
@@ -123,7 +123,7 @@ print("late", sorted(name for name in set(sys.modules) - before[0] if name.split
 
 
 @pytest.mark.parametrize("name", ["too_clear", "dies_on_the_axis"])
-def test_no_module_of_ours_is_imported_after_foreign_code_has_begun(tmp_path, name):
+def test_hypcheck_imports_no_module_of_its_own_after_foreign_code_has_started(tmp_path, name):
     words = ["verify", f"python:tests.runs.faulty:{name}", "--families", "axis,ring", "--count", "9"]
     done = subprocess.run(
         [sys.executable, "-c", LATE, *words, "--out", str(tmp_path / "out")],

@@ -38,7 +38,7 @@ def small(monkeypatch):
     monkeypatch.setattr(schedule, "RETEST_AFTER", 3000)
 
 
-def test_cases_that_kill_whoever_asks_end_as_crashes_and_no_others(monkeypatch):
+def test_only_cases_that_kill_their_worker_end_as_crashes(monkeypatch):
     some = steps_of(["uniform", "tower-body"], 4000)
     culprit, others = without_culprit(some)
     expected = here(KILLS, others).total
@@ -54,7 +54,7 @@ def _ends_at_once(*_):
     os._exit(9)
 
 
-def test_processes_that_cannot_begin_end_the_run(monkeypatch):
+def test_processes_that_cannot_start_end_the_run(monkeypatch):
     """Nothing is known of any case then, so that none may be called a crash."""
     monkeypatch.setattr(executors, "_serve", _ends_at_once)
     some = steps_of(["uniform"], 2000)
@@ -68,7 +68,7 @@ def test_processes_that_cannot_begin_end_the_run(monkeypatch):
         list(perform_steps(some, performing, RunState(it.allowance)))
 
 
-def test_one_worker_may_end_as_well(tmp_path):
+def test_pool_of_one_worker_survives_the_end_of_its_process(tmp_path):
     """Who asks for one has it in a process of its own, so that the run does not end with it."""
     words = ["verify", KILLS.spec, "--families", "uniform", "--count", "2501", "--workers", "1", "--out", str(tmp_path)]
     command = [*COMMAND, *words]
@@ -83,7 +83,7 @@ STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us 
 
 
 @STOPS
-def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
+def test_stopped_worker_is_killed_and_its_task_retried(monkeypatch):
     monkeypatch.setattr(executors, "LOOK_S", 0.01)
     monkeypatch.setattr(executors, "STOPPED_LOOKS", 3)
     some = steps_of(["uniform"], 6000)
@@ -100,7 +100,7 @@ def test_who_was_stopped_is_ended_and_costs_nothing(monkeypatch):
 
 
 @STOPS
-def test_a_process_that_is_continued_in_time_is_not_ended(monkeypatch):
+def test_stopped_worker_that_is_continued_in_time_is_not_killed(monkeypatch):
     """Looks that find it stopped are counted from the beginning when one finds it running."""
     looks = iter([True, True, False] * 3)
     done = []
@@ -119,7 +119,7 @@ def test_a_process_that_is_continued_in_time_is_not_ended(monkeypatch):
 
 
 @STOPS
-def test_a_process_tells_whether_it_is_stopped():
+def test_is_stopped_detects_a_stopped_process():
     with WorkerPool(1, nullcontext) as running:
         assert running.submit(os.getpid).result() == running.processes[0].pid
         for number in (signal.SIGSTOP, signal.SIGCONT):
@@ -129,7 +129,7 @@ def test_a_process_tells_whether_it_is_stopped():
 
 
 @STOPS
-def test_a_run_that_is_interrupted_does_not_wait_for_who_was_stopped():
+def test_interrupted_run_does_not_wait_for_a_stopped_worker():
     with RIGHT.open() as it, suppress(KeyboardInterrupt), execution_in_pool(2, RIGHT, rules_of(it), it) as performing:
         processes = started(performing)
         for process in processes:

@@ -41,7 +41,7 @@ def test_of_two_borders_the_far_one_is_beyond_the_near_one():
     assert far * 0.5 == pytest.approx(3, abs=1e-15)
 
 
-def test_where_nothing_changes_there_is_no_border():
+def test_row_whose_position_never_changes_has_no_border():
     rows = np.array([[2.0, 20.0, 1.0, 1.0, 0.0, 0.0, 3.0], [2.0, 20.0, 1.0, 1e-300, 0.0, 0.0, 1e308]])
     mask = hunt_search.columns_of(np.array(["radius", "height"]))
     assert np.isnan(hunt_search.border_factors(rows, mask, np.zeros(2, dtype=bool))).all()
@@ -70,7 +70,7 @@ SURFACES = {
 
 
 @pytest.mark.parametrize("stratum", [each for each in hunt_search.strata() if each.name.startswith("contact")])
-def test_a_crossing_is_on_its_surfaces_or_a_hair_beside_and_near_contact(stratum):
+def test_rows_of_a_crossing_are_on_or_next_to_its_surfaces_and_near_contact(stratum):
     rows = stratum.rows(1, 0)
     assert not invalid(rows).any()
     assert len(rows) > 15
@@ -100,7 +100,7 @@ def test_every_family_and_every_crossing_that_can_be_left_is_a_stratum():
     assert "contact beside z = 0 and r = 0 and c² = a" not in names  # nothing is left there that could be moved
 
 
-def test_beside_the_border_is_beside_it():
+def test_beside_border_returns_rows_next_to_the_border():
     rows = hunt_search.beside_border(Draw("test", 1), ROWS, np.full(len(ROWS), "radius"))
     assert 0 < len(rows) <= len(ROWS)
     assert np.median(flip_exponents(rows)) < -15

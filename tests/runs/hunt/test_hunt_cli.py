@@ -49,7 +49,7 @@ def told(capsys, *arguments):
     return code, output, errors
 
 
-def test_a_hunt_tells_the_worst_first_and_how_to_go_on(capsys):
+def test_hunt_prints_the_worst_first_with_commands_to_continue(capsys):
     code, output, _ = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "3000", "--show", "2")
     assert code == Exit.WRONG
     lines = output.splitlines()
@@ -71,7 +71,7 @@ def test_a_hunt_tells_the_worst_first_and_how_to_go_on(capsys):
     assert told(capsys, *replay[1:])[0] == Exit.WRONG
 
 
-def test_the_options_stand_for_what_is_declared(capsys):
+def test_options_replace_what_the_implementation_declares(capsys):
     arguments = ("hunt", "builtin:procedure-1-float64", "--queries", "2600")
     everywhere = told(capsys, *arguments, "--regimes", "any", "--tolerance", "9")[1]
     assert "c² < a" in everywhere
@@ -87,7 +87,7 @@ def test_the_options_stand_for_what_is_declared(capsys):
     assert "1e+06 u" in output
 
 
-def test_nothing_wrong_is_0(capsys, tmp_path):
+def test_hunt_without_wrong_answers_ends_with_0(capsys, tmp_path):
     (tmp_path / "right.py").write_text(RIGHT)
     code, output, _ = told(
         capsys, "hunt", f"python:{tmp_path}/right.py:classify", "--queries", "2000", "--tolerance", "0"
@@ -105,7 +105,7 @@ def test_nothing_wrong_is_0(capsys, tmp_path):
         ("missing", Exit.NOT_STARTED, ""),
     ],
 )
-def test_however_an_implementation_behaves_the_hunt_ends_as_contracted(capsys, others, name, code, sentence):
+def test_hunt_ends_with_the_exit_code_of_each_kind_of_fault(capsys, others, name, code, sentence):
     found, output, errors = told(capsys, "hunt", others(name), "--queries", "200", "--restarts", "2")
     assert found == code
     assert sentence in output
@@ -130,13 +130,13 @@ def test_however_an_implementation_behaves_the_hunt_ends_as_contracted(capsys, o
         ("minimise", "builtin:table-2-float64", "1,2,1,1,5,0,0"),
     ],
 )
-def test_wrong_usage_is_2_and_one_sentence(capsys, arguments):
+def test_wrong_usage_of_hunt_ends_with_2_and_one_sentence(capsys, arguments):
     code, _, errors = told(capsys, *arguments)
     assert code == Exit.USAGE
     assert errors.startswith("hypcheck: error: ")
 
 
-def test_what_is_found_is_added_to_a_vector_file(capsys, tmp_path):
+def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, tmp_path):
     path = str(tmp_path / "ours.json")
     hunt = ("hunt", "builtin:table-2-float64", "--queries")
     _, output, _ = told(capsys, *hunt, "2500", "--out", path)
@@ -154,7 +154,7 @@ def test_what_is_found_is_added_to_a_vector_file(capsys, tmp_path):
     assert after.head == before.head
 
 
-def test_where_nothing_can_be_kept_nothing_is_asked(capsys, tmp_path):
+def test_hunt_asks_nothing_if_its_vector_file_cannot_be_written(capsys, tmp_path):
     for path in (tmp_path / "none" / "ours.json", tmp_path):
         code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "10", "--out", str(path))
         assert (code, output) == (Exit.USAGE, "")
@@ -170,7 +170,7 @@ def test_a_file_that_is_no_vector_file_is_left_alone(capsys, tmp_path):
     assert path.read_text() == "not vectors"
 
 
-def test_a_hunt_loads_no_library_that_it_does_not_use(others):
+def test_hunt_loads_no_library_that_it_does_not_use(others):
     code = (
         "import sys; from hypcheck.cli.main import main;"
         f"main(['hunt', {others('contact')!r}, '--queries', '300']);"

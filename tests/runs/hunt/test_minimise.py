@@ -50,7 +50,7 @@ def check(run):
 
 
 @pytest.mark.parametrize("place", range(5))
-def test_from_any_ring_case_to_a_ring_of_single_digits(refused_rings, place):
+def test_every_ring_case_is_minimised_to_a_ring_of_single_digits(refused_rings, place):
     run = minimised("table-2-float64", refused_rings[place])
     check(run)
     assert decide(Pair.from_row(run.last.case.row).lengths).kind is Kind.EXTERIOR_RING
@@ -59,7 +59,7 @@ def test_from_any_ring_case_to_a_ring_of_single_digits(refused_rings, place):
     assert longest == 1
 
 
-def test_the_simplest_row_is_one_that_is_claimed():
+def test_minimised_row_is_claimed_by_the_implementation():
     """With α/b and γ/d in 5 … 1000 the ring (7, 7, 1, 1, 10, 0, 0) is about the simplest."""
     run = minimised("table-2-float64", (7, 11, 1, 1, 8, 114 / 11, 0), Domain(ratio=(5.0, 1000.0)))
     check(run)
@@ -77,7 +77,7 @@ def test_the_simplest_row_is_still_wrong_beyond_tolerance():
     assert run.last.error_u > 5e9
 
 
-def test_what_is_simplest_stays_as_it_is():
+def test_simplest_row_stays_as_it_is():
     run = minimised("table-2-float64", (1, 1, 2, 1, 3, 1, 0))
     assert len(run.steps) == 1
     assert run.last.case.row == (1, 1, 2, 1, 3, 1, 0)
@@ -126,7 +126,7 @@ def test_other_failures_become_short_too(spec, row, most, claims):
         ((1, 2, 1, 1, 2.5, 0, 0), {"tolerance": 10**15 * 2}, "within tolerance"),
     ],
 )
-def test_what_is_not_wrong_is_refused(row, claims, sentence):
+def test_minimise_refuses_a_row_that_is_answered_rightly(row, claims, sentence):
     with pytest.raises(InputError, match=sentence):
         minimised("table-2-float64", row, **claims)
 
@@ -173,7 +173,7 @@ def test_the_simplest_rows_are_different_and_below_the_limit():
     assert ring in {tuple(row) for row in simplest_below((6, 1, 10)).tolist()}
 
 
-def test_of_given_rows_the_valid_and_simpler_ones_are_kept_once():
+def test_simpler_than_keeps_each_valid_simpler_row_once():
     good, invalid = (1, 1, 1, 1, 2, 0, 0), (1, 1, 0, 1, 2, 0, 0)
     rows = simpler_than([(1, 1, 1, 1, 2.5, 0, 0), good, good, invalid, (1, 1, 1, 1, math.inf, 0, 0)], (6, 1, 1))
     assert rows.tolist() == [list(good)]

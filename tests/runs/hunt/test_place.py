@@ -30,7 +30,7 @@ from hypcheck.vectors.families import FAMILIES
         ((3, 4, 1, 1, 6, 0, 5), OPEN, OPEN),
     ],
 )
-def test_a_place_is_named_for_what_explains_most(row, kind, words):
+def test_place_of_a_row_is_named_after_the_surface_that_explains_most(row, kind, words):
     place = place_of(Pair.from_row(row))
     assert place.kind == kind
     assert place.words.startswith(words)
@@ -50,7 +50,7 @@ def test_extreme_rows_have_a_place_too():
             assert place_of(Pair.from_row(row)).words
 
 
-def test_the_cause_joins_the_ring_with_its_neighbourhood_and_parts_the_regimes():
+def test_cause_is_the_same_on_and_near_the_ring_and_differs_between_regimes():
     def cause(*row):
         return place_of(Pair.from_row(row)).cause
 

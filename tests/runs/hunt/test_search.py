@@ -56,25 +56,25 @@ def kinds(run):
     }
 
 
-def test_the_ring_in_table_2():
+def test_hunt_finds_the_ring_in_table_2():
     found = kinds(hunted("table-2-float64", 2500))
     assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "the ring"] > 1e14
 
 
-def test_the_gap_in_the_condition_of_procedure_2a():
+def test_hunt_finds_the_gap_in_the_condition_of_procedure_2a():
     found = kinds(hunted("procedure-2a-spheroid-float64", 4000))
     assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c1 = 0"] > 1e14
     assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "c2 = 0"] > 1e14
 
 
-def test_the_unsafe_answers_of_procedure_1_outside_its_regimes():
+def test_hunt_finds_unsafe_answers_of_procedure_1_outside_its_regimes():
     asked_all = kinds(hunted("procedure-1-float64", 3000, regimes=()))
     assert asked_all[Mistake.FALSE_CLEAR, Position.CONTACT, "c² < a"] > 1e14
     inside = kinds(hunted("procedure-1-float64", 3000))
     assert "c² < a" not in {place for _, _, place in inside}
 
 
-def test_the_loss_of_the_local_maximum_where_a_is_about_1_and_where_c2_is_about_a():
+def test_hunt_finds_the_errors_of_the_local_maximum_near_a_equal_1_and_c2_equal_a():
     found = kinds(hunted("local-maximum-float64", 8000))
     assert found[Mistake.FALSE_CONTACT, Position.INTERIOR, "a = 1"] > 3e6
     assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "c² = a"] > 1e4
@@ -92,7 +92,7 @@ def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatc
     assert worst.source.startswith("local search")
 
 
-def test_a_search_that_finds_nothing_worse_halves_its_step_and_comes_to_rest(monkeypatch):
+def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse(monkeypatch):
     """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone."""
     ring, steps = np.array([1, 2, 1, 1, 2.5, 0, 0]), []
     block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
@@ -116,7 +116,7 @@ def test_a_search_that_finds_nothing_worse_halves_its_step_and_comes_to_rest(mon
     assert cluster.worst.case.row == tuple(ring)
 
 
-def test_a_search_goes_on_from_the_worst_and_begins_anew_with_the_first_step(monkeypatch):
+def test_local_search_restarts_with_the_first_step_at_a_worse_answer(monkeypatch):
     """Exterior rows are called contact: the farther off, the worse. All places count as one."""
     clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
     block, stood = np.array([clear, *[crossing] * 1000]), []
@@ -184,7 +184,7 @@ def test_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_lead_awa
 
 
 @pytest.mark.parametrize(("spec", "claims"), [("fast", {"tolerance": Fraction(0)}), ("dual-float64", {})])
-def test_nothing_is_found_where_nothing_is_wrong(spec, claims):
+def test_hunt_finds_nothing_in_an_exact_implementation(spec, claims):
     run = hunted(spec, 5_000, **claims)
     assert run.findings.worst_first() == []
     assert run.asked == run.answered == 5_000
@@ -204,7 +204,7 @@ def test_findings_are_true_and_the_worst_stand_first():
         assert run.target.claimed(np.array([case.row])).tolist() == [0]
 
 
-def test_a_budget_of_queries_is_kept_and_the_same_is_found_again():
+def test_hunt_with_a_budget_of_queries_keeps_it_and_is_repeatable():
     def summary(run):
         return [
             (cluster.beyond, cluster.tolerated, cluster.worst.case.row, cluster.worst.error)
@@ -237,14 +237,14 @@ def test_only_rows_that_are_claimed_are_asked():
     assert len(target.claimed(rows)) == len(rows)
 
 
-def test_who_always_answers_contact_is_wrong_in_every_way_that_is():
+def test_implementation_that_always_answers_contact_has_every_kind_of_false_contact():
     run = Hunt(target_of("double", Double(lambda rows: np.zeros(len(rows)))), HuntPlan(None, 3000))
     run_hunt(run)
     worst = {(cluster.worst.case.mistake, cluster.worst.case.truth) for cluster in run.findings.worst_first()}
     assert worst == {(Mistake.FALSE_CONTACT, Position.EXTERIOR), (Mistake.FALSE_CONTACT, Position.INTERIOR)}
 
 
-def test_an_answer_that_no_change_makes_right_is_the_worst_of_all():
+def test_answer_that_no_change_makes_right_ranks_first():
     run = Hunt(target_of("double", Double(lambda rows: np.ones(len(rows)))), HuntPlan(None, 3500))
     run_hunt(run)
     worst = run.findings.worst_first()[0].worst
@@ -274,7 +274,7 @@ def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_h
 ONE_SCENE = Domain(settings=(FixedSizes((2.5, 9.0, 0.5, 0.25), z=(-4.0, 4.0)),))
 
 
-def test_a_kernel_made_for_one_scene_is_asked_about_its_sizes_alone():
+def test_kernel_for_one_scene_is_asked_only_about_its_sizes():
     double = Double(lambda rows: np.zeros(len(rows)), domain=ONE_SCENE)
     run = Hunt(target_of("double", double), HuntPlan(None, 4000))
     run_hunt(run)
@@ -284,7 +284,7 @@ def test_a_kernel_made_for_one_scene_is_asked_about_its_sizes_alone():
     assert {cluster.worst.case.mistake for cluster in run.findings.worst_first()} == {Mistake.FALSE_CONTACT}
 
 
-def test_what_is_wrong_near_contact_alone_is_found_for_given_sizes():
+def test_hunt_finds_errors_near_contact_for_fixed_sizes():
     def grown(rows):
         rows = rows * [1, 1, 1 + 2.0**-44, 1 + 2.0**-44, 1, 1, 1]
         return float_filter.positions(rows)

@@ -50,7 +50,7 @@ def test_of_two_numbers_the_one_farther_off_is_named():
     assert found["lambda_m"].value < found["B"].value != found["B"].exact
 
 
-def test_where_no_decision_differs_none_is_named():
+def test_no_decision_is_named_if_none_differs():
     found = compare_formula(FORMULAS["table-2"], "float64", (1.0, 2.0, 1.0, 1.0, 5.0, 0.0, 0.0))
     assert (found.first_wrong, found.culprit) == (None, None)
     assert found.answer == found.exact_answer == 1
@@ -65,7 +65,7 @@ def test_overflow_is_no_number_and_a_wrong_decision():
     assert found["position"].error_u is None
 
 
-def test_what_exact_arithmetic_leaves_undefined():
+def test_values_that_are_undefined_in_exact_arithmetic_are_shown_as_undefined():
     """h1 < 0: the root of a negative number, on which the answer does not depend."""
     found = compare_formula(FORMULAS["local-maximum"], "float64", (1.625, 0.25, 2.0, 1.0, 1.125, 1.25, -0.625))
     assert found["h1"].exact < 0
@@ -93,5 +93,5 @@ def test_the_dual_form_answers_as_its_method_does(pair):
             assert found["lambda_"].value == found["lambda_"].exact
 
 
-def test_the_dual_form_without_a_finite_multiplier():
+def test_dual_form_without_a_finite_multiplier_has_no_values():
     assert compare_formula(FORMULAS["dual"], "float16", (1e5, 1.0, 1.0, 1.0, 1e5, 0.0, 0.0)) is None

@@ -33,7 +33,7 @@ def test_a_surd_is_near_its_rational(p, q, h):
     assert abs(near - true) <= abs(true) / 2**79
 
 
-def test_a_surd_that_nearly_cancels():
+def test_number_text_of_a_surd_that_nearly_cancels_is_right():
     close = Fraction(math.isqrt(2 * 10**80), 10**40)  # √2 to 40 digits
     value = Surd(-close, Fraction(1), Fraction(2))
     true = Fraction(decimal_of(value))
@@ -42,7 +42,7 @@ def test_a_surd_that_nearly_cancels():
     assert number_text(value) == f"{decimal_of(value):.8}".replace("E", "e")
 
 
-def test_a_surd_of_a_tiny_root():
+def test_number_text_of_a_surd_with_a_tiny_root_is_right():
     value = Surd(Fraction(0), Fraction(3), Fraction(1, 2**2001))
     true = Fraction(9, 2**2001)
     assert abs(rational(value, 64) ** 2 - true) < true / 2**62
@@ -69,7 +69,7 @@ def test_a_surd_of_a_tiny_root():
         (float("-inf"), "-inf"),
     ],
 )
-def test_what_is_said(value, text):
+def test_number_text_shows_values_of_both_arithmetics(value, text):
     assert number_text(value) == text
 
 
@@ -82,7 +82,7 @@ def test_machine_numbers_come_back_exactly(kind):
     assert number_of(np.asarray(third > 0)) is True
 
 
-def test_relative_errors():
+def test_relative_error_of_special_and_ordinary_values_is_right():
     assert relative_error(Fraction(3), Fraction(2)) == 0.5
     assert relative_error(Fraction(0), Fraction(0)) == 0
     assert relative_error(Fraction(1), Fraction(0)) == math.inf

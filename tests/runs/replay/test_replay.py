@@ -35,7 +35,7 @@ def replayed(capsys, *words, code=0):
     return json.loads(capsys.readouterr().out)
 
 
-def test_right(capsys):
+def test_right_answer_is_replayed_as_right(capsys):
     found = replayed(capsys, FREE, subject("exact"))
     assert found["status"] == "right"
     assert (found["answer"], found["truth"]["label"], found["mistake"]) == (1, "exterior", None)
@@ -43,7 +43,7 @@ def test_right(capsys):
     assert (found["values"]["answer"], found["values"]["exact_answer"]) == (1, 1)
 
 
-def test_wrong_by_how_much(capsys):
+def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys):
     """With α 1, γ 99 and a unit ball, x = 5: contact begins where x (1 − ε) = (α + b)(1 + ε), at ε = 3/7."""
     found = replayed(capsys, FREE, subject("contact"), code=1)
     assert (found["status"], found["mistake"], found["answer"]) == ("wrong", "false-contact", 0)
@@ -62,7 +62,7 @@ def test_tolerated_is_within_the_tolerance_and_not_beyond(capsys):
     assert replayed(capsys, row, subject("contact"), "--precision", "x87", code=1)["backward_error_u"] > 1000
 
 
-def test_a_question_with_two_answers(capsys):
+def test_replay_of_a_yes_no_question_shows_its_answer_in_words(capsys):
     words = (subject("never_interior"), "--question", "exterior")
     assert replayed(capsys, FREE, *words)["answer"] == 1
     assert replayed(capsys, "4,4,1,1,0,0,0", *words)["status"] == "right"
@@ -84,7 +84,7 @@ def test_a_formula_is_shown_as_itself(capsys):
     assert (other["values"]["formula"], other["values"]["format"]) == ("shared", "float32")
 
 
-def test_a_stranger_gets_the_formula_that_errs_as_it_does(capsys):
+def test_foreign_implementation_is_compared_with_a_formula_that_errs_alike(capsys):
     """On the ring Table 2 sees a contact where there is none; far off no formula does."""
     found = replayed(capsys, ring_where_table_2_errs(), subject("contact"), code=1)
     assert found["values"]["formula"] == "table-2"
@@ -110,12 +110,12 @@ def test_every_precision_has_a_format(capsys, precision, shown):
     assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
 
 
-def test_cannot_say_is_no_pass(capsys):
+def test_replay_of_cannot_say_does_not_pass(capsys):
     found = replayed(capsys, FREE, subject("cannot_say"), code=1)
     assert (found["status"], found["answer"]) == ("abstained", 2)
 
 
-def test_a_crash_is_told(capsys):
+def test_replay_reports_a_crash_with_its_reason(capsys):
     found = replayed(capsys, FREE, subject("dies"), code=1)
     assert (found["status"], found["answer"]) == ("crash", None)
     assert "3" in found["reason"]
@@ -123,7 +123,7 @@ def test_a_crash_is_told(capsys):
     assert found["values"]["formula"] == "table-2"
 
 
-def test_an_answer_that_depends_on_its_company(capsys):
+def test_replay_finds_an_answer_that_depends_on_other_rows(capsys):
     found = replayed(capsys, FREE, subject("forgets_the_tail"), code=1)
     assert found["status"] == "nondeterministic"
     assert "at place 33: it answers -1" in found["reason"]
@@ -135,14 +135,14 @@ def test_a_zero_keeps_its_sign(capsys):
     assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
 
 
-def test_a_row_outside_the_domain_is_judged_and_the_skip_is_told(capsys):
+def test_row_outside_the_domain_is_judged_and_the_skip_is_noted(capsys):
     found = replayed(capsys, FREE, "builtin:fast", "--domain", '{"magnitude": [1e-3, 4]}')
     assert found["status"] == "right"
     assert "domain" in found["skipped"]
     assert "float16" in replayed(capsys, "1,2,1,1,1e6,0,0", "builtin:fast", "--precision", "float16")["skipped"]
 
 
-def test_rows_to_be_refused(capsys):
+def test_replay_judges_answers_to_invalid_rows(capsys):
     assert replayed(capsys, "invalid-0003", "python:tests.runs.refusing:keeps_its_word")["status"] == "refused"
     found = replayed(capsys, "invalid-0003", "python:tests.runs.refusing:does_not", code=1)
     assert (found["status"], found["truth"], found["values"]) == ("wrong", None, None)
@@ -150,7 +150,7 @@ def test_rows_to_be_refused(capsys):
     assert "does not declare" in capsys.readouterr().err
 
 
-def test_ids_name_what_they_name_elsewhere():
+def test_case_ids_name_the_same_rows_in_replay_as_elsewhere():
     frozen = vectors.load("ring").cases[4]
     assert case_of(frozen.id).row == frozen.row
     family = FAMILIES["ring"]
@@ -200,7 +200,7 @@ def test_the_text_marks_the_first_wrong_decision(capsys):
         ([subject("contact")], "table-2", False),
     ],
 )
-def test_what_another_formula_gets_wrong_is_no_finding_about_the_implementation(capsys, words, about, own):
+def test_error_of_another_formula_is_not_reported_about_the_implementation(capsys, words, about, own):
     main(["replay", "ring-0007", *words])
     text = capsys.readouterr().out
     found = text[text.index("\nfinding ") :].splitlines()[1:]
@@ -245,11 +245,11 @@ def test_bad_input_ends_with_2(words, message, capsys):
     assert message in capsys.readouterr().err
 
 
-def test_what_cannot_be_started_ends_with_5():
+def test_implementation_that_cannot_be_started_ends_the_run_with_5():
     assert main(["replay", FREE, "command:/nowhere/at/all"]) == 5
 
 
-def test_a_record_whose_row_is_no_row(tmp_path, capsys):
+def test_record_with_an_invalid_row_is_refused(tmp_path, capsys):
     path = tmp_path / "record.jsonl"
     for row, said in (
         (["0x1p+0"] * 6, "worst[0].row is "),

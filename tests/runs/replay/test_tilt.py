@@ -59,7 +59,7 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
         ("2,5,1,0.5,2.5,0,0,1", f"{SPEC}exact", "has 8 numbers; it must have 7: alpha, gamma"),
     ],
 )
-def test_what_cannot_be_replayed_is_told_in_a_sentence(case, spec, sentence, capsys):
+def test_case_that_cannot_be_replayed_is_refused_in_one_sentence(case, spec, sentence, capsys):
     code, said = replayed(capsys, case, spec)
     assert code == 2
     assert sentence in said.err

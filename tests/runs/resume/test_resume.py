@@ -86,7 +86,7 @@ def interrupted(out, whole, dice, number, *more):
 
 
 @pytest.mark.parametrize("moment", range(MOMENTS))
-def test_killed_at_any_moment(whole, tmp_path, moment, here):
+def test_run_killed_at_any_moment_can_be_resumed(whole, tmp_path, moment, here):
     dice = random.Random(moment)  # noqa: S311
     interrupted(tmp_path, whole, dice, SIGNALS[moment % 3], *["--workers", "2"][: 2 * (moment % 7 == 1)])
     resume = ["--resume", str(tmp_path)] if any(tmp_path.glob("record.jsonl*")) else []
@@ -95,7 +95,7 @@ def test_killed_at_any_moment(whole, tmp_path, moment, here):
     assert came_to(tmp_path) == whole[0]
 
 
-def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_path, here, monkeypatch):
+def test_run_interrupted_during_its_reports_prints_the_command_that_makes_them(tmp_path, here, monkeypatch):
     def interrupts(*_):
         raise KeyboardInterrupt
 
@@ -109,7 +109,7 @@ def test_interrupted_while_its_reports_are_made_it_tells_how_to_make_them(tmp_pa
     assert (tmp_path / "summary.json").exists()
 
 
-def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_path, here, monkeypatch):
+def test_second_interrupt_loses_nothing_and_the_resume_command_is_printed(whole, tmp_path, here, monkeypatch):
     def keeps_late(*some):
         signal.raise_signal(signal.SIGINT)
         return keep(*some)
@@ -129,7 +129,7 @@ def test_who_interrupts_twice_loses_nothing_and_is_told_how_to_go_on(whole, tmp_
     assert came_to(tmp_path) == whole[0]
 
 
-def test_killed_twice(whole, tmp_path, here):
+def test_run_killed_twice_can_be_resumed(whole, tmp_path, here):
     for more in ([], ["--resume", str(tmp_path)]):
         process = started(tmp_path, *more)
         wait_for(process, tmp_path, b'"number": 1' if more else b'"progress"')
@@ -139,7 +139,7 @@ def test_killed_twice(whole, tmp_path, here):
     assert came_to(tmp_path) == whole[0]
 
 
-def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused, whole, tmp_path, here):
+def test_record_of_a_killed_run_fits_the_schema_and_is_resumed_within_an_implementation(paused, whole, tmp_path, here):
     path = tmp_path / FILE
     path.write_bytes(paused)
     kept = read(path).lines[-1]
@@ -150,7 +150,7 @@ def test_what_a_killed_run_leaves_fits_the_schema_and_goes_on_from_within(paused
     assert came_to(tmp_path) == whole[0]
 
 
-def test_a_record_cut_at_any_byte_goes_on_or_is_refused(paused, whole, tmp_path, here):
+def test_record_cut_at_any_byte_is_resumed_or_refused(paused, whole, tmp_path, here):
     dice = random.Random(7)  # noqa: S311
     last = paused.rindex(b"\n", 0, -1) + 1
     for cut in (5, last, *(dice.randrange(len(paused)) for _ in range(max(1, MOMENTS // 5)))):
@@ -165,7 +165,7 @@ def test_a_record_cut_at_any_byte_goes_on_or_is_refused(paused, whole, tmp_path,
         assert (tmp_path / "cut.jsonl").read_bytes() == paused[:cut]
 
 
-def test_a_damaged_record_goes_on_once_it_is_repaired(paused, whole, tmp_path, here):
+def test_damaged_record_is_resumed_after_its_repair(paused, whole, tmp_path, here):
     damaged, good = tmp_path / "damaged.jsonl", tmp_path / "good.jsonl"
     damaged.write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
     code, said = here(tmp_path / "out", "--resume", str(damaged))
@@ -176,7 +176,7 @@ def test_a_damaged_record_goes_on_once_it_is_repaired(paused, whole, tmp_path, h
 
 
 @given(st.data())
-def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_on(paused, data):
+def test_finished_implementations_of_a_cut_record_are_kept(paused, data):
     """Also of a finished record, and of one that was interrupted with lines of an unfinished implementation."""
     lines = [
         {name: value for name, value in json.loads(line).items() if name != "crc32"} for line in paused.splitlines()
@@ -200,7 +200,7 @@ def test_however_a_record_is_cut_implementations_that_were_finished_are_carried_
 
 
 @pytest.mark.parametrize("most", [3000, 12000])
-def test_no_file_may_grow_any_more(whole, tmp_path, here, most):
+def test_run_whose_files_cannot_grow_ends_with_an_error(whole, tmp_path, here, most):
     code, said = ended(tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
     assert (code, "cannot write: file too large" in said) == (2, True)
     assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
@@ -220,7 +220,7 @@ def small_disk(tmp_path):
     subprocess.run([umount, "--lazy", disk], check=True)
 
 
-def test_a_full_disk(whole, small_disk, tmp_path, here):
+def test_run_on_a_full_disk_ends_with_an_error_and_can_be_resumed(whole, small_disk, tmp_path, here):
     code, said = ended(small_disk)
     assert (code, "cannot write: no space left on device" in said) == (2, True)
     assert here(tmp_path, "--resume", str(small_disk))[0] == CODE

@@ -65,19 +65,19 @@ def refused(out, capsys, *more):
         (lambda lines: lines[-1].update(state={}), "line 5, progress: state lacks done"),
     ],
 )
-def test_another_run(paused, tmp_path, capsys, change, said):
+def test_record_of_a_run_with_other_options_is_not_resumed(paused, tmp_path, capsys, change, said):
     lines = [json.loads(line) for line in paused.splitlines()]
     change(lines)
     (tmp_path / GROWING).write_bytes(resealed(lines))
     assert said in refused(tmp_path, capsys, "--resume", str(tmp_path))
 
 
-def test_an_edited_line(paused, tmp_path, capsys):
+def test_record_with_an_edited_line_is_not_resumed(paused, tmp_path, capsys):
     (tmp_path / "other.jsonl").write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
     assert "is damaged in line 5, at byte" in refused(tmp_path, capsys, "--resume", str(tmp_path / "other.jsonl"))
 
 
-def test_what_is_no_record(tmp_path, capsys):
+def test_file_that_is_no_record_is_not_resumed(tmp_path, capsys):
     (tmp_path / "empty").touch()
     (tmp_path / "notes").write_text("all is well\n", encoding="utf-8")
     for name, said in (
@@ -90,11 +90,11 @@ def test_what_is_no_record(tmp_path, capsys):
         assert said in refused(tmp_path, capsys, "--resume", str(tmp_path / name)).lower()
 
 
-def test_standard_input(tmp_path, capsys):
+def test_resume_refuses_standard_input(tmp_path, capsys):
     assert "--resume - " in refused(tmp_path, capsys, "--resume", "-")
 
 
-def test_the_record_of_a_run_of_another_kind(tmp_path, capsys):
+def test_record_of_another_command_is_not_resumed(tmp_path, capsys):
     (tmp_path / "ours.jsonl").write_text(text_and_record()[0], encoding="utf-8")
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "ours.jsonl"))
     assert "it is the record of a run of `verify without SPEC`, which always begins from its start" in said
@@ -104,7 +104,7 @@ def test_the_record_of_a_run_of_another_kind(tmp_path, capsys):
     assert "it is the record of a run of `bench`, which always begins from its start" in said
 
 
-def test_an_implementation_that_was_changed_after_it_had_been_asked(tmp_path, capsys):
+def test_run_of_a_changed_implementation_is_not_resumed(tmp_path, capsys):
     code = tmp_path / "subject.py"
     code.write_text("def zero(rows):\n    return [0] * len(rows)\n", encoding="utf-8")
     specs = [f"python:{code}:zero", "builtin:fast"]
@@ -119,7 +119,7 @@ def test_an_implementation_that_was_changed_after_it_had_been_asked(tmp_path, ca
 
 
 @needs_proc
-def test_a_folder_in_which_a_run_is_at_work(tmp_path, capsys):
+def test_folder_of_a_running_run_is_refused(tmp_path, capsys):
     process = started(tmp_path / "out")
     wait_for(process, tmp_path / "out", b"progress")
     process.send_signal(signal.SIGSTOP)
@@ -141,14 +141,14 @@ def test_a_folder_has_one_owner_at_a_time(tmp_path):
 
 
 @pytest.mark.usefixtures("small_steps")
-def test_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
+def test_resume_refuses_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
     (tmp_path / FILE).write_bytes(paused)
     said = refused(tmp_path, capsys, "--resume", str(tmp_path), "--out", "/proc/nowhere")
     assert "--out /proc/nowhere cannot be written" in said
 
 
 @pytest.mark.usefixtures("small_steps")
-def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_path):
+def test_read_only_record_is_resumed_into_another_folder(paused, tmp_path):
     (tmp_path / "kept").mkdir()
     path = tmp_path / "kept" / FILE
     path.write_bytes(paused)
@@ -163,7 +163,7 @@ def test_a_record_that_may_not_be_written_is_gone_on_with_elsewhere(paused, tmp_
 
 
 @pytest.mark.usefixtures("small_steps")
-def test_without_out_it_goes_on_where_the_record_is(paused, tmp_path):
+def test_resume_without_out_writes_into_the_folder_of_the_record(paused, tmp_path):
     (tmp_path / FILE).write_bytes(paused)
     command = words(tmp_path, "--resume", str(tmp_path / FILE))
     at = command.index("--out")
@@ -172,7 +172,7 @@ def test_without_out_it_goes_on_where_the_record_is(paused, tmp_path):
     assert (tmp_path / "summary.json").is_file()
 
 
-def test_a_finished_record_says_so_and_stays(tmp_path, capsys):
+def test_finished_record_is_reported_and_stays_unchanged(tmp_path, capsys):
     words = ["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]
     assert main(words) == 0
     before = files_in(tmp_path)
@@ -191,14 +191,14 @@ def test_a_finished_record_says_so_and_stays(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("name", [FILE, GROWING])
-def test_a_folder_in_the_place_of_the_record_is_refused_before_anything_is_asked(tmp_path, capsys, name):
+def test_folder_at_the_path_of_the_record_is_refused_before_the_run(tmp_path, capsys, name):
     (tmp_path / name).mkdir()
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
     assert f"--out {tmp_path} cannot be written: {name} in it is a folder" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
-def test_a_folder_that_takes_the_place_of_the_record_meanwhile_costs_nothing(tmp_path, capsys, monkeypatch):
+def test_folder_that_appears_at_the_path_of_the_record_during_the_run_loses_nothing(tmp_path, capsys, monkeypatch):
     def settle(recorder, path):
         path.mkdir()
         kept(recorder, path)

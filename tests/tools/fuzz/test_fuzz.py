@@ -23,20 +23,20 @@ def _stopped():
 
 
 @pytest.mark.parametrize("path", CORPUS, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_what_once_failed_fails_no_more(path):
+def test_inputs_that_once_failed_no_longer_fail(path):
     verdict = judged(READERS[path.parent.name].read, path.read_bytes())
     assert verdict.kind != "finding", verdict.says
 
 
 @pytest.mark.parametrize("name", BOMBS)
-def test_nothing_takes_ages(name):
+def test_no_damaged_input_takes_long(name):
     reader, data = BOMBS[name]
     verdict = judged(READERS[reader].read, data)
     assert verdict.kind != "finding", verdict.says
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_real_input_is_a_value(name):
+def test_undamaged_input_is_read(name):
     kinds = {judged(READERS[name].read, data, 60.0).kind for data in READERS[name].seeds()}
     assert "value" in kinds
     assert "finding" not in kinds
@@ -62,14 +62,14 @@ def test_two_thousand_inputs_for_all_readers():
         ("dies", "the process ended with 3"),
     ],
 )
-def test_a_faulty_reader_is_found_out(name, says):
+def test_fuzz_finds_a_faulty_reader(name, says):
     assert name in FAULTY
     tally = run(1, seed=1, names=(name,), processes=1, stuck=6.0 if name == "sleeps" else 60.0)
     assert tally.failed
     assert re.search(says, tally.findings[0].says), tally.findings
 
 
-def test_patience_ends_with_one_input_and_not_with_a_batch(monkeypatch):
+def test_timeout_counts_for_one_input_not_for_a_batch(monkeypatch):
     now = 0.0
     monkeypatch.setattr(running.time, "monotonic", lambda: now)
     patience = Patience(60.0)
@@ -82,7 +82,7 @@ def test_patience_ends_with_one_input_and_not_with_a_batch(monkeypatch):
     assert not patience.ends(4)
 
 
-def test_a_reader_that_keeps_memory_is_found_out():
+def test_fuzz_finds_a_reader_that_leaks_memory():
     tally = run(400, seed=1, names=("keeps",), processes=1)
     assert not tally.findings
     assert tally.failed
@@ -91,6 +91,6 @@ def test_a_reader_that_keeps_memory_is_found_out():
 @pytest.mark.parametrize(
     "text", ["", " ", "two\nlines", "\x1b[31m", "\u202e", "\ud800", "x" * 1001, "a Traceback (most"]
 )
-def test_what_is_no_sentence_is_known(text):
+def test_fuzz_recognises_a_message_that_is_no_sentence(text):
     assert trouble_with(text)
     assert trouble_with("row 3 (line 4): alpha is 0; it must be greater than 0") is None

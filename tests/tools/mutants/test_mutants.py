@@ -54,7 +54,7 @@ def test_the_gate_judges_a_sample_as_it_must(name):
     assert result.ruling.judged > 50
 
 
-def test_what_the_mutants_are_made_of_is_right():
+def test_correct_base_of_the_mutants_is_right():
     for family in select(["*", "extreme"]):
         rows = family.rows(3, 60)
         assert exactly.position(rows).tolist() == numpy_kernel.positions(rows).tolist(), family.name
@@ -74,7 +74,7 @@ def test_every_function_has_an_expectation_and_a_sentence(name):
         assert sentence(value).endswith("."), f"{name}.{function} has no sentence"
 
 
-def test_there_are_enough_and_no_two_are_called_alike():
+def test_mutants_are_enough_and_have_different_names():
     assert len(BY_NAME) == len(mutants())
     assert sum(not mutant.expectation.right for mutant in BY_NAME.values()) >= 40
     assert sum(mutant.expectation.right for mutant in BY_NAME.values()) >= 10
@@ -87,7 +87,7 @@ def test_every_answer_has_the_length_of_the_question():
         assert np.asarray(answers).shape == (1,), name
 
 
-def test_the_page_tells_of_this_collection():
+def test_page_of_the_mutants_lists_this_collection():
     rows = [line[2:-2].split(" | ") for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
     told = [tuple(row[: len(table.stable_cells(mutant))]) for row, mutant in zip(_tables(rows), mutants(), strict=True)]
     assert told == [table.stable_cells(mutant) for mutant in mutants()]
@@ -118,7 +118,7 @@ PASSED, REJECTED, NOT_JUDGED = Ruling(0, {}, 9), Ruling(1, {"ring": 4}, 9), Ruli
         (Result(MORE, PASSED, without=PASSED), False),
     ],
 )
-def test_whoever_escapes_is_told_everywhere(monkeypatch, result, expected):
+def test_escaped_mutant_is_reported_everywhere(monkeypatch, result, expected):
     assert result.as_expected is expected
     monkeypatch.setattr(__main__, "gated", lambda some, jobs: iter([result]))
     said = CliRunner().invoke(__main__.main, ["signs.c0"])
@@ -127,12 +127,12 @@ def test_whoever_escapes_is_told_everywhere(monkeypatch, result, expected):
     assert ("✗" in table.render([result])) is not expected
 
 
-def test_a_right_one_that_is_declared_wrong_is_found_out():
+def test_right_implementation_declared_wrong_is_reported():
     liar = replace(BY_NAME["correct.whole_numbers"], expectation=Expectation(right=False))
     assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
 
 
-def test_a_wrong_one_that_is_declared_right_is_found_out():
+def test_wrong_implementation_declared_right_is_reported():
     liar = replace(BY_NAME["answers.contact_always"], expectation=Expectation(right=True))
     assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
 

@@ -29,7 +29,7 @@ def test_some_rounds_leave_nothing(monkeypatch):
     assert len([status for status, count in course.statuses.items() if count]) > 4, course.statuses
 
 
-def test_whatever_grows_is_found_out(monkeypatch):
+def test_soak_finds_any_growth(monkeypatch):
     monkeypatch.setattr(running, "_round", lambda *_: None)
     kept = []
     with contextlib.ExitStack() as stack:
@@ -61,22 +61,22 @@ def _samples(**each):
     return [Sample(**{**base, **{name: values[i] for name, values in each.items()}}) for i in range(12)]
 
 
-def test_what_is_loaded_once_and_what_comes_back_are_no_growth():
+def test_one_time_loads_and_returned_memory_are_no_growth():
     warming = [number * MIB for number in (20, 60, 90, 91, 90, 91, 91, 140, 91, 90, 91, 91)]
     assert not faults(_samples(resident=warming, handles=[4, 8, 8, 8, 8, 12, 8, 8, 8, 8, 8, 8]))
 
 
 @pytest.mark.parametrize("name", ["handles", "threads", "children"])
-def test_one_more_that_stays_is_growth(name):
+def test_one_process_more_that_stays_is_growth(name):
     assert [fault for fault in faults(_samples(**{name: [3] * 9 + [4] * 3})) if f"{name} grow from 3 to 4" in fault]
 
 
-def test_what_is_left_once_is_told():
+def test_leftover_of_a_single_run_is_reported():
     strays = [()] * 5 + [("sleep 60",)] + [()] * 6
     assert faults(_samples(strays=strays)) == ["left after a round: sleep 60"]
 
 
-def test_too_few_samples_tell_nothing():
+def test_too_few_samples_give_no_verdict():
     assert faults(_samples()[:2]) == ["2 samples after warming up; at least 3 are needed to tell"]
 
 
