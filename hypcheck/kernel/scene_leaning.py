@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import inf, sqrt
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Position, to_integers
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify
+from hypcheck.kernel.scalar import position
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
 
 ERROR = 64 * 2.0**-53
@@ -56,7 +58,79 @@ def position_leaning(
     mover: Sequence[float],
     axis: Sequence[float],
 ) -> int:
-    """The same of one pair, in integers from the exact difference of the centres."""
+    """The same of one pair."""
+    upright = axis[0] == axis[1] == 0
+    found = _by_sizes(sizes, centre, origin, mover) if upright else _by_ball(sizes, centre, origin, axis)
+    return _from_exact_difference(sizes, centre, origin, mover, axis) if found is None else int(found)
+
+
+def _by_sizes(
+    sizes: Sequence[float], centre: Sequence[float], origin: Sequence[float], mover: Sequence[float]
+) -> int | None:
+    """The position beside an upright hyperboloid, where the difference's rounding leaves it; as _beside_upright."""
+    alpha, gamma, b, d = sizes
+    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
+    error = sum(map(_lost, centre, origin, (x, y, z)))
+    if error == 0:
+        return position(alpha, gamma, b, d, x, y, z, axis=mover)
+    least = min(b, d)
+    if not (LEAST < least and max(b, d) < GREATEST and error < GREATEST):
+        return None
+    stretch = error / least * (1 + MARGIN) + ROUNDED
+    outer = position(alpha, gamma, b * (1 + stretch), d * (1 + stretch), x, y, z, axis=mover)
+    if outer != Position.CONTACT:
+        return outer
+    if stretch < 1 and position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), x, y, z, axis=mover) == outer:
+        return outer
+    return None
+
+
+def _lost(there: float, here: float, difference: float) -> float:
+    """What the rounding of a difference lost (TwoSum), without its sign; nan where that is not known."""
+    back = difference - there
+    return abs((there - (difference - back)) - (here + back))
+
+
+def _by_ball(
+    sizes: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
+) -> Position | None:
+    """The position beside a hyperboloid that leans, where the spheroid's ball has one; as _beside_leaning."""
+    alpha, gamma, b, d = sizes
+    height, distance, error = _height_and_distance(centre, origin, axis)
+    if not (LEAST < min(sizes) and max(sizes) < GREATEST and error < GREATEST):
+        return None
+    longest = max(b, d) * (1 + MARGIN) + error
+    above, below = (abs(height) + longest) / gamma, max(abs(height) - longest, 0.0) / gamma
+    if distance - longest > alpha * sqrt(1 + above * above) * (1 + MARGIN):
+        return Position.EXTERIOR
+    if distance + longest < alpha * sqrt(1 + below * below) * (1 - MARGIN):
+        return Position.INTERIOR
+    return None
+
+
+def _height_and_distance(
+    centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
+) -> tuple[float, float, float]:
+    """As _along_and_across, of one pair; the bound of the error is inf where it is not known."""
+    largest, size = max(map(abs, axis)), sum(map(abs, (*centre, *origin)))
+    if not (LEAST < largest < GREATEST and size < GREATEST):
+        return 0.0, 0.0, inf
+    u, v, w = (each / largest for each in axis)
+    norm = sqrt(u * u + v * v + w * w)
+    u, v, w = u / norm, v / norm, w / norm
+    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
+    across = sqrt((v * z - w * y) ** 2 + (w * x - u * z) ** 2 + (u * y - v * x) ** 2)
+    return u * x + v * y + w * z, across, ERROR * size + LEAST
+
+
+def _from_exact_difference(
+    sizes: Sequence[float],
+    centre: Sequence[float],
+    origin: Sequence[float],
+    mover: Sequence[float],
+    axis: Sequence[float],
+) -> int:
+    """The same in integers."""
     difference = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]
     return int(position_of_squares(squares_between_axes(sizes, difference, mover, axis)))
 
@@ -64,7 +138,7 @@ def position_leaning(
 def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
     """Decide some rows in integers."""
     for index in those.tolist():
-        result[index] = position_leaning(*(column[index].tolist() for column in columns))
+        result[index] = _from_exact_difference(*(column[index].tolist() for column in columns))
 
 
 def _beside_upright(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
@@ -140,7 +214,12 @@ def is_within_height(
     span: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
 ) -> bool:
     """The same of one: low ≤ w·(X − c)/|w| ≤ high, squares compared."""
-    if span[0] == -np.inf and span[1] == np.inf:
+    height, _, error = _height_and_distance(centre, origin, axis)
+    if span[0] <= height - error and height + error <= span[1]:
+        return True
+    if height + error < span[0] or span[1] < height - error:
+        return False
+    if span[0] == -inf and span[1] == inf:
         return True
     w = to_integers(axis)
     along = sum(
