@@ -42,7 +42,7 @@ class Evaluator:
 
     Only the steps that the wanted names depend on are evaluated, and only the inputs that these read are asked for;
     `inputs` names them. `given` are values by name that stay the same from call to call, converted once. Names are
-    looked up once, so that a call on small arrays spends its time on arithmetic; an intermediate value is let go after
+    looked up once, so that a call on small arrays spends its time on arithmetic; an intermediate value is freed after
     its last use, so that large arrays take no more memory than they must.
 
     Raises KeyError where a wanted name does not exist, and ValueError where the arithmetic lacks an operation. A call

@@ -284,7 +284,7 @@ def matrix_identity(text: str, left: sympy.Matrix) -> Identity:
 
 
 def printed(number: str) -> tuple[Identity, ...]:
-    """What the paper prints under that number (printed_equations.py), held against the derivation."""
+    """The formulas that the paper prints under that number (printed_equations.py), compared with the derivation."""
     return tuple(
         Identity(
             claim.statement,

@@ -52,7 +52,7 @@ def printed_claims() -> tuple[PrintedClaim, ...]:
 
 
 def equality(number: str, statement: str, **meanings: sympy.Expr) -> PrintedClaim:
-    """The claim "left = right": what is printed on the right must be what the left side's letters stand for."""
+    """The claim "left = right": the printed right side must equal the meaning of the left side's letters."""
     left, _, right = statement.partition("=")
     values = {symbol(name): value for name, value in meanings.items()}
     return PrintedClaim(number, statement, ((read(right), read(left).subs(values)),), values)
@@ -219,7 +219,7 @@ def _printed_row(text: str) -> sympy.Matrix:
 
 @dataclass(frozen=True)
 class EquationCheck:
-    """A numbered formula of the paper, held against the derivation.
+    """A numbered formula of the paper, compared with the derivation.
 
     `number` is the paper's, or "A.n" for the n-th unnumbered display of Appendix A (a, b: its first and second
     equality). `verdict` is "holds", "misprint" (one term or factor changed in one place makes it right) or "false".

@@ -133,7 +133,7 @@ def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
 
 
 def _repaired(verdicts: Verdicts) -> dict[str, int]:
-    """Tried steps that Procedure 1 put right decides otherwise than Table 2, in each precision; all trees together."""
+    """Tried steps on which Procedure 1 put right and Table 2 differ, in each precision; all trees together."""
     ignored = ~verdicts.asked
     return {
         name: _count((put_right | ignored).all(axis=1) != (printed | ignored).all(axis=1))
@@ -220,8 +220,8 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
 def _regime_line(names: list[str]) -> Iterator[str]:
     if names:
         listed = ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
-        told = f"Procedure 1 claims nothing about trees with (gamma/d)^2 < alpha/b: {len(names)}, {listed}"
-        yield from textwrap.wrap(told, WIDTH)
+        text = f"Procedure 1 claims nothing about trees with (gamma/d)^2 < alpha/b: {len(names)}, {listed}"
+        yield from textwrap.wrap(text, WIDTH)
 
 
 def _question_lines(questions: dict[str, int]) -> Iterator[str]:

@@ -27,7 +27,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.kernel import scene as offsets
-from hypcheck.paper.motion import TOLD, first_contact, stays_on_side
+from hypcheck.paper.motion import MOST_CONTACTS, first_contact, stays_on_side
 from hypcheck.paper.quadcopter import any_angle, turned
 from hypcheck.scene.model import Region, SceneModel, Walk
 from hypcheck.truth.float_filter import lines_for_sizes
@@ -244,13 +244,13 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
     steps = np.linspace(-half, half, CELLS)
     y, x = np.meshgrid(place[1] + steps, place[0] + steps, indexing="ij")
     at = np.stack([x.ravel(), y.ravel(), np.full(x.size, place[2])], axis=1)
-    procedure, free, told = Procedure1(trees, "float32"), [], []
+    procedure, free, answers = Procedure1(trees, "float32"), [], []
     for first in range(0, len(at), CHUNK):
         part = at[first : first + CHUNK]
         asked = trees.modelled(part)
         free.append((trees.exterior(part) | ~asked).all(axis=1))
-        told.append((procedure.valid(part) | ~asked).all(axis=1))
-    truth, answer = np.concatenate(free), np.concatenate(told)
+        answers.append((procedure.valid(part) | ~asked).all(axis=1))
+    truth, answer = np.concatenate(free), np.concatenate(answers)
     letters = np.where(truth, np.where(answer, "e", "E"), np.where(answer, "C", "c")).reshape(CELLS, CELLS)
     return {
         "center": place.tolist(),
@@ -273,7 +273,7 @@ def steps_in_contact(trees: Trees, steps: Steps) -> dict[str, Any]:
     return {
         "made": len(end),
         "touching": len(touching),
-        "contacts": [_contact(trees, here, there, step, touched[step]) for step in touching[:TOLD].tolist()],
+        "contacts": [_contact(trees, here, there, step, touched[step]) for step in touching[:MOST_CONTACTS].tolist()],
     }
 
 

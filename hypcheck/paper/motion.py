@@ -138,7 +138,7 @@ def _at(point: Columns, lane: int) -> tuple[float, float, float]:
     return x, y, z
 
 
-TOLD = 12
+MOST_CONTACTS = 12
 """First contacts that are listed one by one."""
 
 
@@ -165,7 +165,7 @@ class MoveVerdicts:
     `wrongly_refused` moves end in a valid position. Of the moves that were `asked` about, Procedure 2.a as printed
     decides `procedure_2a_differs` otherwise than 2.b as printed; `repaired_2a_differs` and `repaired_2b_differs` are
     those that the procedures put right decide otherwise than as printed. Of the `turns` in place `turns_touching` sweep
-    a rotor through contact. The `contacts` of moves that begin in a valid position are told, TOLD of them at most.
+    a rotor through contact. `contacts` has those of moves that begin in a valid position, MOST_CONTACTS at most.
     """
 
     vertical: int = 0
@@ -188,7 +188,7 @@ class MoveVerdicts:
         """Count what another has counted as well."""
         for each in fields(self):
             setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
-        self.contacts = self.contacts[:TOLD]
+        self.contacts = self.contacts[:MOST_CONTACTS]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
@@ -201,7 +201,7 @@ class MoveVerdicts:
             self._count(f"{name}_touching", those & ~clear)
             self._count(f"{name}_begun", those & ~begun)
         self._count("wrongly_accepted", ~ended)
-        touching = np.flatnonzero(begun & ~clear)[: TOLD - len(self.contacts)]
+        touching = np.flatnonzero(begun & ~clear)[: MOST_CONTACTS - len(self.contacts)]
         if len(touching):
             self.contacts += _contacts(craft, _of(start, touching), _of(end, touching), _headed(heading, touching))
         refused = np.flatnonzero(moves.refused & ~moves.turning)

@@ -3,7 +3,7 @@
 A quadcopter flies ahead by leaning: its axis makes the angle `degrees` with the vertical, towards where it goes. Its
 rotors lean with it, in the plane through the body's centre perpendicular to the axis. Going up, down or turning in
 place it is upright. The sines and the rotors' places are rounded once, as those of an upright quadcopter are; the
-numbers that come of it are decided exactly.
+resulting numbers are decided exactly.
 
 A spheroid lies within the ball of its longer semi-axis. Where that ball is interior, so is the spheroid, however it
 leans; only the others are asked with their axes.
@@ -165,10 +165,10 @@ def near_wall(craft: Craft, degrees: float, seed: int) -> dict[str, Any]:
     return found
 
 
-def pitch_lines(told: dict[str, Any]) -> Iterator[str]:
-    """What came of it, in words."""
-    yield f"Leaning by {told['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
-    total, moves = told["total"], told["total"]["moves"]
+def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
+    """The result in words."""
+    yield f"Leaning by {lean['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
+    total, moves = lean["total"], lean["total"]["moves"]
     for name, what, refused in (
         ("", "its answer is wrong about", "needlessly refused"),
         ("body_", "the body alone is judged wrongly for", "clear only as it leans"),
@@ -176,7 +176,7 @@ def pitch_lines(told: dict[str, Any]) -> Iterator[str]:
         wrong, dangerous = total[f"{name}wrong"], total[f"{name}dangerous"]
         yield f"  of {counted(moves, 'horizontal move')} {what} {wrong:,}{_share(wrong, moves)}:"
         yield f"    {dangerous:,} dangerous, clear only upright; {wrong - dangerous:,} {refused}"
-    near = told["near_wall"]
+    near = lean["near_wall"]
     yield f"  of {counted(near['centres'], 'centre')} within b of the wall the body's position is another"
     for name, what in (("anywhere", "leaning anywhere"), ("outward", "leaning along the radius, outwards")):
         changed, dangerous = near[name]["changed"], near[name]["dangerous"]

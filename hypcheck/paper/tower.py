@@ -174,19 +174,19 @@ def tower_lines(result: dict[str, Any]) -> Iterator[str]:
     yield from textwrap.wrap(result["statement"], WIDTH)
 
 
-def _assumed(told: dict[str, Any], seed: int) -> Iterator[str]:
-    yield f"{told['scene']}, seed {seed}"
-    yield f"  tower alpha = {told['alpha']:g}, gamma = {told['gamma']:g}; {_height(told['height'])}"
+def _assumed(scene: dict[str, Any], seed: int) -> Iterator[str]:
+    yield f"{scene['scene']}, seed {seed}"
+    yield f"  tower alpha = {scene['alpha']:g}, gamma = {scene['gamma']:g}; {_height(scene['height'])}"
     yield (
-        f"  body b = {told['b']:g}, d = {told['d']:g}; rotors b_s = {told['b_s']:g}, d_s = {told['d_s']:g}, "
-        f"l = {told['l']:g}, g1 = heading {told['g1_from_heading']:+g} degrees"
+        f"  body b = {scene['b']:g}, d = {scene['d']:g}; rotors b_s = {scene['b_s']:g}, d_s = {scene['d_s']:g}, "
+        f"l = {scene['l']:g}, g1 = heading {scene['g1_from_heading']:+g} degrees"
     )
-    turns = 1 - told["straight"] - told["vertical"]
-    ahead = "ahead or back, half each" if told["backward"] else "ahead"
-    yield f"  draws: straight {told['straight']:g} ({ahead}), up or down {told['vertical']:g}, turns {turns:g}"
-    yield f"  turns within {told['largest_turn']:g} degrees: {_TURNS[told['turn']]}"
-    yield f"  a refused movement turns by {told['refused_turn']:g} degrees, left or right"
-    yield f"  {_start(told['start'])}"
+    turns = 1 - scene["straight"] - scene["vertical"]
+    ahead = "ahead or back, half each" if scene["backward"] else "ahead"
+    yield f"  draws: straight {scene['straight']:g} ({ahead}), up or down {scene['vertical']:g}, turns {turns:g}"
+    yield f"  turns within {scene['largest_turn']:g} degrees: {_TURNS[scene['turn']]}"
+    yield f"  a refused movement turns by {scene['refused_turn']:g} degrees, left or right"
+    yield f"  {_start(scene['start'])}"
 
 
 def _height(span: Sequence[float] | None) -> str:
@@ -266,8 +266,8 @@ def _row(
     ours = "".join(f"{_with_error(percent, error):>14}" for percent, error in zip(percents, errors, strict=True))
     yield f"  t = {time:4g} s  {ours}"
     yield "  printed     " + "".join(f"{figure:>14.4f}" for figure in printed)
-    told = ("–" if each is None else f"{each:+.1f}" for each in differences)
-    yield "  difference  " + "".join(f"{each:>14}" for each in told)
+    shown = ("–" if each is None else f"{each:+.1f}" for each in differences)
+    yield "  difference  " + "".join(f"{each:>14}" for each in shown)
 
 
 def _with_error(percent: float, error: float | None) -> str:

@@ -131,9 +131,9 @@ def distance_exponents(rows: Rows, positions: Positions) -> Floats:
         nearer = _changes_position(rows[places], positions[places], middle, INNER)
         farther = ~nearer
         farther[farther] = ~_changes_position(rows[places[farther]], positions[places[farther]], middle[farther], OUTER)
-        told = nearer | farther
-        high, low = np.where(nearer, middle, high)[told], np.where(farther, middle, low)[told]
-        places = places[told]
+        known = nearer | farther
+        high, low = np.where(nearer, middle, high)[known], np.where(farther, middle, low)[known]
+        places = places[known]
     return found
 
 

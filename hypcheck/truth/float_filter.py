@@ -179,7 +179,7 @@ def _chunk(rows: Rows, first_number: int) -> Positions:
 
 
 def _all_safe(columns: Floats) -> bool:
-    """Whether all rows are, by the extremes of each column; a NaN is nobody's extreme and compares false."""
+    """Whether all rows are, by the extremes of each column; comparisons with a NaN are false."""
     if not columns.size:
         return True
     least, greatest = columns[:4].min(axis=1), columns[:4].max(axis=1)

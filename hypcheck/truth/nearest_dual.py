@@ -97,7 +97,7 @@ def _reduced(first: int, second: int, third: int) -> tuple[int, int, int]:
     return first >> shift, second >> shift, third >> shift
 
 
-_WIDE = mpmath.MPContext()  # of our own, so that nobody's precision is changed; never written to after this
+_WIDE = mpmath.MPContext()  # our own context, so that mpmath's precision stays what it is; not changed after this
 _WIDE.prec = 64  # and an exponent without limits
 
 _FLOAT_RANGE = 120

@@ -61,7 +61,7 @@ METADATA = Metadata(
 
 @dataclass(frozen=True, slots=True)
 class CancellationSearch:
-    """What is searched for: rows on which a formula errs in a format, in contact or not, and where the search begins.
+    """A search for rows on which a formula errs in a format, in contact or not, and where the search begins.
 
     `contact` rows in contact are called clear, which is the dangerous mistake; others are called in contact, mostly.
     """

@@ -117,7 +117,7 @@ def _stream(name: Sequence[object]) -> np.random.Philox:
 
 
 def _chosen(which: NDArray[np.bool_], first: Floats, second: Floats) -> Floats:
-    """np.where, without its branches, which nobody can predict where `which` is random."""
+    """np.where, without its branches, which no processor predicts where `which` is random."""
     one, other = first.view(np.uint64), second.view(np.uint64)
     all_or_none = np.uint64(0) - which.astype(np.uint64)
     return np.asarray(other ^ ((one ^ other) & all_or_none)).view(np.float64)

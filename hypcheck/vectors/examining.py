@@ -30,7 +30,7 @@ DESCRIPTIONS: Mapping[str, FamilyDescription] = {
 
 
 def wrong_description(head: Metadata) -> Iterator[str]:
-    """Sentences about what a file says wrongly of a family of ours; none of the command that made it."""
+    """A sentence for each wrong description of a known family in a file; the command that made it is not compared."""
     known = DESCRIPTIONS.get(head.name)
     if known is None or head.version < known.version:
         return
@@ -39,7 +39,7 @@ def wrong_description(head: Metadata) -> Iterator[str]:
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
-    """Sentences about flags that a file describes otherwise than they are checked."""
+    """A sentence for each flag whose description in a file is not the meaning that is checked."""
     for flag, facts in flags.items():
         for name, said, right in _differences(FlagFacts, facts, FLAGS[flag]):
             yield f"the {name} of the flag {flag} is {said}; it is {right}"

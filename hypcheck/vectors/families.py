@@ -104,7 +104,7 @@ def _parsed_sizes(text: str, name: str) -> FixedSizes:
         spans = dict(_span(word) for word in words[len(SIZES) :])
     except ValueError:
         raise InputError(
-            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, at will, x=low:high, y=…, z=…"
+            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, optionally, x=low:high, y=…, z=…"
         ) from None
     for column, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
         trouble = trouble_with(column, value)

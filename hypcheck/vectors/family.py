@@ -28,7 +28,7 @@ TOGETHER = 16
 
 @dataclass(frozen=True, kw_only=True)
 class FamilyDescription:
-    """What is told of a family, where it is made and in its file.
+    """The description of a family, where it is made and in its file.
 
     `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
     case ids. `title`, `source` (where the idea comes from, or how the rows are made) and `purpose` (what a wrong

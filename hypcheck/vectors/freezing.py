@@ -127,8 +127,8 @@ def planned(name: str) -> Rows:
 
 def metadata_of(family: Family, made_by: str) -> Metadata:
     """What a file says of a family."""
-    told = {each.name: getattr(family, each.name) for each in fields(FamilyDescription)}
-    return Metadata(**told, made_by=made_by)
+    described = {each.name: getattr(family, each.name) for each in fields(FamilyDescription)}
+    return Metadata(**described, made_by=made_by)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:

@@ -140,7 +140,7 @@ class LabelFault:
 
 
 def faults_of_vectors(file: VectorFile, advance: Callable[[int], object] = lambda _: None) -> list[LabelFault]:
-    """Every wrong label of a file of cases, in order; `advance` is told of each case that is done."""
+    """Every wrong label of a file of cases, in order; `advance` is called for each case that is done."""
     lines = file.lines or (0,) * len(file.cases)
     decisions = [exact.decide(case.pair.lengths) for case in file.cases]
     flags = flags_of([case.row for case in file.cases], decisions) if file.cases else []

@@ -11,7 +11,7 @@ import pytest
 from hypcheck.geometry.pair import Position
 from hypcheck.paper import motion
 from hypcheck.paper.flights import Moves, fly
-from hypcheck.paper.motion import TOLD, Contact, MoveVerdicts, stays_on_side, stays_on_side_turning, valid
+from hypcheck.paper.motion import MOST_CONTACTS, Contact, MoveVerdicts, stays_on_side, stays_on_side_turning, valid
 from hypcheck.paper.quadcopter import any_angle, craft_of, small_angle
 from hypcheck.scene.model import Span
 from hypcheck.scene.reading import read_scene
@@ -190,7 +190,7 @@ def test_a_move_through_the_waist_touches_first_where_its_first_rotor_does():
     counted.watch(craft, moves)
     for place in range(40):
         watched_alone(craft, moves, place, expected)
-    assert 0 < len(expected.contacts) <= TOLD
+    assert 0 < len(expected.contacts) <= MOST_CONTACTS
     assert all(0 < contact.first_lower <= contact.first_upper < 1 for contact in expected.contacts)
     assert counted == expected
 

@@ -271,12 +271,12 @@ class _Batch(Statements):
         bound, widest, highest = map(self._literal, (delta.bound, delta.widest, delta.highest))
         yield f"const {self._truth} within = (R <= {widest}) & (zz <= {highest});"
         yield f"const {self._truth} touching = within & (delta_3 < -{bound});"
-        told = self.code(OPEN)
+        rest = self.code(OPEN)
         if delta.clear_where_positive:
             yield f"const {self._truth} clear = within & (delta_3 > {bound});"
-            yield f"const {self._number} told = clear ? {clear} : {told};"
-            told = "told"
-        yield f"const {self._number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {told};"
+            yield f"const {self._number} told = clear ? {clear} : {rest};"
+            rest = "told"
+        yield f"const {self._number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {rest};"
         yield f"const {self._number} here = before == {self.code(OPEN)} ? now : before;"
         yield f"code[i] = {self._chosen(self._beyond_height(), 'here')};"
 

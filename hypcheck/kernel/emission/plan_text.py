@@ -82,7 +82,7 @@ def operations_text(operations: Operations) -> str:
 WIDTH = 110
 LONGEST_NAME = 60
 FEW = 4
-"""Up to so many settings are told in the head; of more each is told at its own function."""
+"""The head describes up to so many settings; of more, each is described at its own function."""
 
 
 def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
@@ -122,15 +122,15 @@ def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
 
 
 def notes(plan: ScenePlan, stages: Stages) -> list[str]:
-    """What stands at the head of a setting's function: lines, none where the head of the kernel has told it."""
+    """The lines at the head of a setting's function; none where the head of the kernel describes the setting."""
     return [] if len(plan.settings) <= FEW else _wrapped(_setting(stages, plan.question))
 
 
 def comment_text(text: str) -> str:
     """A foreign text as a comment, a raw string of Python and the source of C can hold it: visible, on one line.
 
-    Broken by a blank is what would end a comment, open one, or be a trigraph; a backslash that ends a word, and so may
-    come to end a line, which C and C++ would join to the next, has a full stop after it.
+    A blank breaks characters that would end a comment, open one, or be a trigraph. A backslash that ends a word gets a
+    full stop after it: at the end of a line, C and C++ would join that line to the next.
     """
     plain = escaped(text, LONGEST_NAME * 4)
     for found, broken in (("*/", "* /"), ("/*", "/ *"), ('"""', "'''")):
@@ -157,9 +157,9 @@ def _setting(stages: Stages, question: str) -> str:
 
 def region(setting: Setting) -> str:
     """Where the centre can be, as seen from the hyperboloid's, in a sentence or two."""
-    told = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
+    spans = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
     beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
-    return f"Region: {', '.join(told) or 'everywhere'}.{beyond}"
+    return f"Region: {', '.join(spans) or 'everywhere'}.{beyond}"
 
 
 def outside(stages: Stages) -> str:
@@ -212,7 +212,7 @@ Numbered = tuple[int, Stages]
 
 
 def plan_lines(plan: ScenePlan) -> Iterator[str]:
-    """The plan for people, line by line; settings that leave out the same for the same reasons are told together."""
+    """The plan for people, line by line; settings that leave out the same for the same reasons stand together."""
     yield f"{escaped(plan.scene.name, 60)}: {_question_in_words(plan.question)}, in {plan.format.name}"
     for group in _alike(plan):
         yield ""
