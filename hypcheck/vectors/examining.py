@@ -15,17 +15,20 @@ from hypcheck.errors import NothingJudgedError
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.vectors import cancellation, frozen
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
-from hypcheck.vectors.flags import FLAGS
-from hypcheck.vectors.format import INVALID, content_of, vectors_of
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
+from hypcheck.vectors.format import INVALID, TILTED_INVALID, TILTED_POSITIONS, content_of, vectors_of
 from hypcheck.vectors.frozen import invalid_rows_of
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors
+from hypcheck.vectors.tilted.format import tilted_vectors_of
+from hypcheck.vectors.tilted.labels import faults_of_tilted
 
 DESCRIPTIONS: Mapping[str, FamilyDescription] = {
     **FAMILIES,
     cancellation.NAME: cancellation.METADATA,
-    frozen.INVALID_NAME: frozen.INVALID_METADATA,
+    **TILTED_FAMILIES,
+    **frozen.INVALID_METADATA,
 }
 
 
@@ -41,7 +44,7 @@ def wrong_description(head: Metadata) -> Iterator[str]:
 def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
     """A sentence for each flag whose description in a file is not the meaning that is checked."""
     for flag, facts in flags.items():
-        for name, said, right in _differences(FlagFacts, facts, FLAGS[flag]):
+        for name, said, right in _differences(FlagFacts, facts, {**FLAGS, **TILTED_FLAGS}[flag]):
             yield f"the {name} of the flag {flag} is {said}; it is {right}"
 
 
@@ -73,9 +76,13 @@ class MetadataFault:
     sentence: str
 
 
-def shipped_files() -> list[str]:
-    """The paths of the frozen files, all of which must be there."""
-    return [str(frozen.path_of(name)) for name in (*frozen.NAMES, frozen.INVALID_NAME)]
+def shipped_files(*, tilted: bool = True) -> list[str]:
+    """The paths of the frozen files, all of which must be there; without `tilted`, those about upright spheroids."""
+    names = (*frozen.NAMES, frozen.INVALID_NAME)
+    return [str(frozen.path_of(name)) for name in (*names, *(TILTED if tilted else ()))]
+
+
+TILTED = (*frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME)
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:
@@ -85,18 +92,27 @@ def examine(paths: Iterable[str]) -> Iterator[FileReport]:
     """
     for path in paths:
         document = read_document(path)
-        if content_of(document, path) == INVALID:
+        content = content_of(document, path)
+        if content in (INVALID, TILTED_INVALID):
             bad = invalid_rows_of(document, path)
             head = _metadata_faults(document, "family", wrong_description(bad.head))
             report = FileReport(path, len(bad.cases), head, tuple(faults_of_invalid_rows(bad)))
+        elif content == TILTED_POSITIONS:
+            tilted = tilted_vectors_of(document, path)
+            head = _head_faults(document, tilted.head, tilted.flags)
+            report = FileReport(path, len(tilted.cases), head, tuple(faults_of_tilted(tilted)))
         else:
             file = vectors_of(document, path)
-            head = _metadata_faults(document, "family", wrong_description(file.head))
-            head += _metadata_faults(document, "flags", wrong_meanings(file.flags))
+            head = _head_faults(document, file.head, file.flags)
             report = FileReport(path, len(file.cases), head, tuple(faults_of_vectors(file)))
         if not report.count:
             raise NothingJudgedError(f"{path} has no cases; nothing was checked")
         yield report
+
+
+def _head_faults(document: JsonDocument, head: Metadata, flags: Mapping[str, FlagFacts]) -> tuple[MetadataFault, ...]:
+    family = _metadata_faults(document, "family", wrong_description(head))
+    return family + _metadata_faults(document, "flags", wrong_meanings(flags))
 
 
 def _metadata_faults(document: JsonDocument, member: str, sentences: Iterable[str]) -> tuple[MetadataFault, ...]:

@@ -24,10 +24,11 @@ from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact
 from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, tilted
+from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
 from hypcheck.vectors.draw import Draw, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
+from hypcheck.vectors.tilted import families as tilted_families
 
 MARK = "@"
 OPEN = 2.0
@@ -265,7 +266,7 @@ FAMILIES: dict[str, Family] = {
 }
 """The families of upright spheroids."""
 
-TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted.TILTED_FAMILIES}
+TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted_families.TILTED_FAMILIES}
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
 EXTREME = "extreme"

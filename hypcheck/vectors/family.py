@@ -99,7 +99,10 @@ class Family(FamilyDescription):
 
 
 SCHEMA = "1.0.0"
-"""The version of the files' schema, cases/schema/vectors-1.0.0.json; a reader refuses any other."""
+"""The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
+
+TILTED_SCHEMA = "1.1.0"
+"""The version of the schemas of files about tilted spheroids; a reader refuses any other than these two."""
 
 Row = tuple[float, ...]
 Offset = tuple[Fraction, Fraction, Fraction]

@@ -156,7 +156,24 @@ FLAGS: dict[str, FlagFacts] = {
         for what in ("the paper's Table 2" if formula == "table-2" else "the sign of g at its local maximum",)
     },
 }
-"""Every flag there is, in the order in which a case has them."""
+"""Every flag of upright spheroids, in the order in which a case has them."""
+
+TILTED_FLAGS: dict[str, FlagFacts] = {
+    "tangent": FLAGS["tangent"],
+    "quartic-ring": FlagFacts("clear, though the discriminant of det(S + λH) is 0", "missing case"),
+    "quartic-delta=0": FlagFacts("the discriminant of det(S + λH) is exactly 0", "equality"),
+    "tilt-matters": FlagFacts("the same spheroid upright has another position", "ignored input"),
+    "vertical-axis": FlagFacts("axis_x = axis_y = 0: an upright spheroid", "degenerate input"),
+    "horizontal-axis": FlagFacts("axis_z = 0", "degenerate input"),
+    "sphere": FlagFacts("b = d: the axis means nothing", "degenerate input"),
+    "meridian-plane": FlagFacts("centre, axis and the hyperboloid's axis lie in one plane", "degenerate input"),
+    "through-the-origin": FlagFacts("the axis points from the centre to the hyperboloid's", "degenerate input"),
+    "on-axis": FlagFacts("x = y = 0: the centre lies on the hyperboloid's axis", "degenerate input"),
+    "on-surface": FLAGS["on-surface"],
+    "long-axis": FlagFacts("the square of the axis's length overflows or underflows in float64", "overflow"),
+    "extreme": FLAGS["extreme"],
+}
+"""Every flag of tilted spheroids, in the order in which a case has them."""
 
 
 def flags_of(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:

@@ -14,17 +14,38 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Position, trouble_with
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Position, trouble_with
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.kinds import Kind
-from hypcheck.vectors.family import SCHEMA, FlagFacts, Metadata, Offset, Row, StoredCertificate, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS
+from hypcheck.vectors.family import (
+    SCHEMA,
+    TILTED_SCHEMA,
+    FlagFacts,
+    Metadata,
+    Offset,
+    Row,
+    StoredCertificate,
+    Vector,
+    VectorFile,
+)
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
 
 Case = TypeVar("Case")
 
 POSITIONS, INVALID = "positions", "refusals"
-"""The two contents that a file can have: cases with answers, and rows that must be refused."""
+"""The contents that a file of rows of seven numbers can have: cases with answers, and rows that must be refused."""
+
+TILTED_POSITIONS, TILTED_INVALID = "tilted-positions", "tilted-refusals"
+"""The same of rows of ten numbers."""
+
+SCHEMAS = {POSITIONS: SCHEMA, INVALID: SCHEMA, TILTED_POSITIONS: TILTED_SCHEMA, TILTED_INVALID: TILTED_SCHEMA}
+"""The version of the schema of each content."""
+
+COLUMNS_OF = {POSITIONS: COLUMNS, INVALID: COLUMNS, TILTED_POSITIONS: TILTED_COLUMNS, TILTED_INVALID: TILTED_COLUMNS}
+"""The numbers of a row of each content."""
+
+_FLAGS_OF = {POSITIONS: FLAGS, TILTED_POSITIONS: TILTED_FLAGS}
 
 MEMBERS = ("schema", "content", "family", "flags", "count")
 HEAD_FIELDS = tuple(Metadata.__dataclass_fields__)
@@ -50,16 +71,20 @@ def vectors_of(document: JsonDocument, path: str) -> VectorFile:
 
 
 def content_of(document: JsonDocument, path: str) -> str:
-    """What the document says that it holds, POSITIONS or REFUSALS, after its schema version. Raises InputError."""
+    """What the document says that it holds, one of SCHEMAS, after its schema version. Raises InputError."""
     for name in ("schema", "content"):
         if name not in document.members:
             raise InputError(f"{path}: the document lacks {name}")
     place, version = document.members["schema"]
-    if version != SCHEMA:
-        raise InputError(f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}")
+    if version not in (SCHEMA, TILTED_SCHEMA):
+        raise InputError(
+            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r} and, of tilted spheroids, "
+            f"{TILTED_SCHEMA!r}"
+        )
     place, content = document.members["content"]
-    if content not in (POSITIONS, INVALID):
-        raise InputError(f"{place}: content is {shown_json(content)}; it must be {POSITIONS!r} or {INVALID!r}")
+    known = [name for name, of in SCHEMAS.items() if of == version]
+    if content not in known:
+        raise InputError(f"{place}: content is {shown_json(content)}; it must be {' or '.join(map(repr, known))}")
     return str(content)
 
 
@@ -68,7 +93,7 @@ def read_metadata(document: JsonDocument, path: str, content: str) -> tuple[Meta
     found = content_of(document, path)
     if found != content:
         raise InputError(f"{document.members['content'][0]}: content is {found!r}; here it must be {content!r}")
-    wanted = tuple(name for name in MEMBERS if name != "flags" or content == POSITIONS)
+    wanted = tuple(name for name in MEMBERS if name != "flags" or content in _FLAGS_OF)
     for name, (place, _) in document.members.items():
         if name not in wanted:
             raise InputError(f"{place}: the document has the key {name!r}; it may have {', '.join(wanted)}")
@@ -79,7 +104,8 @@ def read_metadata(document: JsonDocument, path: str, content: str) -> tuple[Meta
     if not _is_integer(count) or count != len(document.cases):
         raise InputError(f"{place}: count is {shown_json(count)}, but there are {len(document.cases)} cases")
     head = _metadata(*document.members["family"])
-    return head, _flags(*document.members["flags"]) if content == POSITIONS else {}
+    known = _FLAGS_OF.get(content)
+    return head, {} if known is None else _flags(*document.members["flags"], known)
 
 
 def cases_of(
@@ -147,13 +173,13 @@ def _metadata(place: JsonPlace, value: Any) -> Metadata:  # noqa: ANN401 - JSON
     return Metadata(**fields)
 
 
-def _flags(place: JsonPlace, value: Any) -> Mapping[str, FlagFacts]:  # noqa: ANN401 - JSON
+def _flags(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) -> Mapping[str, FlagFacts]:  # noqa: ANN401 - JSON
     if not isinstance(value, dict):
         raise InputError(f"{place}: flags is {shown_json(value)}; it must be an object with what each flag means")
     flags = {}
     for name, facts in value.items():
-        if name not in FLAGS:
-            raise InputError(f"{place}: there is no flag {shown_json(name)}; there are {', '.join(FLAGS)}")
+        if name not in known:
+            raise InputError(f"{place}: there is no flag {shown_json(name)}; there are {', '.join(known)}")
         meaning, bug_type = fields_of(facts, ("meaning", "bug_type"), place, f"flag {name}")
         flags[name] = FlagFacts(
             text_of(place, f"{name}.meaning", meaning), text_of(place, f"{name}.bug_type", bug_type)
@@ -169,67 +195,72 @@ def _check_id(place: JsonPlace, name: Any, family: str) -> None:  # noqa: ANN401
 
 
 def _vector(place: JsonPlace, fields: dict[str, Any], flags: Mapping[str, FlagFacts]) -> Vector:
-    position = _position(place, fields["position"])
+    position = position_of(place, fields["position"])
     if not isinstance(fields["tangent"], bool):
         raise InputError(f"{place}: tangent is {shown_json(fields['tangent'])}; it must be true or false")
     kind = _KINDS.get(text_of(place, "kind", fields["kind"]))
     if kind is None:
         raise InputError(f"{place}: there is no kind {shown_json(fields['kind'])}; there are {', '.join(_KINDS)}")
-    clearance = _measure(place, "clearance", fields["clearance"])
-    _check_hex(place, "clearance_hex", fields["clearance_hex"], clearance)
+    clearance = measure_of(place, "clearance", fields["clearance"])
+    check_hex(place, "clearance_hex", fields["clearance_hex"], clearance)
     return Vector(
         id=fields["id"],
-        row=_row(place, fields["row"], fields["hex"]),
+        row=row_of(place, fields["row"], fields["hex"]),
         position=position,
         tangent=fields["tangent"],
         kind=kind,
         clearance=clearance,
         flips=_flips(place, fields["flips"], position),
-        witness=_witness(place, fields["certificate"]),
-        flags=_flags_of_case(place, fields["flags"], flags),
+        witness=witness_of(place, fields["certificate"]),
+        flags=flags_of_case(place, fields["flags"], flags),
     )
 
 
-def _position(place: JsonPlace, value: Any) -> Position:  # noqa: ANN401 - JSON
+def position_of(place: JsonPlace, value: Any) -> Position:  # noqa: ANN401 - JSON
+    """A position, as one of 1, 0 and −1. Raises InputError."""
     if not _is_integer(value) or value not in (-1, 0, 1):
         raise InputError(f"{place}: position is {shown_json(value)}; it must be 1, 0 or -1")
     return Position(value)
 
 
-def _row(place: JsonPlace, numbers: Any, hexes: Any) -> Row:  # noqa: ANN401 - JSON
-    row = []
+def row_of(place: JsonPlace, numbers: Any, hexes: Any, columns: tuple[str, ...] = COLUMNS) -> Row:  # noqa: ANN401 - JSON
+    """The numbers of a row, valid one by one, and their hexadecimal forms. Raises InputError."""
+    row, count = [], len(columns)
     for name, value, text in zip(
-        COLUMNS, listed(place, "row", numbers, len(COLUMNS)), listed(place, "hex", hexes, len(COLUMNS)), strict=True
+        columns, listed(place, "row", numbers, count), listed(place, "hex", hexes, count), strict=True
     ):
         number = number_of(place, name, value)
         trouble = trouble_with(name, number)
         if trouble is not None:
             raise InputError(f"{place}: {trouble}")
-        _check_hex(place, f"the hex of {name}", text, number)
+        check_hex(place, f"the hex of {name}", text, number)
         row.append(number)
     return tuple(row)
 
 
-def _check_hex(place: JsonPlace, what: str, text: Any, number: float) -> None:  # noqa: ANN401 - JSON
+def check_hex(place: JsonPlace, what: str, text: Any, number: float) -> None:  # noqa: ANN401 - JSON
+    """Raise InputError unless the text is the hexadecimal form of the number."""
     if text != hex_of(number):
         raise InputError(f"{place}: {what} is {shown_json(text)}; of {number!r} it must be {hex_of(number)!r}")
 
 
-def _measure(place: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
+def measure_of(place: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
+    """A number, or inf. Raises InputError."""
     return float("inf") if value == "inf" else number_of(place, what, value)
 
 
 def _flips(place: JsonPlace, value: Any, position: Position) -> Mapping[Position, float]:  # noqa: ANN401 - JSON
     others = [other for other in Position if other is not position]
     names = tuple(other.label for other in others)
-    distances = [_measure(place, "a flip", each) for each in fields_of(value, names, place, "flips")]
+    distances = [measure_of(place, "a flip", each) for each in fields_of(value, names, place, "flips")]
     for name, distance in zip(names, distances, strict=True):
         if not (0 <= distance <= 1 or distance == float("inf")):
             raise InputError(f'{place}: the flip to {name} is {distance!r}; it must be from 0 to 1, or "inf"')
     return dict(zip(others, distances, strict=True))
 
 
-def _witness(place: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
+def witness_of(place: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
+    """What proves a case. Raises InputError."""
     if not isinstance(value, dict) or len(value) != 1 or not set(value) <= set(CERTIFICATES):
         raise InputError(
             f"{place}: certificate is {shown_json(value)}; it must be an object with one of {', '.join(CERTIFICATES)}"
@@ -258,7 +289,8 @@ def _rational(place: JsonPlace, what: str, value: Any) -> Fraction:  # noqa: ANN
         raise InputError(f"{place}: {what} is {shown_json(text)}; it {error}") from None
 
 
-def _flags_of_case(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) -> tuple[str, ...]:  # noqa: ANN401 - JSON
+def flags_of_case(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) -> tuple[str, ...]:  # noqa: ANN401 - JSON
+    """The flags of a case, each described in the file. Raises InputError."""
     flags = listed(place, "flags", value)
     for flag in flags:
         if not isinstance(flag, str) or flag not in known:
@@ -285,7 +317,7 @@ def document_text(content: str, head: Metadata, flags: Mapping[str, FlagFacts] |
         inner = ",\n".join(f"  {json_text(name)}: {json_text(asdict(facts))}" for name, facts in flags.items())
         described = [f'"flags": {{\n{inner}\n}}' if flags else '"flags": {}']
     members = [
-        f'"schema": {json_text(SCHEMA)}',
+        f'"schema": {json_text(SCHEMAS[content])}',
         f'"content": {json_text(content)}',
         f'"family": {json_text(asdict(head))}',
         *described,
@@ -308,7 +340,7 @@ def vector_text(case: Vector) -> str:
         "clearance": decimal_of(case.clearance),
         "clearance_hex": json_text(hex_of(case.clearance)),
         "flips": f"{{{flips}}}",
-        "certificate": json_text(_certificate(case.witness)),
+        "certificate": json_text(certificate_members(case.witness)),
         "flags": json_text(case.flags),
     }
     return object_text(members)
@@ -324,7 +356,8 @@ def numbers_text(row: Iterable[float]) -> str:
     return f"[{','.join(map(decimal_of, row))}]"
 
 
-def _certificate(witness: StoredCertificate) -> dict[str, Any]:
+def certificate_members(witness: StoredCertificate) -> dict[str, Any]:
+    """What proves a case, as it is written."""
     if witness.multiplier is not None:
         return {"multiplier": exact_text(witness.multiplier)}
     if witness.double_root is not None:

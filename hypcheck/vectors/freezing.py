@@ -12,6 +12,7 @@ import struct
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import TypeVar
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
@@ -19,12 +20,14 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import Family, FamilyDescription, Metadata, Row, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
 from hypcheck.vectors.format import read_vectors, vectors_text
 from hypcheck.vectors.frozen import InvalidRowFile, invalid_rows_text, read_invalid_rows
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors, labelled
+from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, read_tilted_vectors, tilted_vectors_text
+from hypcheck.vectors.tilted.labels import faults_of_tilted, labelled_tilted
 
 SEED = 1
 
@@ -72,11 +75,32 @@ COUNTS = {
 }
 """Rows of each family: more where the traps are, few where proofs are long."""
 
+TILTED_COUNTS = {
+    "tilted-uniform": 160,
+    "tilted-tower": 160,
+    "tilted-near-contact": 200,
+    "tilted-tangent": 200,
+    "tilted-near-tangent": 240,
+    "tilted-crossing": 120,
+    "tilted-symmetric": 200,
+    "tilted-sphere": 120,
+    "tilted-upright": 120,
+    "tilted-slight": 180,
+    "tilted-twins": 180,
+    "tilted-ring": 200,
+    "tilted-stiff": 180,
+    "tilted-axis-length": 160,
+    "tilted-small-integers": 200,
+    "extreme-tilted": 120,
+}
+"""The same of the families of tilted spheroids."""
+
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
 
-NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME)
+NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME, *TILTED_COUNTS, refusals.TILTED_INVALID_NAME)
 
 Progress = Callable[[str], object]
+File = TypeVar("File", VectorFile, TiltedVectorFile)
 
 
 def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) -> None:
@@ -100,11 +124,15 @@ def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) 
 
 
 def _text(name: str, path: Path) -> str:
-    if name == refusals.INVALID_NAME:
-        invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None)
+    if name in refusals.INVALID_METADATA:
+        invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None, name)
         _require_no_faults(faults_of_invalid_rows(invalid))
         return invalid_rows_text(invalid)
-    file = frozen(name, _before(name, path))
+    if name in TILTED_COUNTS:
+        tilted = frozen_tilted(name, _before(name, path, read_tilted_vectors))
+        _require_no_faults(faults_of_tilted(tilted))
+        return tilted_vectors_text(tilted)
+    file = frozen(name, _before(name, path, read_vectors))
     _require_no_faults(faults_of_vectors(file))
     return vectors_text(file)
 
@@ -118,6 +146,15 @@ def frozen(name: str, before: VectorFile | None = None) -> VectorFile:
     )
     named = [(case.id, case.row) for case in before.cases] if before else []
     return assembled(head, labelled(extended(name, named, [tuple(row) for row in planned(name).tolist()])))
+
+
+def frozen_tilted(name: str, before: TiltedVectorFile | None = None) -> TiltedVectorFile:
+    """The file about tilted spheroids of that name; the cases of an earlier one are kept with their labels."""
+    family = TILTED_FAMILIES[name]
+    kept = before.cases if before else ()
+    wanted = [tuple(row) for row in family.rows(SEED, TILTED_COUNTS[name]).tolist()]
+    added = extended(name, [(case.id, case.row) for case in kept], wanted)[len(kept) :]
+    return assembled_tilted(metadata_of(family, f"hypcheck cases freeze {name}"), (*kept, *labelled_tilted(added)))
 
 
 def planned(name: str) -> Rows:
@@ -157,28 +194,35 @@ def assembled(head: Metadata, cases: Iterable[Vector]) -> VectorFile:
     return VectorFile(head, {name: facts for name, facts in FLAGS.items() if name in used}, kept)
 
 
-def frozen_invalid_rows(before: InvalidRowFile | None = None) -> InvalidRowFile:
+def assembled_tilted(head: Metadata, cases: Iterable[TiltedVector]) -> TiltedVectorFile:
+    """A file of these cases, with the meaning of the flags that they have."""
+    kept = tuple(cases)
+    used = {flag for case in kept for flag in case.flags}
+    return TiltedVectorFile(head, {name: facts for name, facts in TILTED_FLAGS.items() if name in used}, kept)
+
+
+def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusals.INVALID_NAME) -> InvalidRowFile:
     """The file of rows that must be refused; those of an earlier one keep their ids and places."""
     kept = before.cases if before else ()
     known = {case.bits for case in kept}
     number = _next_number(case.id for case in kept)
-    added = [case for case in refusals.invalid_rows().cases if case.bits not in known]
-    renamed = (replace(case, id=f"{refusals.INVALID_NAME}-{number + place:04d}") for place, case in enumerate(added))
-    return InvalidRowFile(refusals.INVALID_METADATA, (*kept, *renamed))
+    added = [case for case in refusals.invalid_rows(name).cases if case.bits not in known]
+    renamed = (replace(case, id=f"{name}-{number + place:04d}") for place, case in enumerate(added))
+    return InvalidRowFile(refusals.INVALID_METADATA[name], (*kept, *renamed))
 
 
-def _before(name: str, path: Path) -> VectorFile | None:
+def _before(name: str, path: Path, read: Callable[[str], File]) -> File | None:
     """The file that is there. Raises InputError where it is of another family."""
     if not path.exists():
         return None
-    before = read_vectors(str(path))
+    before = read(str(path))
     if before.head.name != name:
         raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
     return before
 
 
 def _bits(row: Row) -> bytes:
-    return struct.pack("<7d", *row)
+    return struct.pack(f"<{len(row)}d", *row)
 
 
 def _require_no_faults(faults: list[LabelFault]) -> None:

@@ -19,17 +19,20 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with
+from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS, trouble_with
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.messages import suggestion
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
 from hypcheck.vectors import cancellation
-from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.family import Metadata, Row, VectorFile, rows_of
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.family import Metadata, Row, VectorFile
 from hypcheck.vectors.format import (
+    COLUMNS_OF,
     INVALID,
+    TILTED_INVALID,
     cases_of,
+    content_of,
     document_text,
     json_text,
     listed,
@@ -39,10 +42,11 @@ from hypcheck.vectors.format import (
     read_metadata,
     read_vectors,
 )
+from hypcheck.vectors.tilted.format import TiltedVectorFile, read_tilted_vectors
 
-INVALID_NAME = "invalid"
+INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
 EXPECTED = "refused"
-INVALID_METADATA = Metadata(
+_INVALID = Metadata(
     name=INVALID_NAME,
     version=1,
     title="rows that must be refused",
@@ -54,6 +58,21 @@ INVALID_METADATA = Metadata(
     extreme=False,
     made_by=f"hypcheck cases freeze {INVALID_NAME}",
 )
+_TILTED_INVALID = Metadata(
+    name=TILTED_INVALID_NAME,
+    version=1,
+    title="rows of tilted spheroids that must be refused",
+    source="axes that are 0, infinite or NaN, alone and beside bad sizes and centres",
+    purpose="an axis of 0 has no direction, and normalising it gives NaN, which compares as contact",
+    game="an object whose orientation was never set collides with everything, or with nothing",
+    drone="a failed attitude estimate is answered as clear",
+    regimes="none",
+    extreme=False,
+    made_by=f"hypcheck cases freeze {TILTED_INVALID_NAME}",
+)
+INVALID_METADATA = {INVALID_NAME: _INVALID, TILTED_INVALID_NAME: _TILTED_INVALID}
+"""What the files of rows without an answer say at their heads."""
+
 CASE_FIELDS = ("id", "row", "bits", "expected", "columns")
 
 _BITS = re.compile(r"[0-9a-f]{16}", re.ASCII)
@@ -76,7 +95,7 @@ _NANS = {
 
 @dataclass(frozen=True, slots=True)
 class InvalidRow:
-    """A bad row: the 64 bits of its seven numbers, and the columns that are at fault, in the order of COLUMNS."""
+    """A bad row: the 64 bits of its seven or ten numbers, and the columns that are at fault, in their order."""
 
     id: str
     bits: tuple[int, ...]
@@ -84,7 +103,7 @@ class InvalidRow:
 
     @property
     def row(self) -> Row:
-        """The seven numbers; a NaN may lose its payload on the way."""
+        """The numbers; a NaN may lose its payload on the way."""
         return tuple(rows_from_bits([self.bits])[0].tolist())
 
 
@@ -98,28 +117,30 @@ class InvalidRowFile:
 
     @property
     def rows(self) -> Rows:
-        """The rows, float64 (n, 7), to the bit."""
+        """The rows, float64 (n, 7 or 10), to the bit."""
         return rows_from_bits([case.bits for case in self.cases])
 
 
 def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
-    """Rows (n, 7) of these 64-bit words."""
-    return np.asarray(bits, dtype=np.uint64).reshape(len(bits), len(COLUMNS)).view(np.float64)
+    """Rows (n, 7 or 10) of these 64-bit words."""
+    return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
 
 
 def columns_at_fault(row: Row) -> tuple[str, ...]:
-    """The columns whose values are not allowed."""
-    return tuple(name for name, value in zip(COLUMNS, row, strict=True) if trouble_with(name, value) is not None)
+    """The columns whose values are not allowed; all three of an axis without a direction."""
+    names = COLUMNS if len(row) == len(COLUMNS) else TILTED_COLUMNS
+    found = [name for name, value in zip(names, row, strict=True) if trouble_with(name, value) is not None]
+    return (*found, *AXIS) if names is TILTED_COLUMNS and not any(row[len(COLUMNS) :]) else tuple(found)
 
 
-def invalid_rows() -> InvalidRowFile:
-    """The file, made anew."""
-    unlike = dict.fromkeys(_bad_rows())
+def invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
+    """The file of that name, made anew."""
+    unlike = dict.fromkeys(_bad_rows() if name == INVALID_NAME else _bad_tilted_rows())
     cases = []
     for number, bits in enumerate(unlike):
         row = tuple(rows_from_bits([bits])[0].tolist())
-        cases.append(InvalidRow(f"{INVALID_NAME}-{number:04d}", bits, columns_at_fault(row)))
-    return InvalidRowFile(INVALID_METADATA, tuple(cases))
+        cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row)))
+    return InvalidRowFile(INVALID_METADATA[name], tuple(cases))
 
 
 def _bad_rows() -> Iterator[tuple[int, ...]]:
@@ -150,6 +171,37 @@ def _bad_rows() -> Iterator[tuple[int, ...]]:
     yield (infinite ^ _SIGN,) * 7
 
 
+def _bad_tilted_rows() -> Iterator[tuple[int, ...]]:
+    """Axes of zeros, one bad number in each place of the axis, several, and bad numbers before a sound axis."""
+    sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND, _AXES, strict=True)]
+    nan, infinite, minus = _NANS["nan"], _word(math.inf), _word(-math.inf)
+    for row in sound:
+        for zeros in ((0, 0, 0), (_SIGN, 0, 0), (0, _SIGN, _SIGN), (_SIGN, _SIGN, _SIGN)):
+            yield _replaced(row, dict(zip(_AXIS_PLACES, zeros, strict=True)))
+        for place in _AXIS_PLACES:
+            for word in (infinite, minus, *_NANS.values()):
+                yield _replaced(row, {place: word})
+            others = {other: 0 for other in _AXIS_PLACES if other != place}
+            for word in (nan, infinite):
+                yield _replaced(row, {place: word, **others})
+        for word in (nan, infinite, minus):
+            yield _replaced(row, dict.fromkeys(_AXIS_PLACES, word))
+        yield _replaced(row, {7: infinite, 8: minus})
+        for place in range(len(COLUMNS)):
+            yield _replaced(row, {place: nan})
+        for place in range(len(SIZES)):
+            yield _replaced(row, {place: 0})
+            yield _replaced(row, {place: row[place] ^ _SIGN})
+        yield _replaced(row, {2: 0, 7: 0, 8: 0, 9: 0})
+    yield (0,) * 10
+    yield (nan,) * 10
+    yield (infinite,) * 10
+
+
+_AXIS_PLACES = range(len(COLUMNS), len(TILTED_COLUMNS))
+_AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, 1.0), (-1.0, 0.5, 0.0))
+
+
 def _bad_words(name: str, value: float) -> Iterator[int]:
     yield from (_word(math.inf), _word(-math.inf))
     if name in SIZES:
@@ -157,7 +209,7 @@ def _bad_words(name: str, value: float) -> Iterator[int]:
 
 
 def _bits(row: Row) -> tuple[int, ...]:
-    return tuple(rows_of([row]).view(np.uint64)[0].tolist())
+    return tuple(np.asarray(row, dtype=np.float64).view(np.uint64).tolist())
 
 
 def _word(value: float) -> int:
@@ -170,7 +222,8 @@ def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
 
 def invalid_rows_text(file: InvalidRowFile) -> str:
     """The whole document."""
-    return document_text(INVALID, file.head, None, map(invalid_row_text, file.cases))
+    content = INVALID if file.head.name == INVALID_NAME else TILTED_INVALID
+    return document_text(content, file.head, None, map(invalid_row_text, file.cases))
 
 
 def invalid_row_text(case: InvalidRow) -> str:
@@ -193,20 +246,22 @@ def read_invalid_rows(path: str) -> InvalidRowFile:
 
 def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
     """The file of bad rows that a document is. Raises InputError where it is none."""
-    head, _ = read_metadata(document, path, INVALID)
-    cases = cases_of(document, path, head.name, CASE_FIELDS, _invalid_row)
+    content = content_of(document, path)
+    head, _ = read_metadata(document, path, content if content in (INVALID, TILTED_INVALID) else INVALID)
+    names = COLUMNS_OF[content]
+    cases = cases_of(document, path, head.name, CASE_FIELDS, lambda place, fields: _invalid_row(place, fields, names))
     return InvalidRowFile(head, cases, tuple(place.line for place, _ in document.cases))
 
 
-def _invalid_row(place: JsonPlace, fields: dict[str, Any]) -> InvalidRow:
+def _invalid_row(place: JsonPlace, fields: dict[str, Any], names: tuple[str, ...]) -> InvalidRow:
     if fields["expected"] != EXPECTED:
         raise InputError(f"{place}: expected is {shown_json(fields['expected'])}; it must be {EXPECTED!r}")
     columns = listed(place, "columns", fields["columns"])
-    if not columns or columns != [name for name in COLUMNS if name in columns]:
-        raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(COLUMNS)}")
-    numbers = listed(place, "row", fields["row"], len(COLUMNS))
-    words = listed(place, "bits", fields["bits"], len(COLUMNS))
-    bits = tuple(_checked_bits(place, *each) for each in zip(COLUMNS, numbers, words, strict=True))
+    if not columns or columns != [name for name in names if name in columns]:
+        raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(names)}")
+    numbers = listed(place, "row", fields["row"], len(names))
+    words = listed(place, "bits", fields["bits"], len(names))
+    bits = tuple(_checked_bits(place, *each) for each in zip(names, numbers, words, strict=True))
     return InvalidRow(fields["id"], bits, tuple(columns))
 
 
@@ -221,12 +276,15 @@ def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  #
 
 
 NAMES = (*FAMILIES, cancellation.NAME)
-"""The files of cases with answers; refusals.NAME is the one of rows without."""
+"""The files of upright spheroids with answers; INVALID_NAME is the one of rows without."""
+
+TILTED_NAMES = tuple(TILTED_FAMILIES)
+"""Those of tilted spheroids; TILTED_INVALID_NAME is the one of rows without."""
 
 
 @dataclass(frozen=True, slots=True)
 class FrozenRows:
-    """The cases of a file as arrays: their ids, rows (n, 7) and right answers, int8 (n,)."""
+    """The cases of a file as arrays: their ids, rows (n, 7 or 10) and right answers, int8 (n,)."""
 
     ids: tuple[str, ...]
     rows: Rows
@@ -241,8 +299,8 @@ def folder() -> Path:
 
 
 def path_of(name: str) -> Path:
-    """The file of that name, NAMES or refusals.NAME. Raises InputError where there is none of that name."""
-    known = (*NAMES, INVALID_NAME)
+    """The file of that name. Raises InputError where there is none of that name."""
+    known = (*NAMES, INVALID_NAME, *TILTED_NAMES, TILTED_INVALID_NAME)
     if name not in known:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, known)}")
     return folder() / f"{name}.json"
@@ -251,18 +309,29 @@ def path_of(name: str) -> Path:
 @cache
 def load(name: str) -> VectorFile:
     """The frozen cases of that name. Raises InputError where there are none, or their file is not as it must be."""
-    if name == INVALID_NAME:
-        raise InputError(f"the rows of {name!r} have no answers; they must be refused")
+    _require_answers(name)
     return read_vectors(str(path_of(name)))
 
 
 @cache
-def load_invalid_rows() -> InvalidRowFile:
+def load_tilted(name: str) -> TiltedVectorFile:
+    """The frozen cases of tilted spheroids of that name. Raises InputError as `load` does."""
+    _require_answers(name)
+    return read_tilted_vectors(str(path_of(name)))
+
+
+def _require_answers(name: str) -> None:
+    if name in INVALID_METADATA:
+        raise InputError(f"the rows of {name!r} have no answers; they must be refused")
+
+
+@cache
+def load_invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
     """The frozen rows that must be refused. Raises InputError where their file is not as it must be."""
-    return read_invalid_rows(str(path_of(INVALID_NAME)))
+    return read_invalid_rows(str(path_of(name)))
 
 
 def frozen_rows(name: str) -> FrozenRows:
     """The rows and right answers of the frozen cases of that name. Raises InputError as load does."""
-    file = load(name)
+    file = load_tilted(name) if name in TILTED_NAMES else load(name)
     return FrozenRows(tuple(case.id for case in file.cases), file.rows, file.positions)

@@ -10,16 +10,23 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Position
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Position
 from hypcheck.messages import suggestion
 from hypcheck.tables.numbers import hex_of, readable_text
 from hypcheck.tables.streams import writing
+from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import EXTREME, case_id, family_of, parse_case_id, select
 from hypcheck.vectors.family import BLOCK, Family, Metadata, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
 from hypcheck.vectors.format import vector_text
-from hypcheck.vectors.frozen import InvalidRow
+from hypcheck.vectors.frozen import InvalidRow, InvalidRowFile
+from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, tilted_vector_text
+
+SHOWN = (*frozen.NAMES, frozen.INVALID_NAME, *frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME)
+"""The files, in the order in which they are listed."""
+
+AnyFile = VectorFile | TiltedVectorFile | InvalidRowFile
 
 WIDTH = 100
 """Columns of a line of running text."""
@@ -29,98 +36,117 @@ _LABEL = 12
 
 def list_lines() -> Iterator[str]:
     """Every set of vectors: its name, how many are frozen, and what it is."""
-    files = {name: (frozen.load(name).head, len(frozen.load(name).cases)) for name in frozen.NAMES}
-    bad = frozen.load_invalid_rows()
-    files[frozen.INVALID_NAME] = (bad.head, len(bad.cases))
+    files: dict[str, AnyFile] = {name: _load(name) for name in SHOWN}
     width = max(map(len, files))
-    for name, (head, count) in files.items():
-        mark = " (extreme: taken when asked for)" if head.extreme else ""
-        yield f"{name:{width}}  {count:4}  {head.title}{mark}"
-    yield f"{'together':{width}}  {sum(count for _, count in files.values()):4}"
+    for name, file in files.items():
+        mark = " (extreme: taken when asked for)" if file.head.extreme else ""
+        yield f"{name:{width}}  {len(file.cases):4}  {file.head.title}{mark}"
+    yield f"{'together':{width}}  {sum(len(file.cases) for file in files.values()):4}"
+
+
+def _load(name: str) -> AnyFile:
+    if name in frozen.INVALID_METADATA:
+        return frozen.load_invalid_rows(name)
+    return frozen.load_tilted(name) if name in frozen.TILTED_NAMES else frozen.load(name)
 
 
 def family_lines(name: str) -> Iterator[str]:
     """What is known of a family, and its frozen cases counted."""
-    if name == frozen.INVALID_NAME:
-        bad = frozen.load_invalid_rows()
-        yield from _metadata_lines(bad.head)
-        yield from _titled("cases", f"{len(bad.cases)}, {bad.cases[0].id} to {bad.cases[-1].id}, all to be refused")
-        return
-    file = frozen.load(name)
+    file = _load(name)
+    refused = ", all to be refused" if isinstance(file, InvalidRowFile) else ""
     yield from _metadata_lines(file.head)
-    yield from _titled("cases", f"{len(file.cases)}, {file.cases[0].id} to {file.cases[-1].id}")
+    yield from _titled("cases", f"{len(file.cases)}, {file.cases[0].id} to {file.cases[-1].id}{refused}")
+    if isinstance(file, InvalidRowFile):
+        return
     yield from _titled("positions", _counted(Counter(case.position.label for case in file.cases)))
-    yield from _titled("kinds", _counted(Counter(case.kind.value for case in file.cases)))
+    if isinstance(file, VectorFile):
+        yield from _titled("kinds", _counted(Counter(case.kind.value for case in file.cases)))
     for flag, facts in file.flags.items():
         count = sum(flag in case.flags for case in file.cases)
         yield from _titled("flag", f"{flag}, {count} times: {facts.meaning} ({facts.bug_type})")
 
 
-def case_lines(case: Vector) -> Iterator[str]:
+def case_lines(case: Vector | TiltedVector) -> Iterator[str]:
     """A case with its labels and its proof."""
+    tilted = isinstance(case, TiltedVector)
     yield case.id
-    for name, value in zip(COLUMNS, case.row, strict=True):
+    for name, value in zip(TILTED_COLUMNS if tilted else COLUMNS, case.row, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
-    yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
+    if not isinstance(case, TiltedVector):
+        yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
     yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
     for position, distance in case.flips.items():
-        yield from _titled("flip", f"{position.label} if each number may change by a relative {distance!r}")
-    yield from _titled("proof", _proof(case))
+        yield from _titled("flip", f"{position.label} if each number may change by a relative {_distance(distance)}")
+    yield from _titled("proof", _tilted_proof(case) if isinstance(case, TiltedVector) else _proof(case))
     for flag in case.flags:
-        yield from _titled("flag", f"{flag}: {FLAGS[flag].meaning}")
+        yield from _titled("flag", f"{flag}: {(TILTED_FLAGS if tilted else FLAGS)[flag].meaning}")
+
+
+def _distance(distance: float | Bracket) -> str:
+    if isinstance(distance, float):
+        return repr(distance)
+    return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
 def invalid_row_lines(case: InvalidRow) -> Iterator[str]:
     """A row that must be refused, and where it is at fault."""
     yield case.id
-    for name, value, bits in zip(COLUMNS, case.row, case.bits, strict=True):
+    names = COLUMNS if len(case.bits) == len(COLUMNS) else TILTED_COLUMNS
+    for name, value, bits in zip(names, case.row, case.bits, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
     yield from _titled("expected", frozen.EXPECTED)
 
 
-def vector_of(name: str) -> Vector:
+def vector_of(name: str) -> Vector | TiltedVector:
     """The case of that id, frozen or generated. Raises InputError where there is none."""
     if "/" in name:
         return _generated(name)
-    family = _family_of(name)
-    if family in frozen.NAMES:
-        for case in frozen.load(family).cases:
+    file = _load(_family_of(name)) if _family_of(name) in SHOWN else None
+    if isinstance(file, VectorFile | TiltedVectorFile):
+        for case in file.cases:
             if case.id == name:
                 return case
-    raise InputError(f"there is no case or family {name!r}; {_hint(family)}")
+    raise InputError(f"there is no case or family {name!r}; {_hint(_family_of(name))}")
 
 
 def invalid_row_of(name: str) -> InvalidRow:
     """The row to be refused that has that id. Raises InputError where there is none."""
-    for case in frozen.load_invalid_rows().cases:
+    family = _family_of(name)
+    for case in frozen.load_invalid_rows(family).cases if family in frozen.INVALID_METADATA else ():
         if case.id == name:
             return case
-    raise InputError(f"there is no case {name!r}; {_hint(frozen.INVALID_NAME)}")
+    raise InputError(f"there is no case {name!r}; {_hint(family)}")
 
 
 def show(name: str, *, as_json: bool) -> Iterator[str]:
     """The lines about a family or a case; a case as it stands in a file where JSON is asked for. Raises InputError."""
-    if name in frozen.NAMES or name == frozen.INVALID_NAME:
+    if name in SHOWN:
         if as_json:
             yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
         else:
             yield from family_lines(name)
-    elif _family_of(name) == frozen.INVALID_NAME:
+    elif _family_of(name) in frozen.INVALID_METADATA:
         bad = invalid_row_of(name)
         yield from (frozen.invalid_row_text(bad),) if as_json else invalid_row_lines(bad)
     else:
         case = vector_of(name)
-        yield from (vector_text(case),) if as_json else case_lines(case)
+        yield from (_json_text(case),) if as_json else case_lines(case)
 
 
-def _generated(name: str) -> Vector:
+def _json_text(case: Vector | TiltedVector) -> str:
+    return tilted_vector_text(case) if isinstance(case, TiltedVector) else vector_text(case)
+
+
+def _generated(name: str) -> Vector | TiltedVector:
     from hypcheck.vectors.labels import labelled  # noqa: PLC0415 - frozen cases are shown without the oracles
+    from hypcheck.vectors.tilted.labels import labelled_tilted  # noqa: PLC0415
 
     case = parse_case_id(name)
     block, place = divmod(case.index, BLOCK)
     row = tuple(case.family.block(case.seed, block)[place].tolist())
-    return labelled([(case_id(case.family, case.seed, case.index), row)])[0]
+    named = [(case_id(case.family, case.seed, case.index), row)]
+    return labelled_tilted(named)[0] if case.family.tilted else labelled(named)[0]
 
 
 def _metadata_lines(head: Metadata) -> Iterator[str]:
@@ -146,6 +172,17 @@ def _proof(case: Vector) -> str:
     points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
     where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
     return f"in the spheroid and {where}: the centre + (b s, b t, d w) for (s, t, w) = {points}"
+
+
+def _tilted_proof(case: TiltedVector) -> str:
+    witness = case.witness
+    if witness.multiplier is not None:
+        return f"S + λH is positive definite at λ {_said(readable_text(witness.multiplier))}"
+    if witness.double_root is not None:
+        return f"det(S + λH) has the double root λ {_said(readable_text(witness.double_root))}, M + λD ≥ 0 there"
+    points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
+    where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
+    return f"in the spheroid and {where}: the centre + b (s, t, w) for (s, t, w) = {points}"
 
 
 def _said(text: str) -> str:
@@ -174,12 +211,9 @@ def _family_of(name: str) -> str:
 
 
 def _hint(family: str) -> str:
-    if family == frozen.INVALID_NAME:
-        return f"the last one is {frozen.load_invalid_rows().cases[-1].id}"
-    if family in frozen.NAMES:
-        file: VectorFile = frozen.load(family)
-        return f"the last one is {file.cases[-1].id}"
-    return suggestion(family, (*frozen.NAMES, frozen.INVALID_NAME))
+    if family in SHOWN:
+        return f"the last one is {_load(family).cases[-1].id}"
+    return suggestion(family, SHOWN)
 
 
 def generate(name: str, seed: int, count: int, form: str, target: str) -> None:
@@ -201,15 +235,20 @@ def _family_to_generate(name: str) -> Family:
 def as_json(family: Family, seed: int, count: int) -> bytes:
     """A vector file whose cases have generated ids."""
     from hypcheck.vectors.format import vectors_text  # noqa: PLC0415
-    from hypcheck.vectors.freezing import assembled, metadata_of  # noqa: PLC0415 - bare rows need no oracles
+    from hypcheck.vectors.freezing import (  # noqa: PLC0415 - bare rows need no oracles
+        assembled,
+        assembled_tilted,
+        metadata_of,
+    )
     from hypcheck.vectors.labels import labelled  # noqa: PLC0415
+    from hypcheck.vectors.tilted.format import tilted_vectors_text  # noqa: PLC0415
+    from hypcheck.vectors.tilted.labels import labelled_tilted  # noqa: PLC0415
 
+    named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
+    head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
     if family.tilted:
-        raise InputError(f"{family.name} has tilted spheroids, whose labels no file holds yet; use csv or npy")
-    rows = family.rows(seed, count).tolist()
-    cases = labelled((case_id(family, seed, index), tuple(row)) for index, row in enumerate(rows))
-    made_by = f"hypcheck cases generate {family.name} --seed {seed} --count {count}"
-    return vectors_text(assembled(metadata_of(family, made_by), cases)).encode()
+        return tilted_vectors_text(assembled_tilted(head, labelled_tilted(named))).encode()
+    return vectors_text(assembled(head, labelled(named))).encode()
 
 
 def as_csv(family: Family, seed: int, count: int) -> bytes:

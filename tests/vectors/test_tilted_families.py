@@ -30,6 +30,19 @@ DIGESTS = {
     "tilted-uniform": "ad03ae03fe45e5532fda60696617017f8e85ddf7dff98a30f83b6520cd7480ac",
     "tilted-tower": "8ee90f53daed574d8461d389c1e88ae50146fde887a2a2f2da37c18fb753e66d",
     "tilted-near-contact": "cfbbab116c34356bbf49f97578482cd3a4527a06e7f4b0f606566ab828aca85c",
+    "tilted-tangent": "2532b507fc4b8fb4f17f19ebab57d395ed0ea6a0bd90079f595db4227501917f",
+    "tilted-near-tangent": "879e17cf37f3c74d384828e7f33b7d26ca6c4ba4e62f239f8d75020b68955a64",
+    "tilted-crossing": "89b87a1ec7a4a6c9c8bec70ac17516e40774050281707746881f588cc0165460",
+    "tilted-symmetric": "f2bca3436d65f4e1e174eea5eeea9fb8906a6560447b51a5a204606239b92d6d",
+    "tilted-sphere": "1f9ce5484f45f55974241714f6e425e8e8e20ac75db963e7d8a6877daae43362",
+    "tilted-upright": "c3ba9690210eb4136558f3e4371e41b294870fd2c1a7e6f49cb1583152080de0",
+    "tilted-slight": "7bcb7a48cc82a4b3305c8f95809415711dbbc051e8857316d495f96f3f4ed3bd",
+    "tilted-twins": "58a03bd8378338e72ea7964b289981128dd3110b1c70e82e52b629b90d4692c5",
+    "tilted-ring": "f3265a03a5de570347d84d52685fc2fbcfc6f6ca6884ae8381bd09c9d83e0827",
+    "tilted-stiff": "10a004188a66deffa4d47835e11cdd2ac09520e1b8fece4a31cc1b1574c816aa",
+    "tilted-axis-length": "0deda10c1a450a9168862370f19b291ef4cdb5e760ea6407d60180317baaeb83",
+    "tilted-small-integers": "35aafc30e04460aaf6b871e7e6d54b45d9ab41689cb54d6b1bbdd5ee8ad025ad",
+    "extreme-tilted": "bc959d4a1487842d8693014352e67868f6befbda3bf414bafd7b6032ac0132aa",
 }
 """sha256 of the first 256 rows for seed 0, little-endian; a change means a new generator version, or a defect."""
 
@@ -99,5 +112,9 @@ def test_a_tilted_family_meets_every_position_that_it_promises(family):
     assert min(found.values()) >= 10, found
 
 
-PROMISED = {}
+PROMISED = {
+    "tilted-tangent": {Position.CONTACT},
+    "tilted-crossing": {Position.CONTACT},
+    "tilted-ring": {Position.EXTERIOR, Position.INTERIOR},
+}
 """Families in which not every position occurs."""

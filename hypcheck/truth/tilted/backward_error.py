@@ -6,14 +6,9 @@ falls or γ grows), so that among their changes one corner is best; in centre an
 error is bracketed:
 
 - from above by a change: a corner of the box of changes at which an exact decision finds the answer right;
-- from below by one certificate that holds over the whole box, the sizes at their best corner, the others in intervals.
-  With s and h the two surfaces' equations and φ_λ = min over X of s(X) + λ h(X), a clear pair stays clear where φ_λ > 0
-  for one λ. A pair stays off a side where one point of the spheroid, given by the spheroid's centre and axis, does.
+- from below by certificates that hold over the whole box (box_certificate.py), the sizes at their best corner.
 
-Both are bounded by their value in the middle of the box and their derivatives over the box, in intervals (mpmath, 256
-bits). They are as sharp as the change is small: the derivatives of sup φ_λ are those of s + λh at the nearest point,
-where each number enters s or h alone, so that the best corner and the best certificate belong together. A box too large
-for one certificate is cut in halves along the number that costs most.
+With a vertical axis positions are monotone, and the error is the upright pair's, known to four digits.
 """
 
 from __future__ import annotations
@@ -21,60 +16,23 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
-from mpmath import MPContext, MPIntervalContext, mpf
-from mpmath.ctx_iv import ivmpf
-
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import backward_error as upright
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.exact import Decision
-from hypcheck.truth.tilted.nearest import multiplier
+from hypcheck.truth.tilted.box_certificate import Goal, Row, Signs, State, certified, fraction
+from hypcheck.truth.tilted.exact import Bracket, Decision
 from hypcheck.truth.tilted.pair import TiltedLengths
 
 RATIO = Fraction(5, 4)
 """A bracket is refined until its upper end is at most this many times the lower."""
 
-CUTS = 3
+CUTS = 6
 """How often a box may be cut along any line from the whole to its smallest part, where one certificate fails."""
 
 STEPS = 8
-"""How often a bracket that first derivatives did not make narrow enough is cut again."""
-
-Row = tuple[Fraction, ...]
-Signs = tuple[int, ...]
-Intervals = list[ivmpf]
-
-iv, plain = MPIntervalContext(), MPContext()
-iv.prec = plain.prec = 256
-
-
-@dataclass(frozen=True, slots=True)
-class Bracket:
-    """The backward error is at least `lower`, at most `upper`; both 0 for a right answer or the limit of right ones."""
-
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True, slots=True)
-class Goal:
-    """What a change is to achieve: the row's position becomes `side`, or, with `leave`, is no longer `side`."""
-
-    side: Position
-    leave: bool
-
-    @property
-    def sign(self) -> int:
-        """Whether φ on that side has to grow (+1) or to fall (−1)."""
-        return -1 if self.leave else 1
-
-    @property
-    def sizes(self) -> Signs:
-        """Which way α, γ, b, d help: up or down."""
-        wide, tall = (-1, 1) if self.side is Position.EXTERIOR else (1, -1)
-        return tuple(self.sign * each for each in (wide, tall, -1, -1))
+"""How often a bracket that first derivatives did not make narrow enough is halved."""
 
 
 def goal_of(truth: Position, answer: Position) -> Goal:
@@ -94,6 +52,8 @@ def is_out_of_reach(row: Sequence[float], goal: Goal) -> bool:
 
 def reached(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
     """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal: proof from above."""
+    if _is_vertical(row):
+        return _reached_upright(row, goal, change)
     start = tuple(map(Fraction, row))
     return any(
         (exact.position(TiltedLengths.of(each)) is goal.side) is not goal.leave
@@ -103,10 +63,23 @@ def reached(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
 
 def excluded(row: Sequence[float], goal: Goal, change: Fraction, cuts: int = CUTS) -> bool:
     """Whether certificates are found that no change up to `change` (< 1) attains the goal: proof from below."""
+    if _is_vertical(row):
+        return not _reached_upright(row, goal, change)
     start = tuple(map(Fraction, row))
     sizes = _moved(start[:4], goal.sizes, change)
     box = [(each - abs(each) * change, each + abs(each) * change) for each in start[4:]]
-    return _certified(sizes, box, goal, cuts)
+    return certified(sizes, box, goal, cuts)
+
+
+def _is_vertical(row: Sequence[float]) -> bool:
+    """Whether the axis is vertical, and stays so when each number changes by less than itself."""
+    return row[7] == row[8] == 0
+
+
+def _reached_upright(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
+    """Whether a change attains the goal, the axis being vertical: there one corner of the box tells."""
+    other = Position.CONTACT if goal.leave else goal.side
+    return upright.makes_right(Pair.from_row(row[:7]).lengths, goal.side, other, change)
 
 
 def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
@@ -129,19 +102,31 @@ def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position]
     return False if all(excluded(row, goal, change) for goal in goals) else None
 
 
-def bracket(row: Sequence[float], truth: Decision, answer: Position) -> Bracket:
+def bracket(row: Sequence[float], truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
     """The backward error of an answer to a row of ten valid float64 numbers; inf where no change up to 1 is enough.
 
     The upper end is at most RATIO times the lower where first derivatives tell (changes that do not bend the surfaces
-    much), and often elsewhere; it is 1 where no smaller change was found.
+    much), and often elsewhere; it is 1 where no smaller change was found. Fewer `cuts` of a box and fewer `steps` of
+    halving take less time.
     """
     if is_limit(truth, answer):
         return Bracket(0.0, 0.0)
     goal = goal_of(truth.position, answer)
     if is_out_of_reach(row, goal):
         return Bracket(math.inf, math.inf)
-    low, high = _ends(row, goal)
+    high = _reached_end(row, goal)
+    low, high = _excluded_end(row, goal, high)
+    if low:
+        low, high = _narrowed(row, goal, cuts, steps, (low, high))
     return Bracket(_rounded(low, -math.inf), _rounded(high, math.inf))
+
+
+def upper_end(row: Sequence[float], truth: Decision, answer: Position) -> float:
+    """The upper end of the bracket alone, which takes less time; 0, or inf, as there."""
+    if is_limit(truth, answer):
+        return 0.0
+    goal = goal_of(truth.position, answer)
+    return math.inf if is_out_of_reach(row, goal) else _rounded(_reached_end(row, goal), math.inf)
 
 
 def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
@@ -152,27 +137,57 @@ def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
     return math.inf if is_out_of_reach(row, goal) else float(_estimate(tuple(map(Fraction, row)), goal))
 
 
-def _ends(row: Sequence[float], goal: Goal) -> tuple[Fraction, Fraction]:
-    """A change that is excluded and one that is reached."""
-    guess = _estimate(tuple(map(Fraction, row)), goal)
-    high, step, missed = guess * Fraction(11, 10), 2, guess
+def is_bracket(row: Sequence[float], truth: Decision, answer: Position, ends: Bracket, cuts: int = CUTS) -> bool:
+    """Whether proofs are found that the backward error of an answer lies between these ends."""
+    if is_limit(truth, answer):
+        return ends == Bracket(0.0, 0.0)
+    goal = goal_of(truth.position, answer)
+    if is_out_of_reach(row, goal):
+        return ends == Bracket(math.inf, math.inf)
+    low, high = ends.lower, ends.upper
+    if not 0 <= low <= high <= 1 or high == 0:
+        return False
+    below = low == 0 or (low < 1 and excluded(row, goal, Fraction(low), cuts))
+    return below and (high == 1 or reached(row, goal, Fraction(high)))
+
+
+def _reached_end(row: Sequence[float], goal: Goal) -> Fraction:
+    """A change that is reached, less than 9/8 of one that is not found to be."""
+    missed = _short(_estimate(tuple(map(Fraction, row)), goal))
+    high, step = _short(missed * Fraction(11, 10)), 2
     while high < 1 and not reached(row, goal, high):
         missed, high, step = high, high * step, step * step
     high = min(high, Fraction(1))  # at 1 the sizes vanish, and any goal within reach is attained before
     while high > Fraction(9, 8) * missed:
         middle = _between(missed, high)
         missed, high = (missed, middle) if reached(row, goal, middle) else (middle, high)
-    low, step = min(guess, high) * Fraction(9, 10), 2
+    return high
+
+
+def _excluded_end(row: Sequence[float], goal: Goal, high: Fraction) -> tuple[Fraction, Fraction]:
+    """A change below `high` that one certificate excludes, 0 where none is found; and `high`."""
+    low, step = _short(high * Fraction(4, 5)), 2
     while not excluded(row, goal, low, cuts=0):
         low, step = low / step, step * step
         if step > _LARGEST_STEP:
             return Fraction(0), high
+    return low, high
+
+
+_LARGEST_STEP = 2**128
+
+
+def _narrowed(
+    row: Sequence[float], goal: Goal, cuts: int, steps: int, ends: tuple[Fraction, Fraction]
+) -> tuple[Fraction, Fraction]:
+    """The ends brought nearer to each other, by so many halvings at most."""
+    low, high = ends
     doubtful = high
-    for _ in range(STEPS):
+    for _ in range(steps):
         if high <= RATIO * low or doubtful <= low * Fraction(33, 32):
             break
         middle = _between(low, doubtful)
-        if excluded(row, goal, middle):
+        if excluded(row, goal, middle, cuts):
             low = middle
         elif reached(row, goal, middle):
             high = doubtful = middle
@@ -181,15 +196,19 @@ def _ends(row: Sequence[float], goal: Goal) -> tuple[Fraction, Fraction]:
     return low, high
 
 
-_LARGEST_STEP = 2**128
-
-
 def _between(low: Fraction, high: Fraction) -> Fraction:
     """A short number between two, midway by their logarithms when they are far apart."""
     ratio = high / low
     if ratio > 4:
         return low * (1 << (math.floor(ratio).bit_length() - 1) // 2)
     return (low + high) / 2
+
+
+def _short(value: Fraction) -> Fraction:
+    """About a value > 0, in 12 bits: a number that float64 holds, where it is not too small for that."""
+    exponent = value.numerator.bit_length() - value.denominator.bit_length() - 12
+    unit = Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
+    return round(value / unit) * unit
 
 
 def _rounded(value: Fraction, toward: float) -> float:
@@ -222,322 +241,16 @@ def _pointed(sizes: Row, rest: Row, goal: Goal, change: Fraction) -> Iterator[Si
     """The signs of the derivatives of φ at the row, and again at the corner that these point to."""
     signs: Signs = (0,) * 6
     for _ in range(2):
-        state = _State(sizes, _moved(rest, signs, change), goal)
+        state = State(sizes, _moved(rest, signs, change), goal)
         signs = tuple(goal.sign * (1 if each > 0 else -1) for each in state.derivatives())
         yield signs
 
 
 def _estimate(row: Row, goal: Goal) -> Fraction:
-    """The change that derivatives at the row promise to be enough, between 2⁻¹⁰⁰⁰⁰ and 1/2, in few digits."""
-    state = _State(row[:4], row[4:], goal)
+    """The change that derivatives at the row promise to be enough, at most 1/2, and > 0."""
+    state = State(row[:4], row[4:], goal)
     value = abs(state.value())
-    moves = [size * _fraction(each) for size, each in zip(row[4:], state.derivatives(), strict=True)]
-    rate = sum(map(abs, (*moves, *map(_fraction, state.size_derivatives()))), Fraction(0))
-    estimate = _fraction(value) / rate if rate else Fraction(1)
-    if not estimate:
-        return Fraction(1, 1 << 10_000)
-    exponent = estimate.numerator.bit_length() - estimate.denominator.bit_length() - 8
-    unit = Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
-    return min((estimate // unit + 1) * unit, Fraction(1, 2))
-
-
-Box = list[tuple[Fraction, Fraction]]
-"""The centre's coordinates and the axis's, each from the first number to the second."""
-
-
-class _Form:
-    """The two surfaces for fixed sizes, in intervals; centre C and axis v are given as intervals each time.
-
-    Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) stands for M wherever it can: its entries change with the axis as much as the
-    spheroid does, those of M much more where the spheroid is thin.
-    """
-
-    def __init__(self, sizes: Row) -> None:
-        alpha, gamma, b, d = map(_interval, sizes)
-        self.D = [1 / alpha**2, 1 / alpha**2, -1 / gamma**2]
-        self.b2, self.d2 = b**2, d**2
-
-    def hyperboloid(self, X: Intervals) -> ivmpf:
-        """h."""
-        return self.D[0] * X[0] ** 2 + self.D[1] * X[1] ** 2 + self.D[2] * X[2] ** 2 - 1
-
-    def gradient(self, X: Intervals) -> Intervals:
-        """Half the gradient of h, D X."""
-        return [a * b for a, b in zip(self.D, X, strict=True)]
-
-    def sigma(self, v: Intervals) -> list[Intervals]:
-        """Σ."""
-        factor = (self.d2 - self.b2) / _dot(v, v)
-        return [[(i == j) * self.b2 + factor * v[i] * v[j] for j in range(3)] for i in range(3)]
-
-    def sigma_times(self, v: Intervals, q: Intervals) -> Intervals:
-        """Σ q, from the parts of q along v and across."""
-        along = self.d2 * _dot(v, q) / _dot(v, v)
-        return [self.b2 * p + along * each for p, each in zip(_across(v, q), v, strict=True)]
-
-    def width(self, v: Intervals, q: Intervals) -> ivmpf:
-        """√(qᵀ Σ q): how far the spheroid reaches along q, times |q|."""
-        cross = _cross(v, q)
-        return iv.sqrt((self.b2 * _squares(cross) + self.d2 * _dot(v, q) ** 2) / _squares(v))
-
-    def by_axis(self, v: Intervals, q: Intervals, n: Intervals) -> Intervals:
-        """The derivatives of nᵀ Σ q by the axis."""
-        square = _dot(v, v)
-        q_part, n_part = (self.d2 - self.b2) * _dot(v, n) / square, (self.d2 - self.b2) * _dot(v, q) / square
-        return [q_part * a + n_part * b for a, b in zip(_across(v, q), _across(v, n), strict=True)]
-
-    def nearest(self, at: ivmpf, C: Intervals, v: Intervals) -> tuple[Intervals, list[Intervals]] | None:
-        """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
-        square = _dot(v, v)
-        excess = (1 / self.d2 - 1 / self.b2) / square
-        M = [[(i == j) / self.b2 + excess * v[i] * v[j] for j in range(3)] for i in range(3)]
-        G = [[M[i][j] + (i == j) * at * self.D[i] for j in range(3)] for i in range(3)]
-        adjugate = [_cross(G[1], G[2]), _cross(G[2], G[0]), _cross(G[0], G[1])]
-        determinant = _dot(G[0], adjugate[0])
-        if min(_low(G[0][0]), _low(adjugate[2][2]), _low(determinant)) <= 0:
-            return None
-        inverse = [[_dot(row, column) / determinant for column in M] for row in adjugate]
-        return [_dot(row, C) for row in inverse], inverse
-
-
-_SHARES = (Fraction(1), 1 - Fraction(1, 1 << 20), Fraction(1, 2))
-"""Shares of the λ hinted at that are tried where M + λD is not seen to be definite there."""
-
-
-class _State:
-    """What matters at one row, not rounded safely: the margin on the goal's side, and its derivatives.
-
-    Where φ is largest on the goal's side, the margin is that maximum; else h at the centre, which has to change its
-    sign first.
-    """
-
-    def __init__(self, sizes: Row, rest: Row, goal: Goal) -> None:
-        self.form, self.side = _Form(sizes), int(goal.side)
-        self.C, self.v = [_interval(each) for each in rest[:3]], [_interval(each) for each in rest[3:]]
-        hint, found = multiplier((*sizes, *rest)), None
-        for share in _SHARES if hint * self.side > 0 else ():
-            self.at = _interval(hint * share)
-            found = self.form.nearest(self.at, self.C, self.v)
-            if found is not None:
-                break
-        self.at = iv.mpf(0) if found is None else self.at
-        self.X = self.C if found is None else found[0]
-        self.n = self.form.gradient(self.X)
-        self.factor = 2 * (self.side if found is None else self.at)
-
-    def value(self) -> mpf:
-        """The margin: λ² nᵀ Σ n − 1 + λ h(X), or h."""
-        height = self.form.hyperboloid(self.X)
-        if not self.at:
-            return _middle(self.side * height)
-        return _middle((self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * height)
-
-    def derivatives(self) -> list[mpf]:
-        """The margin's derivatives by the centre and the axis."""
-        by_axis = self.form.by_axis(self.v, self.n, self.n)
-        return [
-            _middle(each)
-            for each in (*(self.factor * each for each in self.n), *(-(self.at**2) * each for each in by_axis))
-        ]
-
-    def size_derivatives(self) -> list[mpf]:
-        """The margin's derivatives by the logarithms of the sizes."""
-        squares = [self.factor * a * b for a, b in zip(self.n, self.X, strict=True)]
-        square = 2 * self.at**2 / _dot(self.v, self.v)
-        thick = square * self.form.b2 * _squares(_cross(self.v, self.n))
-        along = square * self.form.d2 * _dot(self.v, self.n) ** 2
-        return [_middle(each) for each in (squares[0] + squares[1], squares[2], thick, along)]
-
-
-def _certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
-    """Whether the goal is shown not to be attained with these sizes, centres and axes."""
-    middle, radii = tuple((low + high) / 2 for low, high in box), [(high - low) / 2 for low, high in box]
-    pull = [goal.sign * each for each in _State(sizes, middle, goal).derivatives()]
-    corner = tuple(high if each > 0 else low for each, (low, high) in zip(pull, box, strict=True))
-    worst = _State(sizes, corner, goal)
-    if (_stays_clear if goal.leave else _stays_off)(worst, middle, radii):
-        return True
-    if not cuts:
-        return False
-    cost = [abs(each) * float(radius) for each, radius in zip(pull, radii, strict=True)]
-    cut = max(range(6), key=lambda index: cost[index])
-    low, high = box[cut]
-    halves = [(low, middle[cut]), (middle[cut], high)]
-    if pull[cut] > 0:
-        halves.reverse()  # the more doubtful half first
-    return all(_certified(sizes, [*box[:cut], half, *box[cut + 1 :]], goal, cuts - 1) for half in halves)
-
-
-def _stays_clear(worst: _State, middle: Row, radii: list[Fraction]) -> bool:
-    """Whether φ at the λ of the worst corner is > 0 for every centre and axis of the box.
-
-    Its derivatives are 2λ n by the centre and −λ² times those of nᵀ Σ n by the axis, n = D X held fixed there.
-    """
-    form, at = worst.form, worst.at
-    C0, v0 = _at_middle(middle)
-    found = form.nearest(at, C0, v0) if at else None
-    if found is None:
-        return False
-    X0, inverse = found
-    C, v = _over_box(middle, radii)
-    reach = _reach(form, at, C, v, X0, inverse)
-    if reach is None:
-        return False
-    n0 = form.gradient(X0)
-    value = (at * form.width(v0, n0)) ** 2 - 1 + at * form.hyperboloid(X0)
-    n = form.gradient([a + iv.mpf([-r, r]) for a, r in zip(X0, reach, strict=True)])
-    slopes = [*(2 * at * each for each in n), *(at**2 * each for each in form.by_axis(v, n, n))]
-    return bool(_low(value) > _spread(slopes, radii))
-
-
-def _reach(form: _Form, at: ivmpf, C: Intervals, v: Intervals, X0: Intervals, R: list[Intervals]) -> list[mpf] | None:
-    """Δ > 0 such that X is within Δ of X0 over the whole box and M + λD definite there; None where none is found.
-
-    With A = 1 + λ Σ D, A X = C, it is enough that |R (C − A X0)| + |1 − R A| Δ < Δ, R being the inverse of A in the
-    middle (Rump): then A is regular for every axis of the box, and M + λD definite as it is in the middle.
-    """
-    image = form.sigma_times(v, form.gradient(X0))
-    rest = [C[i] - X0[i] - at * image[i] for i in range(3)]
-    sigma = form.sigma(v)
-    columns = [[(i == j) + at * sigma[i][j] * form.D[j] for i in range(3)] for j in range(3)]
-    shift = [_size(_dot(row, rest)) for row in R]
-    defect = [[_size((i == j) - _dot(R[i], columns[j])) for j in range(3)] for i in range(3)]
-    tiny = plain.mpf(2) ** -200
-    least = max(shift) * tiny + max(map(_size, X0)) * tiny**2
-    reach = [2 * each + least for each in shift]
-    for _ in range(3):
-        image_size = [shift[i] + sum(defect[i][j] * reach[j] for j in range(3)) for i in range(3)]
-        if all(a * (1 + tiny) < b for a, b in zip(image_size, reach, strict=True)):
-            return reach
-        reach = [2 * each + least for each in image_size]
-    return None
-
-
-def _stays_off(worst: _State, middle: Row, radii: list[Fraction]) -> bool:
-    """Whether a point of the spheroid is not on the goal's side for any centre and axis of the box.
-
-    The point is the centre, or C + ρ Σq/√(qᵀΣq), ρ ≤ 1, which turns with the axis and stays in the spheroid; for ρ = 1
-    it is the spheroid's farthest in the fixed direction q.
-    """
-    form, side = worst.form, worst.side
-    C0, v0 = _at_middle(middle)
-    C, v = _over_box(middle, radii)
-    zero = [iv.mpf(0)] * 3
-    if _crosses(form, side, (C0, zero), (C, zero), zero, radii):
-        return True
-    if not worst.at:
-        return False
-    q = [_point(-side * each) for each in worst.n]
-    return any(
-        _crosses(form, side, (C0, way0), (C, way), slopes, radii)
-        for way0, way, slopes in (_outward(form, rho, q, v0, v, C) for rho in _shares_of_radius(worst, q))
-    )
-
-
-def _shares_of_radius(worst: _State, q: Intervals) -> Iterator[mpf]:
-    """How far to go along Σq: to the end, half way there from the hyperboloid, or to where h turns before the end."""
-    form, one = worst.form, plain.mpf(1)
-    yield one
-    width = form.width(worst.v, q)
-    yield (1 + min(_size(worst.at * width), one)) / 2
-    way = [each / width for each in form.sigma_times(worst.v, q)]
-    bend = form.gradient(way)
-    turn = _middle(-_dot(bend, worst.C)) / (_middle(_dot(bend, way)) or one)
-    if 0 < turn < 1:
-        yield turn
-
-
-def _outward(
-    form: _Form, rho: mpf, q: Intervals, v0: Intervals, v: Intervals, C: Intervals
-) -> tuple[Intervals, Intervals, Intervals]:
-    """ρ Σq/√(qᵀΣq) for the middle axis and over the box, and the derivatives of half h there by the axis."""
-    scale0, scale = (iv.mpf(rho) / form.width(each, q) for each in (v0, v))
-    way0 = [scale0 * each for each in form.sigma_times(v0, q)]
-    way = [scale * each for each in form.sigma_times(v, q)]
-    n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
-    fall = _dot(n, way) * (scale / iv.mpf(rho)) ** 2 / 2
-    by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
-    return way0, way, [scale * a - fall * b for a, b in by_axis]
-
-
-def _crosses(
-    form: _Form,
-    side: int,
-    middle: tuple[Intervals, Intervals],
-    box: tuple[Intervals, Intervals],
-    by_axis: Intervals,
-    radii: list[Fraction],
-) -> bool:
-    """Whether h at the centre + a way is not on a side anywhere in the box."""
-    height = side * form.hyperboloid([a + b for a, b in zip(*middle, strict=True)])
-    n = form.gradient([a + b for a, b in zip(*box, strict=True)])
-    return bool(_high(height) + _spread([*(2 * each for each in n), *(2 * each for each in by_axis)], radii) <= 0)
-
-
-def _at_middle(middle: Row) -> tuple[Intervals, Intervals]:
-    numbers = [_interval(each) for each in middle]
-    return numbers[:3], numbers[3:]
-
-
-def _over_box(middle: Row, radii: list[Fraction]) -> tuple[Intervals, Intervals]:
-    numbers = [_interval(a) + iv.mpf([-1, 1]) * _interval(r) for a, r in zip(middle, radii, strict=True)]
-    return numbers[:3], numbers[3:]
-
-
-def _spread(slopes: Intervals, radii: list[Fraction]) -> mpf:
-    """An upper bound of how much a function can change from the middle of a box to anywhere in it."""
-    total = iv.mpf(0)
-    for slope, radius in zip(slopes, radii, strict=True):
-        total += iv.mpf(_size(slope)) * _interval(radius)
-    return _high(total)
-
-
-def _interval(number: Fraction) -> ivmpf:
-    return iv.mpf(number.numerator) / number.denominator
-
-
-def _low(enclosure: ivmpf) -> mpf:
-    return plain.mpf(enclosure.a)
-
-
-def _high(enclosure: ivmpf) -> mpf:
-    return plain.mpf(enclosure.b)
-
-
-def _middle(enclosure: ivmpf) -> mpf:
-    return (_low(enclosure) + _high(enclosure)) / 2
-
-
-def _point(enclosure: ivmpf) -> ivmpf:
-    """The middle of an interval, as an interval of one number."""
-    return iv.mpf(_middle(enclosure))
-
-
-def _size(enclosure: ivmpf) -> mpf:
-    """The largest absolute value in an interval."""
-    return max(abs(_low(enclosure)), abs(_high(enclosure)))
-
-
-def _dot(p: Intervals, q: Intervals) -> ivmpf:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-
-
-def _squares(p: Intervals) -> ivmpf:
-    """p·p, not below 0."""
-    return p[0] ** 2 + p[1] ** 2 + p[2] ** 2
-
-
-def _across(v: Intervals, q: Intervals) -> Intervals:
-    """The part of q across v, (v × q) × v/(v·v)."""
-    square = _squares(v)
-    return [each / square for each in _cross(_cross(v, q), v)]
-
-
-def _cross(p: Intervals, q: Intervals) -> Intervals:
-    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-
-
-def _fraction(number: mpf) -> Fraction:
-    """An mpf, exactly; its mantissa has no sign."""
-    size = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
-    return -size if number < 0 else size
+    moves = [size * fraction(each) for size, each in zip(row[4:], state.derivatives(), strict=True)]
+    rate = sum(map(abs, (*moves, *map(fraction, state.size_derivatives()))), Fraction(0))
+    estimate = fraction(value) / rate if rate else Fraction(1)
+    return min(estimate, Fraction(1, 2)) if estimate else Fraction(1, 1 << 10_000)

@@ -56,6 +56,14 @@ class Decision:
 
 
 @dataclass(frozen=True, slots=True)
+class Bracket:
+    """An answer's backward error is between these: both 0 for a right one or the limit of right ones, inf for never."""
+
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
 class Quartic:
     """A positive multiple f4 μ⁴ + … + f0 of det(S + λH), λ = side · μ, where `side` is the sign of h; all integers.
 
@@ -133,10 +141,10 @@ def _decide(F: Quartic) -> Decision:
     contact = Decision(Position.CONTACT)
     if F.side == 0 or _variations(F.coefficients) < 3:
         return contact  # the centre on the hyperboloid, or one positive root alone
-    discriminant = _discriminant(F)
-    if discriminant < 0:
+    sign = discriminant(F)
+    if sign < 0:
         return contact
-    if discriminant == 0:
+    if sign == 0:
         return _with_multiple_root(F)
     return contact if _three_beyond(F) else Decision(Position(F.side))
 
@@ -152,7 +160,7 @@ def _variations(signs: tuple[int, ...]) -> int:
     return count
 
 
-def _discriminant(F: Quartic) -> int:
+def discriminant(F: Quartic) -> int:
     """27 times the discriminant, by its two invariants."""
     a, b, c, d, e = F.coefficients
     ae, bd, cc = a * e, b * d, c * c

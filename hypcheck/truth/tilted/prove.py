@@ -78,13 +78,16 @@ def _inside(F: Quartic, at: Fraction) -> bool:
 
 
 def _points(pair: TiltedPair, F: Quartic) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
+    """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
+
+    Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
+    """
     forms = _Forms(pair)
     center = forms.center
     if F.side == 0:
         return (_point(center),)
     for candidate in _candidates(forms, F):
-        if forms.spheroid(candidate) <= 0 and forms.hyperboloid(candidate) * F.side <= 0:
+        if forms.spheroid(candidate) <= 0 and forms.hyperboloid(candidate) * F.side < 0:
             return (_point(center), _point(candidate))
     raise AssertionError("unreachable: the candidates do not end")
 
@@ -127,7 +130,7 @@ def _candidates(forms: _Forms, F: Quartic) -> Iterator[Vector]:
     square = _dot(steepest, forms.gradient(forms.center))
     for bits in (4, 60) if square else ():
         yield _plus(forms.center, steepest, -F.side * _root(1 / square, bits))
-    for at in _toward_maximum(F):
+    for steps, at in enumerate(_toward_maximum(F)):
         if not _inside(F, at):
             continue
         adjugate = forms.adjugate(at * F.side)
@@ -135,18 +138,21 @@ def _candidates(forms: _Forms, F: Quartic) -> Iterator[Vector]:
         determinant = sum((forms.M[0][j] + (j == 0) * at * F.side * forms.D[0]) * adjugate[j][0] for j in range(3))
         point = [each / determinant for each in scaled]
         yield point
-        yield from _across_the_pole(forms, F, adjugate, point)
+        yield from _across_the_pole(forms, F, adjugate, point, 40 + steps)
 
 
-def _across_the_pole(forms: _Forms, F: Quartic, adjugate: Matrix, point: Vector) -> Iterator[Vector]:
-    """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves."""
+def _across_the_pole(forms: _Forms, F: Quartic, adjugate: Matrix, point: Vector, bits: int) -> Iterator[Vector]:
+    """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves.
+
+    So little that only `bits` bits tell it from the hyperboloid: the nearer to tangency, the less room there is.
+    """
     direction = max(adjugate, key=lambda column: _dot(column, column))
     curvature = _dot(direction, forms.gradient(direction))
     slope, height = _dot(direction, forms.gradient(point)), forms.hyperboloid(point)
     if curvature * F.side >= 0 or height * F.side <= 0:
         return
     for sign in (1, -1):  # curvature τ² + 2 slope τ + height = 0
-        way = _root((slope / curvature) ** 2 - height / curvature, 64) * (1 + Fraction(1, 1 << 40))
+        way = _root((slope / curvature) ** 2 - height / curvature, bits + 24) * (1 + Fraction(1, 1 << bits))
         yield _plus(point, direction, sign * way - slope / curvature)
 
 

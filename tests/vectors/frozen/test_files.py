@@ -19,7 +19,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.vectors import cancellation, freezing
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import SCHEMA
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import vectors_text
@@ -27,7 +27,7 @@ from hypcheck.vectors.tangency import RUNGS, ULPS
 from tests.support.records import violations
 
 FOLDER = vectors.folder()
-ALL = (*vectors.NAMES, vectors.INVALID_NAME)
+ALL = (*vectors.NAMES, vectors.INVALID_NAME, *vectors.TILTED_NAMES, vectors.TILTED_INVALID_NAME)
 FULLY_COMPARED = ("ring", "tangent", "float16-exact", "coefficient-zero", "extreme-subnormal")
 
 
@@ -36,10 +36,10 @@ def text_of(name):
 
 
 def bits(rows):
-    return [struct.pack("<7d", *row) for row in rows.tolist()]
+    return [struct.pack(f"<{len(row)}d", *row) for row in rows.tolist()]
 
 
-def schema(name):
+def schema(name, version=SCHEMA):
     """A published schema, without the two keywords that the small validator knows by another name."""
 
     def opened(part):
@@ -47,18 +47,18 @@ def schema(name):
             return {key: opened(value) for key, value in part.items() if value is not False}
         return [opened(value) for value in part] if isinstance(part, list) else part
 
-    return opened(json.loads((FOLDER / "schema" / f"{name}-{SCHEMA}.json").read_text(encoding="utf-8")))
+    return opened(json.loads((FOLDER / "schema" / f"{name}-{version}.json").read_text(encoding="utf-8")))
 
 
 def test_there_is_a_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
-    assert found == set(ALL) == {*FAMILIES, "worst-cancellation", "invalid"}
+    assert found == set(ALL) == {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
 
 
-def test_there_are_at_least_5000_cases_in_at_most_5_megabytes():
-    rows = {row for name in vectors.NAMES for row in bits(vectors.load(name).rows)}
-    assert len(rows) >= 5000
-    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 5_000_000
+def test_there_are_at_least_7000_cases_in_at_most_7_megabytes():
+    rows = {row for name in (*vectors.NAMES, *vectors.TILTED_NAMES) for row in bits(vectors.frozen_rows(name).rows)}
+    assert len(rows) >= 7000
+    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 7_000_000
 
 
 def test_frozen_families_have_60_to_500_cases_and_all_positions_are_common():
@@ -132,7 +132,7 @@ def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain
         assert max(errors) > family_error
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", (*vectors.NAMES, vectors.INVALID_NAME))
 def test_every_file_fits_its_schema(name):
     document = json.loads(text_of(name))
     wanted = schema("refusals" if name == vectors.INVALID_NAME else "vectors")
@@ -229,6 +229,8 @@ def block(language):
 
 def test_the_readme_has_a_line_for_each_family_as_its_file_says():
     heads = {name: vectors.load(name) for name in vectors.NAMES} | {vectors.INVALID_NAME: vectors.load_invalid_rows()}
+    heads |= {name: vectors.load_tilted(name) for name in vectors.TILTED_NAMES}
+    heads |= {vectors.TILTED_INVALID_NAME: vectors.load_invalid_rows(vectors.TILTED_INVALID_NAME)}
     rows = [f"| [{n}]({n}.json) | {len(f.cases)} | {f.head.title} | {f.head.purpose} |" for n, f in heads.items()]
     listed = [line for line in readme().splitlines() if ".json) | " in line]
     assert listed == rows

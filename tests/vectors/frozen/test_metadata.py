@@ -45,7 +45,9 @@ def test_a_wrong_description_in_the_metadata_is_a_fault(tmp_path, capsys, old, n
 
 def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
     text = invalid_rows_text(frozen.load_invalid_rows())
-    code, lines = checked(tmp_path, capsys, text.replace(frozen.INVALID_METADATA.drone, "a bad row is answered"))
+    code, lines = checked(
+        tmp_path, capsys, text.replace(frozen.INVALID_METADATA["invalid"].drone, "a bad row is answered")
+    )
     assert (code, lines[0][:39]) == (1, 'line 3: family.drone is "a bad row is a')
 
 
@@ -83,4 +85,9 @@ def test_descriptions_in_the_shipped_files_are_right():
         file = frozen.load(name)
         assert file.head.name == name
         assert [*wrong_description(file.head), *wrong_meanings(file.flags)] == []
-    assert list(wrong_description(frozen.load_invalid_rows().head)) == []
+    for name in frozen.TILTED_NAMES:
+        tilted = frozen.load_tilted(name)
+        assert tilted.head.name == name
+        assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags)] == []
+    for name in frozen.INVALID_METADATA:
+        assert list(wrong_description(frozen.load_invalid_rows(name).head)) == []

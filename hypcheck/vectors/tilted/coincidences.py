@@ -1,0 +1,236 @@
+"""Exact coincidences of tilted spheroids: tangencies and other double roots, twins and rings, and their neighbours.
+
+**Double roots.** Let n̂ = (n1, 0, n3)/N be a normal, the axis v̂ = (p n̂ + q ê)/S with ê ⟂ n̂ of length 1, and Σ = M⁻¹ =
+b² I + (d² − b²) v̂ v̂ᵀ. With b q = f c4 S and d p = f s4 S
+
+    n̂ᵀ Σ n̂ = (b q/S)² + (d p/S)² = (f h4)²,    Σ n̂ = f² (h4² n̂ + (s4² q/p − c4² p/q) ê).
+
+With α n1 = w h5 and γ |n3| = w s5 the surface has the normal n̂ at X = (w h5²/(n1 c5), 0, −w s5²/(n3 c5)). So with the
+centre X ± Σ n̂/(f h4) the surfaces touch in X, and det(S + λH) has the double root λ = ± w c5/(f h4 N). All is rational
+where (n1, n3, N), (p, q, S), (c4, s4, h4), (c5, s5, h5) and the two numbers of ê are legs and hypotenuses. The pair is
+tangent if and only if M + λD is positive semidefinite there. At last a rational turn about the hyperboloid's axis.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+
+import numpy as np
+
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.vectors.double_roots import (
+    BigIntegers,
+    big_integers_of_any_length,
+    gather,
+    triples,
+    turned,
+)
+from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, stepped, turns
+
+ULPS = 40
+"""Neighbours lie 1, 2, 4 … 2^ULPS ulp away."""
+
+_MARGIN = 1e-6
+"""A pivot of M + λD, over what it comes from, is not taken for positive or negative where it is nearer to 0."""
+
+RINGS = (
+    (12, 12, 1, 3, 0, 14, 0, 1, 0, 1),
+    (7, 9, 1, 3, 0, 10, 0, 3, 0, 2),
+    (5, 5, 2, 1, 0, 9, 0, 1, 0, 1),
+    (5, 10, 2, 5, 0, 10.5, 0, 2, 0, 1),
+    (3, 11, 3, 5, 0, 10, 0, 1, 0, 1),
+    (4, 4, 4, 1, 0, 10, 0, 1, 0, 1),
+    (2, 4, 5, 2, 0, 10.5, 0, 1, 0, 2),
+    (2, 6, 5, 2, 0, 9, 0, 3, 0, 1),
+    (5, 10, 7, 1, 0, 16, 0, 3, 0, 1),
+    (2, 3, 9, 2, 0, 14, 0, 2, 0, 3),
+    (4, 12, 10, 4, 0, 18, 0, 3, 0, 1),
+    (12, 12, 12, 3, 0, 30, 0, 1, 0, 1),
+    (9, 9, 3, 1, -8, 0, 4, 1, 0, 1),
+    (9, 9, 3, 2, -5, 0, 1, 1, 0, 1),
+    (8, 8, 4, 3, -3.5, 0, 0.5, 1, 0, 1),
+    (9, 9, 6, 5, -2.75, 0, 0.25, 1, 0, 1),
+)
+"""Clear pairs, the centre on an axis of symmetry of both, a double root at a pole; found by a search of sizes to 12.
+
+Before the last four, which are inside, y = b √((A1 + B)(1 + B)/B) with A1 = α²/b² and −1/B the negative eigenvalue.
+"""
+
+TWO_POINTS = (
+    (2, 2, 1, 2, 0, 3, 0, 1, 0, 1),
+    (5, 5, 2, 5, 0, 7, 0, 1, 0, 1),
+    (2, 1, 5, 2, 0, 10.5, 0, 2, 0, 1),
+    (3, 6, 5, 9, 0, 8, 0, 1, 0, 2),
+    (2, 2, 6, 2, 0, 8, 0, 1, 0, 1),
+    (7, 7, 8, 7, 0, 15, 0, 1, 0, 1),
+    (8, 8, 4, 1, -7.5, 0, 4.5, 1, 0, 1),
+    (5, 5, 4, 2, -2.25, 0, 0.75, 1, 0, 1),
+    (9, 9, 6, 1, -8.75, 0, 6.25, 1, 0, 1),
+    (10, 10, 8, 4, -4.5, 0, 1.5, 1, 0, 1),
+)
+"""Found in the same way: tangent in two points, the last four from inside."""
+
+
+def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
+    """Rows with a double root, which of them are surely tangent, and which surely are not."""
+    n1, n3, N = triples(draw, n, 2)
+    p, q, S = triples(draw, n, 2)
+    c4, s4, h4 = triples(draw, n, 2)
+    s5, c5, h5 = triples(draw, n, 2)
+    c, s, K = turned(draw, n)
+    upward, side = (draw.signs(n).astype(np.int64).astype(object) for _ in range(2))
+    wide, thick = big_integers_of_any_length(draw, n, 16), big_integers_of_any_length(draw, n, 6)
+    # w = wide n1 n3 c5 and f = thick h4 p q N K clear all denominators.
+    sizes = (
+        wide * h5 * n3 * c5,
+        wide * s5 * n1 * c5,
+        thick * h4 * p * N * K * c4 * S,
+        thick * h4 * q * N * K * s4 * S,
+    )
+    bend = s4 * s4 * q * q - c4 * c4 * p * p
+    way = (
+        thick * (n1 * h4 * h4 * p * q * K + bend * c * n3),
+        thick * bend * s * N,
+        thick * (n3 * h4 * h4 * p * q * K - bend * c * n1),
+    )
+    centre = (wide * h5 * h5 * n3 + side * way[0], side * way[1], -wide * s5 * s5 * n1 + side * way[2])
+    axis = (p * K * n1 + q * c * n3, q * s * N, p * K * n3 - q * c * n1)
+    share = (side * wide * n1 * n3 * c5 * c5, thick * h4 * h4 * p * q * N * N * K)  # λ, as a quotient
+    tangent, crossing = _definite(sizes, axis, (share[0] / share[1]).astype(np.float64))
+    rows, exact = _turned(draw, sizes, centre, axis, upward)
+    return rows, exact & tangent, exact & crossing
+
+
+def _definite(sizes: tuple[BigIntegers, ...], axis: tuple[BigIntegers, ...], at: Floats) -> tuple[Mask, Mask]:
+    """Where b² (M + λD) is surely positive definite, and where surely indefinite."""
+    alpha, gamma, b, d = (each.astype(np.float64) for each in sizes)
+    v = [each.astype(np.float64) for each in axis]
+    length = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    v = [each / length for each in v]
+    extra = (b / d) * (b / d) - 1
+    D = (at * (b / alpha) * (b / alpha), at * (b / alpha) * (b / alpha), -at * (b / gamma) * (b / gamma))
+    G = [[(i == j) * (1 + D[i]) + extra * v[i] * v[j] for j in range(3)] for i in range(3)]
+    largest = np.stack([np.abs(G[i][i]) for i in range(3)]).max(axis=0)
+    low = np.full(len(at), np.inf)
+    with np.errstate(all="ignore"):
+        for i in range(3):
+            low = np.minimum(low, np.where(low < 0, low, G[i][i] / largest))
+            for j in range(i + 1, 3):
+                factor = G[j][i] / G[i][i]
+                for k in range(3):
+                    G[j][k] = G[j][k] - factor * G[i][k]
+    return np.asarray(low > _MARGIN), np.asarray(low < -_MARGIN)
+
+
+def _turned(
+    draw: Draw,
+    sizes: tuple[BigIntegers, ...],
+    centre: tuple[BigIntegers, ...],
+    axis: tuple[BigIntegers, ...],
+    upward: BigIntegers,
+) -> tuple[Rows, Mask]:
+    """The rows, turned by a rational angle about the hyperboloid's axis, in lowest terms; and which are exact."""
+    cosine, sine, radius = turned(draw, len(upward))
+    lengths = [
+        *(radius * each for each in sizes),
+        cosine * centre[0] - sine * centre[1],
+        sine * centre[0] + cosine * centre[1],
+        radius * centre[2] * upward,
+    ]
+    leaning = [
+        cosine * axis[0] - sine * axis[1],
+        sine * axis[0] + cosine * axis[1],
+        radius * axis[2] * upward,
+    ]
+    reduced = [*_in_lowest_terms(lengths), *_in_lowest_terms(leaning)]
+    exact = np.all([np.abs(each) <= 2**53 for each in reduced], axis=0).astype(np.bool_)
+    rows = np.stack([each.astype(np.float64) for each in reduced], axis=1)
+    return _anywhere(draw, rows), exact
+
+
+def _in_lowest_terms(numbers: list[BigIntegers]) -> list[BigIntegers]:
+    shared = np.maximum(reduce(np.gcd, numbers), 1)
+    return [each // shared for each in numbers]
+
+
+def _anywhere(draw: Draw, rows: Rows) -> Rows:
+    """The same pairs in other coordinates: x and y of either sign or swapped, z of either, lengths about 1."""
+    n = len(rows)
+    rows = rows.copy()
+    for column in (4, 5, 6):
+        sign = draw.signs(n)
+        rows[:, column] *= sign
+        rows[:, column + 3] *= sign
+    swap = (draw.signs(n) < 0)[:, None]
+    rows[:, [4, 5, 7, 8]] = np.where(swap, rows[:, [5, 4, 8, 7]], rows[:, [4, 5, 7, 8]])
+    greatest = np.frexp(np.abs(rows[:, :7]).max(axis=1))[1]
+    rows[:, :7] = ldexp(rows[:, :7], (draw.integers(n, -2, 5) - greatest)[:, None])
+    rows[:, 7:] = ldexp(rows[:, 7:], draw.integers(n, -20, 3)[:, None])
+    return rows + 0.0
+
+
+def tangent(draw: Draw, n: int) -> Rows:
+    """Exact tangencies."""
+    return gather(draw, n, lambda own, some: double_roots(own, some)[:2])
+
+
+def crossing(draw: Draw, n: int) -> Rows:
+    """Double roots that are no tangencies."""
+    return gather(draw, n, lambda own, some: double_roots(own, some)[::2])
+
+
+def moved_by_ulps(draw: Draw, rows: Rows) -> Rows:
+    """The rows with one number each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side."""
+    n = len(rows)
+    steps = ldexp(draw.signs(n), draw.integers(n, 0, ULPS)).astype(np.int64)
+    chosen, index = draw.integers(n, 0, 9), np.arange(n)
+    chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
+    moved = rows.copy()
+    moved[index, chosen] = stepped(rows[index, chosen], steps)
+    return moved
+
+
+def near_tangent(draw: Draw, n: int) -> Rows:
+    """Tangencies moved by ulps."""
+    return moved_by_ulps(draw, tangent(draw, n))
+
+
+def _of_table(table: tuple[tuple[float, ...], ...]) -> Maker:
+    """Rows of a table, turned by rational angles and scaled; three of four moved by ulps."""
+
+    def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+        chosen = np.asarray(table)[draw.integers(n, 0, len(table) - 1)] * 4
+        whole = [column.astype(np.int64).astype(object) for column in chosen.T]
+        ones = np.ones(n, dtype=np.int64).astype(object)
+        return _turned(draw, tuple(whole[:4]), tuple(whole[4:7]), tuple(whole[7:]), ones)
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = gather(draw, n, attempt)
+        return np.where(turns(n, True, False, False, False)[:, None], rows, moved_by_ulps(draw, rows))
+
+    return make
+
+
+ring = _of_table(RINGS)
+
+
+def _at_the_origin(draw: Draw, n: int) -> Rows:
+    """The centre at the origin; α = b, or an ulp or more beside it: points ±X are equally near."""
+    b, d = draw.log_uniform(n, -4, 4), draw.log_uniform(n, -4, 4)
+    gamma = draw.log_uniform(n, -4, 4)
+    alpha = stepped(b, turns(n, 0, 1, 1, 1) * ldexp(draw.signs(n), draw.integers(n, 0, ULPS)).astype(np.int64))
+    cosine, sine = draw.circle(n)
+    zero = np.zeros(n)
+    return np.stack([alpha, gamma, b, d, zero, zero, zero, cosine, sine, draw.between(n, -2, 2)], axis=1) + 0.0
+
+
+def _in_both_planes(draw: Draw, n: int) -> Rows:
+    """Centre and axis in the plane y = 0, the centre near the origin: nearest points lie in pairs on either side."""
+    b, d = draw.log_uniform(n, -2, 2), draw.log_uniform(n, -2, 2)
+    alpha, gamma = b * draw.between(n, 0.8, 1.3), d * draw.log_uniform(n, -1, 3)
+    x, z = alpha * draw.between(n, -0.2, 0.2), gamma * draw.between(n, -0.4, 0.4)
+    zero = np.zeros(n)
+    return np.stack([alpha, gamma, b, d, x, zero, z, draw.between(n, -1, 1), zero, draw.signs(n)], axis=1) + 0.0
+
+
+twins = in_turn(_of_table(TWO_POINTS), _at_the_origin, _in_both_planes)

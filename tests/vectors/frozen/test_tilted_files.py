@@ -1,0 +1,222 @@
+"""The frozen files about tilted spheroids: enough of them, fresh, proved, read strictly, and shown."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import TILTED_COLUMNS, Position
+from hypcheck.geometry.rows import invalid
+from hypcheck.truth.tilted.exact import Bracket
+from hypcheck.vectors import freezing, frozen
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.family import TILTED_SCHEMA
+from hypcheck.vectors.flags import TILTED_FLAGS
+from hypcheck.vectors.format import read_vectors
+from hypcheck.vectors.frozen import invalid_rows_text, read_invalid_rows
+from hypcheck.vectors.labels import faults_of_invalid_rows
+from hypcheck.vectors.tilted.format import CASE_FIELDS, read_tilted_vectors, tilted_vectors_text
+from hypcheck.vectors.tilted.labels import faults_of_tilted, shows_tilted_crossing
+from tests.support.records import violations
+from tests.tilted_fractions import exact_position
+from tests.vectors.frozen.test_files import bits, schema, text_of
+
+STEP = 40
+every_file = pytest.mark.parametrize("name", frozen.TILTED_NAMES)
+FEW = ("tilted-tangent", "tilted-ring", "tilted-upright", "tilted-near-contact")
+
+
+def sample(name, step=STEP):
+    file = frozen.load_tilted(name)
+    chosen = sorted({*range(0, len(file.cases), step), len(file.cases) - 1})
+    return replace(file, cases=tuple(file.cases[place] for place in chosen), lines=())
+
+
+def test_there_are_at_least_2000_tilted_cases_in_at_least_12_families():
+    assert len(frozen.TILTED_NAMES) >= 12
+    assert sum(len(frozen.load_tilted(name).cases) for name in frozen.TILTED_NAMES) >= 2000
+    assert set(freezing.TILTED_COUNTS) == set(TILTED_FAMILIES)
+    cases = [case for name in frozen.TILTED_NAMES for case in frozen.load_tilted(name).cases]
+    assert {flag for case in cases for flag in case.flags} == set(TILTED_FLAGS)
+
+
+@every_file
+def test_the_rows_of_a_tilted_file_are_the_first_of_its_family_each_once(name):
+    file = frozen.load_tilted(name)
+    wanted = list(dict.fromkeys(bits(TILTED_FAMILIES[name].rows(freezing.SEED, freezing.TILTED_COUNTS[name]))))
+    assert bits(file.rows) == wanted
+    assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
+    assert file.head == freezing.metadata_of(TILTED_FAMILIES[name], f"hypcheck cases freeze {name}")
+    assert tilted_vectors_text(file) == text_of(name)
+    assert frozen.frozen_rows(name).rows.shape == (len(wanted), 10)
+
+
+@every_file
+def test_the_positions_of_a_tilted_file_are_those_of_the_matrices(name):
+    for case in sample(name, 20).cases:
+        assert exact_position(case.row) == case.position, case.id
+
+
+@pytest.mark.slow
+@every_file
+def test_the_labels_of_a_tilted_file_hold(name):
+    assert faults_of_tilted(sample(name)) == []
+
+
+@every_file
+def test_a_tilted_file_fits_its_published_schema(name):
+    document = json.loads(text_of(name))
+    document["cases"] = document["cases"][::7]
+    assert list(violations(document, schema("tilted-vectors", TILTED_SCHEMA))) == []
+
+
+def test_the_tilted_rows_to_be_refused_fit_their_schema_and_are_what_freezing_makes():
+    text = text_of(frozen.TILTED_INVALID_NAME)
+    assert list(violations(json.loads(text), schema("tilted-refusals", TILTED_SCHEMA))) == []
+    assert invalid_rows_text(freezing.frozen_invalid_rows(name=frozen.TILTED_INVALID_NAME)) == text
+    file = frozen.load_invalid_rows(frozen.TILTED_INVALID_NAME)
+    assert file.rows.shape == (len(file.cases), 10)
+    assert invalid(file.rows).all()
+    assert faults_of_invalid_rows(file) == []
+    assert {columns[0] for case in file.cases if len(columns := case.columns) == 1} == set(TILTED_COLUMNS)
+    without = [case for case in file.cases if case.columns == TILTED_COLUMNS[7:]]
+    assert any(not np.any(case.row[7:]) for case in without)
+
+
+def test_the_analogue_of_the_ring_is_clear_with_a_vanishing_discriminant():
+    cases = frozen.load_tilted("tilted-ring").cases
+    exactly = [case for case in cases if "quartic-delta=0" in case.flags]
+    assert len(exactly) >= len(cases) / 4
+    assert all("quartic-ring" in case.flags and case.position is not Position.CONTACT for case in exactly)
+
+
+def test_tangent_and_crossing_files_have_double_roots_of_either_kind():
+    assert all(case.tangent for case in frozen.load_tilted("tilted-tangent").cases)
+    for case in frozen.load_tilted("tilted-crossing").cases:
+        assert not case.tangent
+        assert {"quartic-delta=0", "sphere"} & set(case.flags)
+
+
+def test_vertical_axes_and_spheres_have_the_position_of_the_upright_pair():
+    for name in ("tilted-upright", "tilted-sphere"):
+        assert not any("tilt-matters" in case.flags for case in frozen.load_tilted(name).cases)
+    tower = frozen.load_tilted("tilted-tower").cases
+    assert 0.01 < np.mean(["tilt-matters" in case.flags for case in tower]) < 0.5
+
+
+def changed(case, **changes):
+    file = replace(frozen.load_tilted("tilted-near-contact"), cases=(replace(case, **changes),), lines=())
+    return [fault.sentence for fault in faults_of_tilted(file)]
+
+
+def test_wrong_labels_of_a_tilted_case_are_found():
+    case = next(each for each in frozen.load_tilted("tilted-near-contact").cases if each.position is Position.EXTERIOR)
+    assert changed(case) == []
+    assert "does not prove contact" in changed(case, position=Position.CONTACT)[0]
+    assert "clearance" in changed(case, clearance=case.clearance * 1.1)[0]
+    assert "flags" in changed(case, flags=("sphere",))[0]
+    wide = case.flips[Position.CONTACT]
+    for ends in (Bracket(0.0, wide.lower / 2), Bracket(wide.upper * 2, wide.upper * 3), Bracket(0.0, 0.0)):
+        flips = {**case.flips, Position.CONTACT: ends}
+        assert "the flip to contact is" in changed(case, flips=flips)[0]
+    row = (*case.row[:7], *(-2 * each for each in case.row[7:]))
+    assert changed(case, row=row) == []
+    witness = replace(case.witness, multiplier=-case.witness.multiplier)
+    assert "does not prove exterior" in changed(case, witness=witness)[0]
+
+
+def test_points_of_a_crossing_lie_in_the_spheroid_on_strictly_opposite_sides():
+    case = next(each for each in frozen.load_tilted("tilted-near-contact").cases if len(each.witness.offsets) == 2)
+    centre, other = case.witness.offsets
+    assert shows_tilted_crossing(case.pair, (centre, other))
+    assert not shows_tilted_crossing(case.pair, (centre,))
+    assert not shows_tilted_crossing(case.pair, (other,))
+    assert not shows_tilted_crossing(case.pair, (centre, tuple(2 * Fraction(each) for each in other)))
+
+
+NO_AXIS, NO_HEX = [0.0] * 3, ["0x0p+0"] * 3
+SOUND = text_of("tilted-ring").splitlines()
+FIRST = SOUND.index('"cases": [') + 1
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda case: case.update(row=case["row"][:7]), "a list of 10"),
+        (lambda case: case["row"].__setitem__(slice(7, 10), [0.0] * 3), "hex of axis_"),
+        (lambda case: case.update(row=[*case["row"][:7], *NO_AXIS], hex=[*case["hex"][:7], *NO_HEX]), "direction"),
+        (lambda case: case.update(tangent=0), "true or false"),
+        (lambda case: case.update(kind="exterior"), "kind"),
+        (lambda case: case["flips"].update(contact=0.5), "a list of 2"),
+        (lambda case: case["flips"].update(contact=[0.5, 0.25]), "the lower first"),
+        (lambda case: case["flips"].update(contact=[0.5, 1.5]), "from 0 to 1"),
+        (lambda case: case["flips"].pop("contact") and None, "lacks contact"),
+        (lambda case: case.update(flags=["ring"]), "not among those"),
+    ],
+)
+def test_a_tilted_case_that_is_wrongly_written_is_refused(tmp_path, change, message):
+    lines = list(SOUND)
+    case = json.loads(lines[FIRST].removesuffix(","))
+    assert tuple(case) == CASE_FIELDS
+    change(case)
+    lines[FIRST] = json.dumps(case) + ","
+    path = tmp_path / "mine.json"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(InputError, match=f"line {FIRST + 1}, case tilted-ring-0000: .*{message}"):
+        read_tilted_vectors(str(path))
+
+
+def test_contents_of_upright_and_tilted_files_are_told_apart(tmp_path):
+    with pytest.raises(InputError, match="here it must be 'positions'"):
+        read_vectors(str(frozen.path_of("tilted-ring")))
+    with pytest.raises(InputError, match="here it must be 'tilted-positions'"):
+        read_tilted_vectors(str(frozen.path_of("ring")))
+    with pytest.raises(InputError, match="here it must be 'refusals'"):
+        read_invalid_rows(str(frozen.path_of("tilted-ring")))
+    path = tmp_path / "mine.json"
+    path.write_text(text_of("tilted-ring").replace("1.1.0", "1.0.0", 1), encoding="utf-8")
+    with pytest.raises(InputError, match="it must be 'positions' or 'refusals'"):
+        read_tilted_vectors(str(path))
+
+
+def printed(capsys, *arguments):
+    assert main(["cases", *arguments]) == 0
+    return capsys.readouterr().out
+
+
+def test_tilted_families_and_cases_are_shown(capsys):
+    assert "positions" in printed(capsys, "show", "tilted-ring")
+    assert "all to be refused" in printed(capsys, "show", "tilted-invalid")
+    text = " ".join(printed(capsys, "show", "tilted-ring-0000").split())
+    for part in (
+        "axis_x",
+        "axis_z",
+        "S + λH is positive definite at λ",
+        "flip contact if each number may change",
+        " … ",
+    ):
+        assert part in text
+    assert json.loads(printed(capsys, "show", "--json", "tilted-ring-0000"))["id"] == "tilted-ring-0000"
+    assert "axis_x" in printed(capsys, "show", "tilted-invalid-0000")
+    assert "position" in printed(capsys, "show", "tilted-uniform/1/5/3")
+
+
+def test_tilted_rows_are_generated_in_every_format(capsys, tmp_path):
+    table = printed(capsys, "generate", "tilted-uniform", "--count", "3", "--format", "csv").splitlines()
+    assert table[0] == ",".join(("id", *TILTED_COLUMNS))
+    assert table[1].startswith("tilted-uniform/1/1/0,")
+    path = tmp_path / "mine.json"
+    printed(capsys, "generate", "tilted-upright", "--count", "2", "--seed", "7", "--output", str(path))
+    assert len(read_tilted_vectors(str(path)).cases) == 2
+    assert printed(capsys, "check", str(path)) == "2 cases checked, none with a wrong label\n"
+
+
+def test_upright_families_stay_as_they_are_beside_the_tilted_ones():
+    assert not set(FAMILIES) & set(TILTED_FAMILIES)
+    assert set(frozen.NAMES).isdisjoint(frozen.TILTED_NAMES)
