@@ -114,7 +114,7 @@ def isolate(f: Polynomial, cuts: Sequence[Fraction]) -> list[Interval]:
         if left - right == 1:
             found.append(_narrowed(f, lower, upper))
         elif left > right:
-            # Four candidates, three roots at most: one of them is no root.
+            # Eight candidates, seven roots at most: one of them is no root.
             middle = next(x for x in _between(lower, upper) if value(f, x))
             count = variations(chain, middle)
             pending += [(lower, left, middle, count), (middle, count, upper, right)]
@@ -140,10 +140,10 @@ def _exponent(x: Fraction) -> int:
 
 
 def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
-    """Four short dyadic numbers strictly between two numbers of one sign, near the middle of their exponents or theirs.
+    """Eight short dyadic numbers strictly between two of one sign, near the middle of their exponents or theirs.
 
     Far apart (e.g. 2^−2000 and 2): with e halfway between the exponents i and j ≥ i + 3 of the ends, i + 1 ≤ e ≤ j − 2,
-    so lower < 2^(i+1) ≤ 2^e and 2^(e+1) ≤ 2^(j−1) < upper. Near: the width is more than 8 units, and the four are
+    so lower < 2^(i+1) ≤ 2^e and 2^(e+1) ≤ 2^(j−1) < upper. Near: the width is more than 8 units, and the eight are
     from 1 unit below to 3 above the centre.
     """
     if upper <= 0:
@@ -159,6 +159,8 @@ def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
     yield start
     for step in range(1, 4):
         yield start + step * unit
+    for step in range(1, 8, 2):
+        yield start + step * unit / 2
 
 
 def _narrowed(f: Polynomial, lower: Fraction, upper: Fraction) -> Interval:
