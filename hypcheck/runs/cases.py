@@ -47,7 +47,9 @@ def frozen_vectors(name: str) -> FrozenVectors:
     """The vectors of a family. Raises InputError if it has none."""
     if name not in _LOADED:
         found = vectors.frozen_rows(name)
-        exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
+        exponents = np.full(len(found.rows), math.nan)
+        if name in vectors.NAMES:
+            exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
         _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, exponents)
     return _LOADED[name]
 
@@ -165,7 +167,7 @@ def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
 
 def frozen_count(name: str) -> int:
     """The number of frozen vectors of a family."""
-    return len(frozen_vectors(name).rows) if name in vectors.NAMES else 0
+    return len(frozen_vectors(name).rows) if name in (*vectors.NAMES, *vectors.TILTED_NAMES) else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:
@@ -214,7 +216,7 @@ def _columns(chunk: CaseChunk) -> NDArray[np.float64]:
 @lru_cache
 def first_unfrozen(family: Family, seed: int) -> int:
     """The number of first rows of a seed that are all frozen vectors."""
-    if family.name not in vectors.NAMES:
+    if not frozen_count(family.name):
         return 0
     known = {row.tobytes() for row in frozen_vectors(family.name).rows}
     start = 0

@@ -8,7 +8,7 @@ error is bracketed:
 - from above by a change: a corner of the box of changes at which an exact decision finds the answer right;
 - from below by certificates that hold over the whole box (box_certificate.py), the sizes at their best corner.
 
-With a vertical axis positions are monotone, and the error is the upright pair's, known to four digits.
+With a vertical axis, and of a sphere, positions are monotone, and one corner tells: both ends meet as near as wanted.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from hypcheck.truth.tilted.pair import TiltedLengths
 RATIO = Fraction(5, 4)
 """A bracket is refined until its upper end is at most this many times the lower."""
 
-CUTS = 6
+CUTS = 3
 """How often a box may be cut along any line from the whole to its smallest part, where one certificate fails."""
 
 STEPS = 8
@@ -52,7 +52,7 @@ def is_out_of_reach(row: Sequence[float], goal: Goal) -> bool:
 
 def reached(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
     """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal: proof from above."""
-    if _is_vertical(row):
+    if _stays_upright(row):
         return _reached_upright(row, goal, change)
     start = tuple(map(Fraction, row))
     return any(
@@ -63,7 +63,7 @@ def reached(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
 
 def excluded(row: Sequence[float], goal: Goal, change: Fraction, cuts: int = CUTS) -> bool:
     """Whether certificates are found that no change up to `change` (< 1) attains the goal: proof from below."""
-    if _is_vertical(row):
+    if _stays_upright(row):
         return not _reached_upright(row, goal, change)
     start = tuple(map(Fraction, row))
     sizes = _moved(start[:4], goal.sizes, change)
@@ -71,13 +71,13 @@ def excluded(row: Sequence[float], goal: Goal, change: Fraction, cuts: int = CUT
     return certified(sizes, box, goal, cuts)
 
 
-def _is_vertical(row: Sequence[float]) -> bool:
-    """Whether the axis is vertical, and stays so when each number changes by less than itself."""
-    return row[7] == row[8] == 0
+def _stays_upright(row: Sequence[float]) -> bool:
+    """Whether the pair is an upright one at the best corner, too: its axis is vertical, or b and d change alike."""
+    return row[7] == row[8] == 0 or row[2] == row[3]
 
 
 def _reached_upright(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
-    """Whether a change attains the goal, the axis being vertical: there one corner of the box tells."""
+    """Whether a change attains the goal where positions are monotone in all numbers: one corner of the box tells."""
     other = Position.CONTACT if goal.leave else goal.side
     return upright.makes_right(Pair.from_row(row[:7]).lengths, goal.side, other, change)
 
@@ -99,7 +99,7 @@ def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position]
         return False
     if any(reached(row, goal, change) for goal in goals):
         return True
-    return False if all(excluded(row, goal, change) for goal in goals) else None
+    return False if all(excluded(row, goal, change, 2 * CUTS) for goal in goals) else None
 
 
 def bracket(row: Sequence[float], truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:

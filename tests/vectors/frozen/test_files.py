@@ -132,7 +132,7 @@ def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain
         assert max(errors) > family_error
 
 
-@pytest.mark.parametrize("name", (*vectors.NAMES, vectors.INVALID_NAME))
+@pytest.mark.parametrize("name", [*vectors.NAMES, vectors.INVALID_NAME])
 def test_every_file_fits_its_schema(name):
     document = json.loads(text_of(name))
     wanted = schema("refusals" if name == vectors.INVALID_NAME else "vectors")
