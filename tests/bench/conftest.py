@@ -1,4 +1,4 @@
-"""What runs of bench compile is compiled once in a process of the tests: the same files with the same words."""
+"""Files that bench compiles are compiled once in a process of the tests."""
 
 from __future__ import annotations
 

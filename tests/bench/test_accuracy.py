@@ -1,4 +1,4 @@
-"""From answers to errors by flip distance."""
+"""Accuracy in bench: errors are counted by the row's distance to another position."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Verdicts against a baseline: slower, faster, the same, or too noisy to tell; of ratios, never of times."""
+"""Verdicts against a baseline compare ratios, never times: slower, faster, same, or inconclusive."""
 
 from __future__ import annotations
 

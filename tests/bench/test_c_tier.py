@@ -1,4 +1,4 @@
-"""The methods in C answer what the same programs answer in numpy, to the bit."""
+"""The methods in C give the same answers as the same programs in numpy, to the bit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The paper's claims about cost: what is compared is what is claimed, and verdicts follow from ratios and noise."""
+"""The paper's claims about cost: the comparisons are those of the claims, and verdicts follow from ratios and noise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Implementations that a SPEC names: measured beside the others, by their clock, and held to a baseline."""
+"""Implementations of SPECs in bench: measured beside the built-in methods, by their own clock, and with a baseline."""
 
 from __future__ import annotations
 

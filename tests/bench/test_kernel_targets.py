@@ -1,4 +1,4 @@
-"""The kernels' targets: every one is measured and said, against baselines that answer as they should."""
+"""The targets of the kernels: each is measured and recorded, against baselines that answer rightly."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is drawn of a method: stability over sizes, places about the tower, other shapes, convergence, memory."""
+"""Maps of errors over sizes and places, other shapes, convergence of meshes, and memory."""
 
 from __future__ import annotations
 

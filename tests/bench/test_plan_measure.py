@@ -1,4 +1,4 @@
-"""`hypcheck plan --measure`: what each pair of sizes saves, told in sentences and for programs."""
+"""`hypcheck plan --measure`: the savings of each pair of sizes, in sentences and for programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rounds: every entry once in each, in rotated order, with calibrated loops, and no time for who answers otherwise."""
+"""Rounds of timing: every entry once in each, in rotated order, with calibrated loops; wrong answers are refused."""
 
 from __future__ import annotations
 

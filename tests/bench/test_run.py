@@ -1,4 +1,4 @@
-"""A run of bench as a whole, on few methods: what it records, and how it ends."""
+"""A run of bench with few methods: its record and its exit code."""
 
 from __future__ import annotations
 

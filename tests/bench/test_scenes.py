@@ -1,4 +1,4 @@
-"""Scenes and forests in bench: who answers wrongly is found, and the lines are those of the record's schema."""
+"""Scenes and forests in bench: wrong answers are found, and the lines fit the schema of the record."""
 
 from __future__ import annotations
 

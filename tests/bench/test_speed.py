@@ -1,4 +1,4 @@
-"""From samples to the record's lines: the impossible is dropped, and what cannot be told is said not to be measured."""
+"""Samples become lines of the record: impossible samples are dropped, and too short times recorded as unmeasured."""
 
 from __future__ import annotations
 

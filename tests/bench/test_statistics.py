@@ -1,4 +1,4 @@
-"""The intervals: they hold what they are to hold as often as they say, and are the same for the same samples."""
+"""Bootstrap intervals contain the median as often as they promise, and are the same for the same samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows that methods are compared on are the ones that are promised."""
+"""The workloads have the rows that their descriptions promise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The methods that bench sets beside the paper's: what each promises."""
+"""The methods that only bench uses keep what they promise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which rows a method speaks of."""
+"""The rows that a domain claims."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shared libraries by their C ABI: answers, scenes, faults, and what is not one."""
+"""Shared libraries by their C ABI: answers, scenes, faults, and files that are no library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The quadcopter's procedures in numpy: the programs as they are listed, asked where they are needed."""
+"""The quadcopter's procedures in numpy evaluate the listed programs, and ask the rotors only if necessary."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Processes of foreign implementations: alone in their group, gathered in whatever way they or we end."""
+"""Processes of foreign implementations: alone in their group, and all ended, however they or hypcheck end."""
 
 from __future__ import annotations
 

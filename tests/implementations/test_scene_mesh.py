@@ -1,4 +1,4 @@
-"""A mesh of the whole surface: on the surface, as near to it as it says, and right where that is near enough."""
+"""A mesh of the whole surface: inscribed, as near to the surface as it says, and right beyond that distance."""
 
 from __future__ import annotations
 

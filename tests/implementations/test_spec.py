@@ -1,4 +1,4 @@
-"""SPEC: what is one, how it is taken apart, and what is said where it is none."""
+"""SPEC: its kinds, its words, and the messages for texts that are no SPEC; descriptions and overrides."""
 
 from __future__ import annotations
 

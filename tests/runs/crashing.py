@@ -1,4 +1,4 @@
-"""An implementation with a case that ends whoever asks it, as where the system has no memory left."""
+"""An implementation with a case that kills the process that asks it, as if the system had no memory left."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Implementations for the gate to judge, each wrong in one way; rows float64 (n, 7) in, n integers out."""
+"""Implementations with one fault each, for conformance runs; rows float64 (n, 7) → n integers."""
 
 from __future__ import annotations
 

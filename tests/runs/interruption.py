@@ -1,4 +1,4 @@
-"""A gating run of many small steps that keeps its progress at every one: to be interrupted, and gone on with."""
+"""A conformance run of many small steps that writes its progress after each, to be interrupted and resumed."""
 
 from __future__ import annotations
 

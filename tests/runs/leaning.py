@@ -1,4 +1,4 @@
-"""Implementations that take tilted spheroids: one that is right, and some with one fault."""
+"""Implementations that take tilted spheroids: a right one, and some with one fault each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two implementations that say they refuse invalid rows; one does."""
+"""Two implementations that declare that they refuse invalid rows; one does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Judging: what counts as wrong, how far, and which mistake it is."""
+"""Judging: which answers are wrong, by how much, and which mistake they are."""
 
 from __future__ import annotations
 

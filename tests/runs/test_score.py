@@ -1,4 +1,4 @@
-"""A score: how each row ended, which answers are wrong, what they mean, and what a tally makes of them."""
+"""A score: the status of each row, the wrong answers, their mistakes, and the tally of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An interrupted run keeps what it finished, says that it is no pass, and ends as a process told to stop does."""
+"""An interrupted self-check keeps its finished part, says that it did not pass, and ends by the signal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Expected positions that owe nothing to the project: decisions in fractions, and pairs whose clearance is known."""
+"""Expected positions that share no code with hypcheck: decisions in fractions, and pairs whose clearance is known."""
 
 from __future__ import annotations
 

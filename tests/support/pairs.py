@@ -1,8 +1,6 @@
-"""Pairs for tests: strategies that draw them, and witnesses whose answers were worked out by hand.
+"""Pairs for tests: strategies for all regimes, magnitudes and borders, and pairs worked out by hand.
 
-Pairs for property tests: every regime, every magnitude, and the borders where cases coincide.
-
-Pairs whose answers were worked out by hand, each with the reason; no code of this project made them.
+No code of hypcheck made the answers that were worked out by hand; each has its reason.
 """
 
 from __future__ import annotations

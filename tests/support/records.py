@@ -1,9 +1,4 @@
-"""Records made of any lines, with their checksums, and JSON values held to a published schema.
-
-Records made of any lines, with checksums as a Recorder would write them, whatever the lines are.
-
-JSON values held to a published schema by the library that implements JSON Schema.
-"""
+"""Records of any lines with their checksums, and JSON values checked by the library that implements JSON Schema."""
 
 from __future__ import annotations
 

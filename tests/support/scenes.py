@@ -1,4 +1,4 @@
-"""Scenes to try plans and kernels on: the shipped tower, and any number of random ones."""
+"""Scenes for tests of plans and kernels: the tower that hypcheck installs, and any number of random ones."""
 
 from __future__ import annotations
 

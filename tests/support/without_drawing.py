@@ -1,4 +1,4 @@
-"""Runs that write their reports in text alone: drawing takes most of a small run, and the tests of reports cover it."""
+"""Runs that write only text reports: drawing takes most of a small run, and the tests of reports cover it."""
 
 from __future__ import annotations
 

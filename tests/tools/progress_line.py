@@ -1,4 +1,4 @@
-"""Progress of a long run for a person: in place on a terminal, a line a minute elsewhere."""
+"""Progress of a long run for a person: in place on a terminal, otherwise a line a minute."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The published schemas that are made from classes, by file: `make schemas` writes them anew."""
+"""The published schemas that are generated from classes, by file; `make schemas` writes them."""
 
 from __future__ import annotations
 

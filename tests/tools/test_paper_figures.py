@@ -1,4 +1,4 @@
-"""The figures of docs/figures.md are fresh, have nothing cut off, and show what their captions say."""
+"""The figures of docs/figures.md are fresh, are not cut off, and show what their captions say."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a long run is: a line now and then in a log, in place on a terminal."""
+"""Progress of a long run: a line now and then in a log, in place on a terminal."""
 
 from __future__ import annotations
 

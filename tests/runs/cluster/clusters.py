@@ -1,4 +1,4 @@
-"""A scheduler and workers of dask.distributed in processes of their own, on ports that are free."""
+"""A scheduler and workers of dask.distributed in processes of their own, on free ports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run on a cluster comes to what it comes to here, whoever of its workers ends in the middle."""
+"""A run on a cluster gives the result of a run on this machine, even if workers end during the run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cluster that is lost, and a run on one that is interrupted: what was finished is kept and gone on with."""
+"""If the cluster is lost or the run interrupted, the finished part is kept and the run can be resumed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cluster of other versions, or of other files of ours, is refused in a sentence: by real schedulers and workers."""
+"""A cluster with other versions, or with other files of hypcheck, is refused in one sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cluster that a run starts here is for that run alone: for no other user, no network, and not for longer."""
+"""A local cluster serves one run only: no other user, no network, and no longer than the run."""
 
 from __future__ import annotations
 

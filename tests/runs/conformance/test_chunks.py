@@ -1,4 +1,4 @@
-"""Chunks: which cases they name, that these are new ones, and that each is found again by its id."""
+"""Chunks name all cases of a family once, beginning after the frozen ones, and find each by its id."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`verify SPEC`: what passes, what fails and with which code, and what the record says of it."""
+"""`verify SPEC`: which implementations pass, exit codes of those that fail, and the lines of the record."""
 
 from __future__ import annotations
 

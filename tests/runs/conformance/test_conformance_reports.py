@@ -1,4 +1,4 @@
-"""What the reports say of gated implementations, and that the record and the summary keep their schemas."""
+"""Reports about implementations under test; the record and the summary fit their schemas."""
 
 from __future__ import annotations
 

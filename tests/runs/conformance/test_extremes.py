@@ -1,4 +1,4 @@
-"""Extreme families: asked only when they are asked for, and then of whoever declares no ranges."""
+"""Extreme families are asked only on request, and then of implementations without declared ranges."""
 
 from __future__ import annotations
 

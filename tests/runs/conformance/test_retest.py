@@ -1,4 +1,4 @@
-"""Asking again finds what one question at a time, in one order and of one size, does not show."""
+"""The retest finds errors that a single batch in one order and of one size does not show."""
 
 from __future__ import annotations
 

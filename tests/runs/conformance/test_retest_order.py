@@ -1,4 +1,4 @@
-"""Cases that are asked again stand in questions of every length, and in every place with each position."""
+"""The retest puts cases into batches of every length, and each position at every place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run comes to the same whoever performs its steps, in which order, and wherever it was interrupted."""
+"""The result of a run does not depend on the executor, on the order of its tasks, or on interruptions."""
 
 from __future__ import annotations
 

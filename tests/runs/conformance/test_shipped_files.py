@@ -1,4 +1,4 @@
-"""The files that a SPEC names, those of them that are sent to a cluster, and the SPEC as a worker opens it."""
+"""The files that a SPEC names, those that are sent to a cluster, and the SPEC as a worker opens it."""
 
 from __future__ import annotations
 

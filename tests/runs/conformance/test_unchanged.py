@@ -1,4 +1,4 @@
-"""An implementation that writes over the judge, or over itself, while it is judged fails the run."""
+"""An implementation that overwrites the judge, or itself, during a run fails the run."""
 
 from __future__ import annotations
 

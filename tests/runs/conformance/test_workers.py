@@ -1,4 +1,4 @@
-"""Processes of ours may end: it costs nothing, or the cases that go on ending them, or the run where none begins."""
+"""A worker process that ends costs its task a retry; a case that kills every worker ends as a crash."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The border of contact is where the exact position changes, and strata are where they say."""
+"""The border of contact is where the exact position changes, and strata have the rows that they promise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`hypcheck hunt` and `hypcheck minimise`: options in, words and an exit code out."""
+"""`hypcheck hunt` and `hypcheck minimise`: options, output and exit codes."""
 
 from __future__ import annotations
 

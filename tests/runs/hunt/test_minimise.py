@@ -1,4 +1,4 @@
-"""What minimise reaches: the simplest row that is wrong in the same way, and nothing else."""
+"""Minimisation reaches the simplest row that is wrong in the same way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places in words: each of these rows was put where it is by hand, or by a construction that says so."""
+"""Places of rows in words; each row was made by hand, or by a construction that names its place."""
 
 from __future__ import annotations
 

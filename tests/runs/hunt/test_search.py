@@ -1,4 +1,4 @@
-"""What a hunt finds without being told where, what it does not find, and how it ends."""
+"""A hunt finds known errors without hints, finds none in right implementations, and ends by its budget."""
 
 from __future__ import annotations
 

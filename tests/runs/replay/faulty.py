@@ -1,4 +1,4 @@
-"""Implementations to be replayed, each with a fault of its own; rows float64 (n, 7) in, n integers out."""
+"""Implementations to replay, each with one fault; rows float64 (n, 7) → n integers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A formula's values in a machine format and exactly, and the first decision in which they part."""
+"""A formula's values in a machine format and exactly, and the first decision that differs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exact values as text: every digit that is shown is right, whatever the size, and surds do not cancel."""
+"""Exact values as text: every shown digit is right at any size, and surds do not cancel."""
 
 from __future__ import annotations
 

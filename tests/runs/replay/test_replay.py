@@ -1,4 +1,4 @@
-"""`hypcheck replay`: what it shows of a case, and how it ends."""
+"""`hypcheck replay`: its output and its exit codes."""
 
 from __future__ import annotations
 

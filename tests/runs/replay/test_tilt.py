@@ -1,4 +1,4 @@
-"""`hypcheck replay` of tilted spheroids: the row with its axis, the proof, the two ends of each error."""
+"""`hypcheck replay` of tilted spheroids: the row with its axis, the proof, and the two ends of each error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a record says of a run that was interrupted is believed only where it can be true."""
+"""The record of an interrupted run is refused if its numbers contradict each other or the plan."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A gating run that is interrupted keeps what was finished, tells GitHub what failed, and leaves no process behind."""
+"""An interrupted conformance run keeps its finished part, reports failures to GitHub, and leaves no process behind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run that was interrupted, whenever and however, comes to the same as one that was not."""
+"""A resumed run gives the result of an unbroken run, whenever and however it was interrupted."""
 
 from __future__ import annotations
 

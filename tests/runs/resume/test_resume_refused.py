@@ -1,4 +1,4 @@
-"""What is no record of an interrupted run of just this kind is refused in a sentence, and nothing changes."""
+"""A file that is no record of the same interrupted run is refused in one sentence, and nothing changes."""
 
 from __future__ import annotations
 

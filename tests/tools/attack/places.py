@@ -1,4 +1,4 @@
-"""Where to strike: rows around the borders of the three positions, and scenes around the lines that decide them."""
+"""Rows around the borders of the three positions, and scenes around the lines that decide them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The attack: batches of rows and scenes, the truth of each once, and what the subjects say under every rounding."""
+"""The attack: batches of rows and scenes, the truth of each, and the answers of the subjects in every rounding mode."""
 
 from __future__ import annotations
 

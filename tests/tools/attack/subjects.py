@@ -1,4 +1,4 @@
-"""What is attacked: each kernel at each instruction set, asked for rows and scenes; and the functions of a pair."""
+"""The subjects of an attack: each kernel at each instruction set, for rows and scenes, and the functions of a pair."""
 
 from __future__ import annotations
 

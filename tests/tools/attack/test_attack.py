@@ -1,4 +1,4 @@
-"""The attack of tests/tools/attack in seconds; that it bites; answers under strange rounding and in strange builds."""
+"""The attack in a few seconds, and proof that it finds errors; answers in other rounding modes and builds."""
 
 from __future__ import annotations
 

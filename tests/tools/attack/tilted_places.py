@@ -1,6 +1,6 @@
-"""Where to strike spheroids whose axis leans: rows of ten around the borders of the positions, and scenes of one axis.
+"""Rows of tilted spheroids around the borders of the positions, and scenes with one axis.
 
-Everything is computed in float64, which is good enough to come near a border; the truth is decided afterwards.
+Everything is computed in float64, which is accurate enough to come near a border; the truth is decided afterwards.
 """
 
 from __future__ import annotations

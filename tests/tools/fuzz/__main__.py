@@ -1,4 +1,4 @@
-"""`python -m tests.tools.fuzz`: damaged input for every reader; ends with 1 where one ended as none may."""
+"""`python -m tests.tools.fuzz`: damaged input for every reader; ends with 1 if a reader ends in a wrong way."""
 
 from __future__ import annotations
 

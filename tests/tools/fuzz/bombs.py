@@ -1,4 +1,4 @@
-"""Inputs of an eighth of a megabyte that would take ages or gigabytes where reading is not about linear."""
+"""Inputs of an eighth of a megabyte that take very long or gigabytes unless reading is about linear."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Readers that must be found out, each with its fault."""
+"""Readers that the fuzz must reject, each with its fault."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files as their readers read them: what is read must hold together, and be written again where it can be."""
+"""Files as their readers read them: the content must be consistent, and be written again if that is possible."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may become of an input: a value, or one sentence for a person. Everything else is a finding."""
+"""The allowed results of an input: a value, or one sentence for a person. Everything else is a finding."""
 
 from __future__ import annotations
 

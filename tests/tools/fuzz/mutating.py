@@ -1,4 +1,4 @@
-"""From real input to damaged input: bytes, tokens, trees, lines and whole files are changed, and bombs put in."""
+"""From real input to damaged input: bytes, tokens, trees, lines and whole files are changed, and bombs inserted."""
 
 from __future__ import annotations
 

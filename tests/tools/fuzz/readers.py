@@ -1,4 +1,4 @@
-"""Everything that reads what others wrote, as functions of bytes."""
+"""All readers of foreign data, as functions of bytes."""
 
 from __future__ import annotations
 

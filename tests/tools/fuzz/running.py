@@ -1,4 +1,4 @@
-"""Many inputs, in processes of their own: what hangs is killed, what eats memory fails, and every finding is kept."""
+"""Many inputs in processes of their own: hanging ones are killed, memory is limited, and every finding is kept."""
 
 from __future__ import annotations
 

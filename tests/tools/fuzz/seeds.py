@@ -1,4 +1,4 @@
-"""Real input, short, for every reader: what mutations begin with."""
+"""Short real input for every reader, from which mutations start."""
 
 from __future__ import annotations
 

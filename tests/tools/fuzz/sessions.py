@@ -1,4 +1,4 @@
-"""What implementations say, read by the sessions that talk to them: a pipe of given bytes stands for the process.
+"""Replies of implementations, read by their sessions: a pipe of given bytes replaces the process.
 
 Everything else is real: the sessions, the questions, the search for a row at fault, restarts.
 """

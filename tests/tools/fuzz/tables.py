@@ -1,4 +1,4 @@
-"""What was written of a table, read by readers that are not ours: all that was there, and the right answers."""
+"""A written table is read by readers that are not hypcheck's: it has all values, and the right answers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Damaged input ends as a value or as one sentence; `make soak` reads a million more. The judge is judged too."""
+"""Damaged input gives a value or one sentence; `make soak` reads a million more. The fuzz itself is tested too."""
 
 from __future__ import annotations
 

@@ -1,11 +1,7 @@
-"""From a real document to a damaged one by its tree: values that readers stumble over, names and shapes changed.
+"""From a real document to a damaged one by its tree: values of other types, repeated names, exchanged parts.
 
-Numbers and texts that readers stumble over.
-
-From a real document to a damaged one by its tree: values of other types, names that stand twice, parts exchanged.
-
-Changed by bytes a document can seldom be parsed any more; changed so it can, and what lies behind the parser is
-reached. JSON, lines of JSON, TOML and the header of an .npy file are trees.
+A document with changed bytes can seldom be parsed. With a changed tree it can, so that the code behind the parser runs.
+JSON, lines of JSON, TOML and the header of an .npy file are trees. Some numbers and texts are known to break readers.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What is given in words: descriptions, numbers, names of cases, whole command lines."""
+"""Input in words: descriptions, numbers, names of cases, whole command lines."""
 
 from __future__ import annotations
 

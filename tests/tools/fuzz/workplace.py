@@ -1,4 +1,4 @@
-"""Where a process that reads damaged input keeps it."""
+"""The folder in which a process reads damaged input."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Small implementations, each with one fault, and what tests need to ask them.
+"""Small implementations with one fault each, and helpers to ask them.
 
-All but a few answer rightly until they meet the unlucky row, whose gamma is 13. Those in C take the sign of x for the
-position: there the way of asking is under test, not geometry.
+Nearly all answer rightly until the unlucky row, whose gamma is 13. Those in C answer the sign of x: their tests are
+about the way of asking, not about geometry.
 """
 
 from __future__ import annotations

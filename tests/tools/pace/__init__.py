@@ -1,1 +1,1 @@
-"""How many rows `verify` asks in a second, of short runs and of long ones: `python -m tests.tools.pace --help`."""
+"""The speed of `verify` in rows a second, for short and for long runs: `python -m tests.tools.pace --help`."""

@@ -1,4 +1,4 @@
-"""`python -m tests.tools.pace`: the pace of `verify`, of short runs and of long ones; ends with 1 where it varies."""
+"""`python -m tests.tools.pace`: the speed of `verify` for short and for long runs; ends with 1 if it varies."""
 
 from __future__ import annotations
 

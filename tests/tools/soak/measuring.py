@@ -1,4 +1,4 @@
-"""What a process holds: memory, handles, threads, processes, files; and whether any of it grows."""
+"""The resources of a process: memory, handles, threads, processes, files; and whether any of them grows."""
 
 from __future__ import annotations
 

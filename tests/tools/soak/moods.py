@@ -1,4 +1,4 @@
-"""How an implementation behaves on a question: mostly well, now and then not; the same dice for the same seed."""
+"""The behaviour of an implementation on a question: mostly right, sometimes not; the same for the same seed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Verify against flaky implementations leaves nothing behind, in a short form; whatever is left is found out."""
+"""Verify against flaky implementations leaves nothing behind, in a short form; any leftover is found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A right implementation in the protocol of commands; the others replace a step of it."""
+"""A right implementation in the protocol of commands; the others replace one step of it."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What it timed took longer than it says, as of a clock read in seconds for nanoseconds."""
+"""Reports a time that is far too short, as from a clock that is read in seconds for nanoseconds."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Says of itself what its argument says, in a line, and waits."""
+"""Writes its argument as its description, in one line, and waits."""
 
 import sys
 

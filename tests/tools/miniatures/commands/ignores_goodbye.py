@@ -1,4 +1,4 @@
-"""Does not leave when its input ends, and neither does a child of its own."""
+"""Does not end when its input ends, and neither does a child of its own."""
 
 import subprocess
 import sys

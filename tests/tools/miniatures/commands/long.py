@@ -1,4 +1,4 @@
-"""One answer more than rows, where the unlucky one is among them."""
+"""One answer more than rows, if the unlucky one is among them."""
 
 from base import BINARY, reply, right, serve, write
 

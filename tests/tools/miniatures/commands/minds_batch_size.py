@@ -1,4 +1,4 @@
-"""Right about a row alone, wrong about the last of several."""
+"""Right about a single row, wrong about the last of several."""
 
 from base import right, serve
 

@@ -1,4 +1,4 @@
-"""Starts, and stays without a description; its argument tells what it does meanwhile: nothing, drip, flood."""
+"""Starts without a description; its argument says what it does instead: nothing, drip, flood."""
 
 import sys
 import time

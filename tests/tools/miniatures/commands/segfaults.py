@@ -1,4 +1,4 @@
-"""Reads where there is nothing."""
+"""Reads at an address without memory."""
 
 import ctypes
 

@@ -1,4 +1,4 @@
-"""One answer less than rows, where the unlucky one is among them."""
+"""One answer less than rows, if the unlucky one is among them."""
 
 from base import BINARY, reply, right, serve, write
 

@@ -1,4 +1,4 @@
-"""Takes its time over the unlucky row, which is no fault."""
+"""Needs long for the unlucky row, which is no fault."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Never comes back from the unlucky row."""
+"""Never returns from the unlucky row."""
 
 from hypcheck.kernel import classify as kernel
 

@@ -1,4 +1,4 @@
-"""Right only where the rows begin at a multiple of 64 bytes, as vectorised code with a slip."""
+"""Right only if the rows begin at a multiple of 64 bytes, like vectorised code with a bug."""
 
 from hypcheck.kernel import classify as kernel
 

@@ -1,4 +1,4 @@
-"""Declares a key that nobody knows."""
+"""Declares an unknown key."""
 
 hypcheck = {"presicion": "float32"}
 

@@ -1,4 +1,4 @@
-"""Always right, and says what it is."""
+"""Always right, with a description."""
 
 from hypcheck.kernel.classify import classify
 
