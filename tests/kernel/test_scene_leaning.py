@@ -15,6 +15,8 @@ from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.scene_leaning import is_within_height, position_leaning, within_height
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.tilted_fractions import exact_position
 
 CONTACT, EXTERIOR, INTERIOR, SILENT = 0, 1, -1, 2
@@ -97,6 +99,39 @@ def test_a_hyperboloid_turned_with_its_mover_says_the_same():
         upright = position_leaning(sizes, (x, y, z), (0, 0, 0), v, UPRIGHT)
         turned = position_leaning(sizes, (z, y, -x), (0, 0, 0), (v[2], v[1], -v[0]), (5.0, 0.0, 0.0))
         assert upright == turned == exact_position((*sizes, x, y, z, *v))
+
+
+def turned(quaternion):
+    """The rotation by whole numbers, and the number by which its rows are too long."""
+    a, b, c, d = quaternion
+    rows = (
+        (a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)),
+        (2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)),
+        (2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d),
+    )
+    return rows, a * a + b * b + c * c + d * d
+
+
+def test_what_leans_is_answered_as_the_same_turned_upright():
+    """A rational rotation turns the hyperboloid upright; the exact decision of ten numbers shares nothing with D."""
+    draw = random.Random(11)  # noqa: S311 - nothing is secret
+    said = []
+    for _ in range(1500):
+        quaternion = [draw.randint(-3, 3) for _ in range(4)]
+        if not any(quaternion):
+            continue
+        rows, size = turned(quaternion)
+        alpha, gamma, b, d = (draw.randint(2, 24) for _ in range(4))
+        height, away = draw.randint(-20, 20), draw.uniform(-1.3, 1.3) * max(b, d)
+        reach = round(alpha * np.hypot(1, height / gamma) + away)
+        upright, axis = (reach, draw.randint(-3, 3), height), [int(each) for each in direction(draw)]
+        centre, mover = ([sum(row[i] * at[i] for i in range(3)) for row in rows] for at in (upright, axis))
+        expected = exact.position(TiltedLengths.of([*map(float, (alpha, gamma, b, d, *upright, *axis))]))
+        sizes = [size * each for each in (alpha, gamma, b, d)]
+        found = position_leaning(sizes, centre, (0, 0, 0), mover, [row[2] for row in rows])
+        assert found == expected
+        said.append(found)
+    assert min(said.count(each) for each in (CONTACT, EXTERIOR, INTERIOR)) > 40
 
 
 def test_length_and_sense_of_both_axes_do_not_matter():

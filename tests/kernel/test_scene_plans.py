@@ -30,15 +30,15 @@ def test_pairs_of_the_same_sizes_share_a_setting():
     [
         (
             {"mover": Mover(0.5, 0.25, axis=FREE)},
-            "no kernel is made: the mover's axis is free, and no formula in floats",
+            "no kernel is made: the mover's axis is free, and kernels are made",
         ),
         (
             {"mover": Mover(0.5, 0.25, axis=(1.0, 0.0, 2.0))},
-            r"the mover has the axis \[1.0, 0.0, 2.0\], and no formula",
+            r"the mover has the axis \[1.0, 0.0, 2.0\], and kernels are made",
         ),
         (
             {"hyperboloids": (Hyperboloid("oak", 1.0, 2.0, axis=(1.0, 0.0, 0.0)),)},
-            r"the hyperboloid 'oak' has the axis \[1.0, 0.0, 0.0\], and no formula in floats",
+            r"the hyperboloid 'oak' has the axis \[1.0, 0.0, 0.0\], and kernels are made",
         ),
     ],
 )

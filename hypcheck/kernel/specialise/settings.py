@@ -79,8 +79,8 @@ def _require_upright(scene: SceneModel) -> None:
         lean.insert(0, "the mover's axis is free" if free else f"the mover has the axis {list(scene.mover.axis)}")
     if lean:
         raise InputError(
-            f"no kernel is made: {lean[0]}, and no formula in floats is known that keeps a kernel's promise where "
-            "something leans (hypcheck.Scene answers exactly, hypcheck.h about a spheroid that leans)"
+            f"no kernel is made: {lean[0]}, and kernels are made for upright spheroids and hyperboloids alone "
+            "(hypcheck.Scene answers exactly, and so does hypcheck.h where the spheroid alone leans)"
         )
 
 
