@@ -14,7 +14,7 @@ from hypcheck.record.integrity import DamagedError
 
 
 @given(st.text())
-def test_whatever_it_quotes_it_is_one_printable_line(text):
+def test_the_text_of_an_error_is_one_printable_line(text):
     shown = str(InputError(f"row 3: alpha is {text!s}; it must be a number"))
     assert shown.isprintable()
     assert shown.startswith("row 3: alpha is")
@@ -23,14 +23,14 @@ def test_whatever_it_quotes_it_is_one_printable_line(text):
 
 @pytest.mark.parametrize("character", ["a", "\U0010ffff", "\x1b", " ", "é"])
 @pytest.mark.parametrize("length", [LONGEST - 20, LONGEST, 2 * LONGEST, 1_000_000])
-def test_of_a_long_one_the_middle_is_left_out(character, length):
+def test_a_long_error_loses_its_middle(character, length):
     shown = str(InputError(f"beginning {character * length} end"))
     assert len(shown) <= LONGEST
     assert shown.startswith("beginning")
     assert shown.endswith("end")
 
 
-def test_what_is_short_and_visible_stays():
+def test_a_short_printable_error_is_unchanged():
     assert sentence("α is 0; it must be > 0") == "α is 0; it must be > 0"
 
 

@@ -11,7 +11,7 @@ from tests.report import record_samples
 
 
 @given(record_samples.FOREIGN)
-def test_visible_text_is_printable_and_stays(foreign):
+def test_escaped_text_is_printable_and_printable_text_is_unchanged(foreign):
     assert escaped(foreign).isprintable()
     assert escaped(escaped(foreign)) == escaped(foreign)
 
@@ -26,12 +26,12 @@ def test_visible_text_is_printable_and_stays(foreign):
         ("  a   b ", "a b"),
     ],
 )
-def test_what_cannot_be_seen_is_written_out(foreign, shown):
+def test_invisible_characters_become_escapes(foreign, shown):
     assert escaped(foreign) == shown
 
 
 @given(st.text(), st.integers(1, 60))
-def test_no_more_is_shown_than_there_is_room_for(foreign, width):
+def test_escaped_text_is_at_most_as_long_as_its_width(foreign, width):
     shown = escaped(foreign, width)
     assert shown.isprintable()
     assert len(shown) <= width

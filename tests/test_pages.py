@@ -21,7 +21,7 @@ def test_every_file_that_a_page_for_contributors_names_exists(page):
     assert [path for path in named if not any((root / path).exists() for root in (ROOT, ROOT / "hypcheck"))] == []
 
 
-def test_the_picture_of_the_rooms_has_the_layers_that_are_checked():
+def test_the_picture_of_the_rooms_has_the_layers_of_the_import_contract():
     settings = toml.parsed((ROOT / "pyproject.toml").read_text(encoding="utf-8"), "pyproject.toml")
     layers, *_ = settings["tool"]["importlinter"]["contracts"]
     picture = ARCHITECTURE.read_text(encoding="utf-8").split("```")[1]

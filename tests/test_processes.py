@@ -43,7 +43,7 @@ sys.exit("not interrupted")
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
-def test_a_parent_that_is_interrupted_has_told_its_processes_what_they_are(name):
+def test_an_interrupted_parent_ends_its_processes_without_tracebacks(name):
     command = [sys.executable, "-c", STARTS.format(name=name)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stderr) == (130, "")
@@ -86,7 +86,7 @@ os._exit(0)
 """
 
 
-def test_what_a_killed_process_leaves_is_removed_without_a_word():
+def test_resources_of_a_killed_process_are_removed_without_warnings():
     done = subprocess.run([sys.executable, "-c", LEFT], capture_output=True, timeout=60, check=True)
     assert done.stderr == b""
 
@@ -105,7 +105,7 @@ del held
 """
 
 
-def test_a_terminal_that_is_closed_leaves_what_looks_after_us():
+def test_a_closed_terminal_does_not_end_the_resource_tracker():
     """It gets the signal as all of us do, and would be begun again, knowing nothing."""
     command = [sys.executable, "-c", CLOSED]
     done = subprocess.run(command, capture_output=True, timeout=60, check=True, start_new_session=True)

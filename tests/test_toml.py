@@ -11,7 +11,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 
 
-def test_a_byte_order_mark_is_left_aside(tmp_path):
+def test_a_byte_order_mark_is_ignored(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes(b"\xef\xbb\xbfa = 1\r\n")
     assert toml.parsed(toml.text_of(str(path)), "a.toml") == {"a": 1}
@@ -29,12 +29,12 @@ def test_a_byte_order_mark_is_left_aside(tmp_path):
         ("a = '\x1b'", r"a.toml: is no TOML: .* character '\\x1b'"),
     ],
 )
-def test_what_is_none_is_one_sentence(text, message):
+def test_invalid_toml_is_refused_in_one_sentence(text, message):
     with pytest.raises(InputError, match=message):
         toml.parsed(text, "a.toml")
 
 
-def test_what_cannot_be_read_is_one_sentence(tmp_path):
+def test_a_file_that_cannot_be_read_is_refused_in_one_sentence(tmp_path):
     large, other = tmp_path / "large.toml", tmp_path / "other.toml"
     with large.open("wb") as file:
         file.truncate(toml.LARGEST + 1)
@@ -53,7 +53,7 @@ def test_what_cannot_be_read_is_one_sentence(tmp_path):
         toml.text_of(str(tmp_path / "none.toml"))
 
 
-def test_decimal_points_and_rows_of_dots_are_not_taken_for_a_long_key():
+def test_decimal_points_and_runs_of_dots_do_not_count_as_parts_of_a_key():
     """A forest on one line, and a comment that rules it off."""
     text = "trees = [" + "{ x = -0.5, y = 1.25e-3 }, " * 500 + "] #" + "." * 200
     assert len(toml.parsed(text, "a.toml")["trees"]) == 500

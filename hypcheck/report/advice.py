@@ -1,12 +1,9 @@
-"""Which method to use when: rules over what a benchmark measured, and the section that states them.
+"""Which method to use when: rules over the figures of a benchmark, and the section that states the advice.
 
-Which method to use when: rules over what a benchmark measured, and nothing that somebody knows better.
-
-A method is *reliable above* a flip distance on a workload when at most 1 in 1000 of its answers beyond that distance is
-wrong. Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless said otherwise.
-Methods whose intervals overlap with the fastest's, or which the run's noise does not tell from it, are named with it.
-
-Which method to use when, as a benchmark's figures say it.
+A method is *reliable above* a flip distance on a workload if at most 1 in 1000 of its answers beyond that distance is
+wrong. Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless the need says
+otherwise. Methods whose intervals overlap with that of the fastest, or that differ from it by less than the noise, are
+named with it.
 """
 
 from __future__ import annotations
@@ -35,27 +32,27 @@ from hypcheck.report.messages import figure, listed, with_interval
 from hypcheck.report.model import BATCH, SINGLE, MeasuredMethod, measured_methods, noise_floor, reference, workloads
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
-"""Flip distances below which errors may not matter: a metre's 1e-12 is an atom's width, its 1e-3 a millimetre."""
+"""Flip distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
 
 BEYOND = "reliable beyond"
-"""How a need begins that is about a distance."""
+"""The beginning of a need that is about a distance."""
 
 NEARLY = 8.0
-"""Three octaves, as wide as a point of the curves: a method that is ten times as slow is not advised for less."""
+"""Three octaves, as wide as a point of the curves: for less, a slower method is not advised."""
 
 IN_FLOATS = ("paper", "algebraic", "roots", "foreign")
-"""Kinds that promise no more than their floats allow."""
+"""Kinds of methods that promise no more than their floats allow."""
 
 EVERYWHERE, EVERYDAY = "all workloads", "everyday scenes"
-"""Where a need is: on every workload, or on those that were timed; the others are there because methods err on them."""
+"""The workloads of a need: all, or those that were timed; the others exist because methods err on them."""
 
 POSITION, CLEAR = "position", "clear or not"
-"""What is asked: one of three positions, or whether the two are apart."""
+"""The question: one of three positions, or whether the bodies are apart."""
 
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What is needed, where, and what is asked; errors nearer to contact than `distance` do not matter."""
+    """What a user needs, where, and the question; errors nearer to contact than `distance` do not matter."""
 
     what: str
     where: str = EVERYWHERE
@@ -66,9 +63,11 @@ class Need:
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """For a need the fastest method that fills it, those that are not told from it, and where it errs nevertheless.
+    """The advice for a need.
 
-    `errs` are workloads on which it is not reliable above the need's distance.
+    use: the fastest method that meets the need; `alike` are those as fast within the noise.
+    workload: the workload by whose times it was chosen.
+    errs: workloads on which it is not reliable above the need's distance.
     """
 
     need: Need
@@ -80,14 +79,14 @@ class Advice:
 
 @dataclass(frozen=True, slots=True)
 class Recommendations:
-    """The advice of a record: for each need, what fills it; `unmet` are needs that nothing measured fills."""
+    """The advice of a record; `unmet` are needs that no measured method meets."""
 
     advice: tuple[Advice, ...]
     unmet: tuple[Need, ...]
 
 
 def recommendations(record: Record) -> Recommendations:
-    """What the record advises; nothing where it has no times. Of needs that lead to the same the strictest is told."""
+    """The advice of a record; none if it has no times. Of needs with the same advice only the strictest is kept."""
     timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
     advice: list[Advice] = []
     unmet: list[Need] = []
@@ -106,7 +105,7 @@ def recommendations(record: Record) -> Recommendations:
 
 
 def _covers(old: Advice, new: Advice) -> bool:
-    """Whether the same method was advised for a stricter need, so that the new one goes without saying."""
+    """Whether the same method was advised for a stricter need, so that the new advice adds nothing."""
     asked, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
     stricter = old.need.distance <= new.need.distance and asked in _COVERED and where in _COVERED
     wider = not old.errs or (old.errs, *where) == (new.errs, EVERYDAY, EVERYDAY)
@@ -118,7 +117,7 @@ _COVERED = (
     (EVERYWHERE, EVERYDAY),
     (POSITION, CLEAR),
 )
-"""Who is advised for the first needs no advice for the second."""
+"""Pairs of needs: advice for the first holds for the second."""
 
 
 def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
@@ -128,7 +127,7 @@ def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tu
     yield Need("never a wrong answer"), exact
     yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
     row_by_row = [each for each in exact if each.tier == "python"]
-    if row_by_row:  # by their batches: a single call may take no longer than the empty one that is taken off
+    if row_by_row:  # by their batches: a single call may take no longer than the empty one that is subtracted
         yield Need("never a wrong answer, a call a row from Python"), row_by_row
     floats = [each for each in position if not each.exact and each.line.kind in IN_FLOATS]
     for precision in ("float64", "float32"):
@@ -151,7 +150,7 @@ def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tu
 
 
 def _nearest(what: str, found: Sequence[MeasuredMethod]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
-    """Those of the found that are reliable nearest to contact, or not NEARLY times as far from it."""
+    """The methods that are reliable nearest to contact, or at most NEARLY times as far from it."""
     best = min((each.reliable_above for each in found), default=math.inf)
     if best < math.inf:
         distance = NEARLY * best
@@ -162,7 +161,7 @@ def _nearest(what: str, found: Sequence[MeasuredMethod]) -> Iterator[tuple[Need,
 def _reliable(
     found: Iterable[MeasuredMethod], distance: float, names: Sequence[str] | None = None
 ) -> list[MeasuredMethod]:
-    """Those that are reliable above the distance on all workloads, or on the named ones."""
+    """The methods that are reliable above the distance on all workloads, or on the named ones."""
 
     def holds(each: MeasuredMethod) -> bool:
         lines = [line for name, line in each.accuracy.items() if names is None or name in names]
@@ -172,7 +171,7 @@ def _reliable(
 
 
 def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
-    """The fastest, and behind it those that are not told from it, by their ratios."""
+    """The fastest method, and after it those as fast within the noise, by their ratios."""
     ranked = sorted(
         ((ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None),
         key=lambda pair: pair[0],
@@ -205,9 +204,9 @@ class ExactnessPrice:
 
 
 def exactness_price(record: Record) -> ExactnessPrice | None:
-    """What it costs never to be wrong in a batch, the fastest being those of the first timed workload.
+    """The price of exactness in a batch; the fastest methods are those on the first timed workload.
 
-    None where not both were timed there.
+    None if not both were timed there.
     """
     timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
     ranked = sorted(
@@ -230,7 +229,7 @@ def exactness_price(record: Record) -> ExactnessPrice | None:
 
 
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
-    """Methods with one of the same tier and question that is faster beyond doubt and reliable at least as near."""
+    """Methods for which another of the same tier and question is certainly faster, and reliable at least as near."""
     found = [each for each in measured_methods(record) if each.line.kind != "bounding"]
     timed = [name for name in workloads(record) if any((name, BATCH) in each.speed for each in found)]
     if not timed:
@@ -263,16 +262,16 @@ def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) ->
 
 
 _HOW = prose(
-    "The fastest method that fills the need, by its ratio to the run's reference; nanoseconds are this machine's. Those"
-    " that the intervals or the noise of the run do not tell from it are named behind it. *Reliable above* a flip"
-    " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that is spoken of. A need without a"
-    " line of its own is filled by a stricter one's. What was not measured is not spoken of either: gate a method on"
-    " your own scene before you rely on it."
+    "The fastest method that meets the need, by its ratio to the run's reference; nanoseconds are this machine's."
+    " Methods that are as fast within the intervals or the noise of the run are named beside it. *Reliable above* a"
+    " flip distance: at most 1 in 1000 answers beyond it is wrong, on every workload that the need covers. A need"
+    " without a line of its own is met by the advice for a stricter one. Methods that were not measured are not"
+    " advised: gate a method on your own scene before you rely on it."
 )
 
 
 def advice_sections(record: Record) -> Iterator[Section]:
-    """The section; none where nothing was timed."""
+    """The advice as a section; none if nothing was timed."""
     chosen = recommendations(record)
     if not chosen.advice:
         return
@@ -283,17 +282,17 @@ def advice_sections(record: Record) -> Iterator[Section]:
     said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:
         said.append(("The reference, of ratio 1, is ", Code(against), "."))
-    said += [(f"Nothing measured fills this: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
+    said += [(f"No measured method meets this need: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
     worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in dominated_methods(record)]
     if worse:
-        lead = "Beaten by a method of the same tier that is faster beyond doubt and errs no farther from contact: "
+        lead = "Beaten by a method of the same tier that is certainly faster and errs no farther from contact: "
         said.append((lead, joined(worse), "."))
     blocks: tuple[Block, ...] = (Paragraph(_HOW), _advice_table(chosen.advice), bullets(said))
     yield Section("Which method to use when", blocks)
 
 
 def _price_sentences(record: Record) -> Iterator[Text]:
-    """What it costs never to be wrong."""
+    """Sentences about the price of exactness."""
     found = exactness_price(record)
     if found is not None:
         known, distance = workloads(record), found.fastest.reliable_above
@@ -302,12 +301,12 @@ def _price_sentences(record: Record) -> Iterator[Text]:
         )
         times = listed([f"{figure(ratio)} times ({known[name].title})" for name, ratio in found.ratios])
         fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
-        lead = "What it costs never to be wrong: in a batch "
+        lead = "The price of exactness: in a batch "
         yield (lead, Code(found.never.name), f" takes {times} as long as ", fastest, ".")
 
 
 def advised_method_sections(record: Record) -> Iterator[Section]:
-    """What the methods are that are advised, in a section."""
+    """A section that describes the advised methods."""
     found = {each.use.name: each.use for each in recommendations(record).advice}
     if found:
         items: list[Text] = [
@@ -327,7 +326,7 @@ def _advice_table(advice: tuple[Advice, ...]) -> Block:
     columns: tuple[Column | str, ...] = (
         *("you need", "use", "in", "asked"),
         *numbers,
-        *("not told from it", "not reliable on"),
+        *("as fast", "not reliable on"),
     )
     return table("which method to use when", columns, [_advice_row(each) for each in advice])
 

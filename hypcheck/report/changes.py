@@ -1,11 +1,7 @@
-"""What changed from one record to another: statuses, worst errors, ratios of times, and the section that lists them.
+"""What changed from one record to another: statuses by family, worst errors, errors by workload, ratios of times.
 
-What changed from one record to another: statuses by family, worst errors, errors by workload, ratios of times.
-
-Times themselves are never compared: the records may be of two machines, and of one machine on two days. A ratio is of
-two methods within one run, and its interval says how well that run knew it.
-
-What changed against another record.
+Times themselves are never compared, since the records may be of two machines, or of two days. A ratio compares two
+methods within one run, and its interval says how exactly that run measured it.
 """
 
 from __future__ import annotations
@@ -43,7 +39,7 @@ FASTER, SLOWER, UNCLEAR = "faster", "slower", "no difference shown"
 
 @dataclass(frozen=True, slots=True)
 class StatusChange:
-    """A family of an implementation whose cases ended otherwise."""
+    """A family of an implementation whose cases ended differently."""
 
     implementation: str
     family: str
@@ -54,13 +50,13 @@ class StatusChange:
 
     @property
     def worse(self) -> bool:
-        """Whether more of the cases ended other than right, or one by a greater error."""
+        """Whether more cases ended other than right, or the worst error is greater."""
         return _bad(self.after) > _bad(self.before) or self.worst_after_u > self.worst_before_u
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyChange:
-    """A method that errs otherwise on a workload: [wrong, asked] and the flip distance above which it is reliable."""
+    """A method whose errors changed on a workload: [wrong, asked], and the flip distance above which it is reliable."""
 
     method: str
     workload: str
@@ -72,7 +68,7 @@ class AccuracyChange:
 
 @dataclass(frozen=True, slots=True)
 class RatioChange:
-    """A method's time by that of its run's reference, before and after, with their intervals."""
+    """The ratio of a method's time to that of its run's reference, before and after, with intervals."""
 
     method: str
     workload: str
@@ -84,7 +80,7 @@ class RatioChange:
 
     @property
     def verdict(self) -> str:
-        """FASTER or SLOWER where the intervals are apart, UNCLEAR where they are not or are not known."""
+        """FASTER or SLOWER if the intervals are apart, UNCLEAR if they overlap or are not known."""
         if self.before_interval is None or self.after_interval is None:
             return UNCLEAR
         if self.after_interval[1] < self.before_interval[0]:
@@ -93,13 +89,13 @@ class RatioChange:
 
 
 def _bad(counts: Mapping[str, int]) -> float:
-    """The share of cases asked that did not end right."""
+    """The share of asked cases that did not end right."""
     asked = sum(number for status, number in counts.items() if status != "skipped")
     return 1 - counts.get("right", 0) / asked if asked else 0.0
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:
-    """Families of both records whose counts by status or worst errors are not the same; first what got worse."""
+    """Families of both records whose counts by status or worst errors differ; those that got worse first."""
     found = []
     for (name, family), (old, new) in _shared(_groups(before), _groups(after)):
         errors = [worst_error_u(worst_case(group.worst)) for group in (old, new)]
@@ -115,7 +111,7 @@ def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
 
 
 def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
-    """Methods of both records that err otherwise on a workload."""
+    """Methods of both records whose errors on a workload differ."""
     found = []
     for key, (old, new) in _shared(_accuracies(before), _accuracies(after)):
         change = AccuracyChange(
@@ -166,7 +162,7 @@ def only_in_one(before: Record, after: Record) -> Iterator[str]:
 
 
 def conditions(before: Record, after: Record) -> Iterator[str]:
-    """Sentences about what else is not the same, so that nobody takes it for a change of the methods."""
+    """Sentences about other differences of the runs, which may explain changes of the methods."""
     for name in ("processor", "architecture", "system", "cores"):
         old, new = (getattr(record.header.machine, name) for record in (before, after))
         if old != new:
@@ -189,7 +185,7 @@ def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[
 
 
 def _both(before: Mapping[Key, Any], after: Mapping[Key, Any]) -> list[tuple[Key, tuple[Any, Any]]]:
-    """Every key of either with its two values, None where it is not."""
+    """Every key of either with its two values, None for a missing one."""
     return [(key, (before.get(key), after.get(key))) for key in dict.fromkeys([*before, *after])]
 
 
@@ -205,7 +201,7 @@ _RATIOS = prose(
 
 
 def change_sections(record: Record, against: Record) -> Iterator[Section]:
-    """The section; it is there whenever another record is, and says so where nothing changed."""
+    """The changes as a section; if nothing changed, it says so."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
     began = against.header.started

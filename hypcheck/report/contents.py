@@ -1,15 +1,4 @@
-"""A whole report: title, verdict and sections in reading order; and the short one, the overview.
-
-The run itself: when, on what machine, with what versions and options.
-
-What failed the run: every failure with its case and the command that shows it.
-
-What a benchmark compared: its methods, its workloads, and what was not there.
-
-A whole report: its title, its verdict, and its sections in the order in which they are read.
-
-One page about a run for whoever reads no other: what it shows, what to use when, and its pictures.
-"""
+"""The content of reports: title, verdict and sections in reading order; and the overview, a report on one page."""
 
 from __future__ import annotations
 
@@ -17,6 +6,7 @@ import json
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
@@ -34,7 +24,7 @@ from hypcheck.report.document import (
     bullets,
     table,
 )
-from hypcheck.report.messages import counted, figure, settings_facts
+from hypcheck.report.messages import figure, settings_facts
 from hypcheck.report.model import measured_methods
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
@@ -43,7 +33,7 @@ from hypcheck.report.verdict import Failure, Verdict, failures, verdict
 
 
 def settings_sections(record: Record) -> Iterator[Section]:
-    """The settings file of the run and what weakens its gate; none where every option is as strict as its default."""
+    """The settings file of the run and the options that weaken its gate; none if there are neither."""
     found = list(settings_facts(record.header.settings))
     if found:
         items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in found]
@@ -51,7 +41,7 @@ def settings_sections(record: Record) -> Iterator[Section]:
 
 
 def run_sections(record: Record) -> Iterator[Section]:
-    """The section; every record has it."""
+    """When, on what machine, with which versions and options; every record has this section."""
     header, machine = record.header, record.header.machine
     versions = {"hypcheck": header.hypcheck, "Python": header.python, **header.versions}
     seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
@@ -68,14 +58,14 @@ def run_sections(record: Record) -> Iterator[Section]:
 
 
 LISTED = 50
-"""Failures that a text shows one by one."""
+"""Failures that a text lists."""
 
 IN_TABLE = 1000
-"""Failures in the page's table; junit.xml and summary.json have all."""
+"""Failures in the table of the page; junit.xml and summary.json have all."""
 
 
 def failure_sections(record: Record) -> Iterator[Section]:
-    """The section; none where nothing failed."""
+    """Every failure with its case and the command that shows it; none if nothing failed."""
     found = failures(record)
     if found:
         yield Section("What failed", (Either(page=_failure_table(found), text=_failure_list(found)),))
@@ -91,7 +81,7 @@ def _failure_list(found: list[Failure]) -> Bullets:
 
 
 def _failure_table(found: list[Failure]) -> TableBlock:
-    """With the commands that show them, where there are any."""
+    """The failures, with the commands that show them if there are any."""
     columns, replays = ("which", "where", "what happened"), any(failure.replay for failure in found)
     rows = [
         (*_failure_row(failure), *([Code(failure.replay or "")] if replays else [])) for failure in found[:IN_TABLE]
@@ -113,7 +103,7 @@ def _omitted_failures(left_out: int) -> list[Text]:
 
 
 def compared_sections(record: Record) -> Iterator[Section]:
-    """The section; none where nothing was measured."""
+    """What a benchmark compared: methods, workloads, and what was missing; none if nothing was measured."""
     found = measured_methods(record)
     if not found:
         return
@@ -171,12 +161,12 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     verification.timing_sections,
     run_sections,
 )
-"""What failed comes first, what was run last; each part has nothing to say where the record has none of its lines."""
+"""The sections in reading order: failures first, the run last. A part is empty if the record has none of its lines."""
 
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What every report for people shows."""
+    """What a report for people shows."""
 
     title: str
     verdict: Verdict
@@ -184,7 +174,7 @@ class Content:
 
 
 def content(record: Record, against: Record | None = None) -> Content:
-    """The content of a record's report; with another record, what changed against it stands behind what failed."""
+    """The content of a report; with another record, the changes follow the failures."""
     sections = [section for part in PARTS for section in part(record)]
     if against is not None:
         failing = sum(1 for _ in failure_sections(record))
@@ -205,7 +195,7 @@ _OTHER_REPORTS = (
 
 
 def overview(record: Record, beside: Collection[str]) -> Content:
-    """The content of the page; `beside` are the names of the files beside it, whose pictures it shows."""
+    """The content of the page; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
     shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)

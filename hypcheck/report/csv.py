@@ -1,8 +1,7 @@
-"""measurements.csv: every measurement of a record, one a line, for spreadsheets and statistics.
+"""measurements.csv: every measurement of a record, one on each line, for spreadsheets and statistics.
 
-A line is [kind, method, workload, detail, quantity, value, low, high]: what kind of record line it is from, about which
-method, on which workload or family; the detail that tells it from its neighbours; and the value, with an interval where
-there is one.
+A line is [kind, method, workload, detail, quantity, value, low, high]: the type of the record's line, the method, the
+workload or family, a detail that tells it from similar ones, and the value, with an interval if there is one.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ from hypcheck.record.measurements import (
 HEAD = ("kind", "method", "workload", "detail", "quantity", "value", "low", "high")
 
 Measurement = tuple[str, str, str, str, Any, Any, Any]
-"""Everything behind the kind."""
+"""Everything after the kind."""
 
 
 def render(record: Record) -> bytes:
@@ -52,7 +51,7 @@ def render(record: Record) -> bytes:
 
 
 def _harmless(text: str) -> str:
-    """Foreign text that no spreadsheet takes for a formula."""
+    """Foreign text, changed so that no spreadsheet reads it as a formula."""
     shown = escaped(text)
     return f"'{shown}" if shown[:1] in ("=", "+", "-", "@") else shown
 
@@ -72,7 +71,7 @@ def _plain(method: str, workload: str, detail: str, quantity: str, value: object
 def _named(
     *fields: str, method: str = "method", workload: str = "workload", detail: str = ""
 ) -> Callable[[RecordLine], Any]:
-    """Fields of a line as they are, by their names."""
+    """Measurements of the named fields of a line."""
 
     def measurements(line: RecordLine) -> Iterator[Measurement]:
         for name in fields:
@@ -207,4 +206,4 @@ MEASUREMENTS: dict[type[RecordLine], Callable[[Any], Iterable[Measurement]]] = {
     SceneLine: _scene,
     ComparisonLine: _comparison,
 }
-"""What is measured in each type of line; the others measure nothing."""
+"""The measurements in each type of line; other types have none."""

@@ -1,6 +1,6 @@
 """A report as values that know no format: sections of paragraphs, lists, tables and figures.
 
-Text is foreign unless it went through `prose`: whoever renders it makes it harmless.
+Text is foreign unless it went through `prose`; each renderer escapes it.
 """
 
 from __future__ import annotations
@@ -11,38 +11,38 @@ from dataclasses import dataclass
 from typing import Union
 
 LONGEST = 2000
-"""Characters of one foreign text that a report shows; a name of a megabyte would bury everything else."""
+"""Characters of one foreign text that a report shows, so that a long name does not hide the rest."""
 
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """Text that is typed somewhere: a name, an id, a command."""
+    """Text to type or copy: a name, an id, a command."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Strong:
-    """What must not be overlooked."""
+    """Text that must be noticed."""
 
     text: Text
 
 
 @dataclass(frozen=True, slots=True)
 class Emphasis:
-    """A term where it is explained."""
+    """A term that is explained here."""
 
     text: Text
 
 
 Text = Union[str, Code, Strong, Emphasis, "tuple[Text, ...]"]
-"""Running text: a string means itself, a tuple its parts one after the other."""
+"""Running text: a string, a marked part, or a tuple of parts."""
 
 _MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
 
 
 def prose(words: str) -> Text:
-    """Our own words, in which `code`, **strong** and *emphasised* are marked; never for what others say."""
+    """Text of hypcheck with marks for `code`, **strong** and *emphasised*; never for foreign text."""
     parts: list[Text] = []
     end = 0
     for found in _MARKS.finditer(words):
@@ -54,7 +54,7 @@ def prose(words: str) -> Text:
 
 
 def bounded(foreign: str) -> str:
-    """The text, cut where it is endless, with a word about how long it is."""
+    """The text; a text of more than LONGEST characters is cut, and its length is added."""
     return foreign if len(foreign) <= LONGEST else f"{foreign[:LONGEST]}… ({len(foreign):,} characters)"
 
 
@@ -79,7 +79,7 @@ def plain(text: Text) -> str:
 
 @dataclass(frozen=True, slots=True)
 class TableCell:
-    """A table's cell: its text, the number it is sorted by, and whether it is good or bad news ("good", "bad")."""
+    """A cell of a table: its text, the number that it is sorted by, and its tone ("good", "bad" or none)."""
 
     text: Text
     value: float | None = None
@@ -88,7 +88,7 @@ class TableCell:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A table's column; numbers are set to the right. `hint` explains the title."""
+    """A column of a table; numbers are aligned to the right. `hint` explains the title."""
 
     title: Text
     number: bool = False
@@ -97,7 +97,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class TableBlock:
-    """A table; `name` says what it holds, for those who do not see the heading above it."""
+    """A table; `name` says what it holds, for readers who do not see the heading."""
 
     name: str
     columns: tuple[Column, ...]
@@ -128,9 +128,9 @@ class Bullets:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """The plots of that name, where they can be drawn and shown; `file` is that of a report beside this one.
+    """The plots of that name, if they can be drawn; `file` is the picture of them beside a text.
 
-    `small` ones stand many in a row; `legend` says what the roles of their colours mean.
+    `small` plots stand side by side; `legend` says what the roles of their colours mean.
     """
 
     name: str
@@ -142,7 +142,7 @@ class Figures:
 
 @dataclass(frozen=True, slots=True)
 class Details:
-    """What only the page has, folded away under a title."""
+    """Blocks that only the page has, folded under a title."""
 
     title: str
     blocks: tuple[Block, ...]
@@ -150,7 +150,7 @@ class Details:
 
 @dataclass(frozen=True, slots=True)
 class Either:
-    """The same thing twice: for the page, which sorts and filters, and for a text, which is read from top to bottom."""
+    """Two forms of a block: for the page, which sorts and filters, and for a text."""
 
     page: Block
     text: Block
@@ -161,9 +161,9 @@ Block = Paragraph | Bullets | TableBlock | Figures | Details | Either
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A part of a report under a heading; `level` 2 is a part of the whole, 3 a part of the section before it.
+    """A part of a report under a heading; `level` 2 is a part of the report, 3 a part of the section before it.
 
-    `page` says that the page alone has it, and a text has not.
+    `page`: only the page has it, and a text has not.
     """
 
     title: Text
@@ -173,7 +173,7 @@ class Section:
 
 
 def table(name: str, columns: Iterable[Column | str], rows: Iterable[Iterable[TableCell | Text]]) -> TableBlock:
-    """A table of columns (a string is a column of text) and cells (a text is a cell without a value)."""
+    """A table; a string is a column of text, and a text is a cell without a value."""
     heads = tuple(Column(each) if isinstance(each, str) else each for each in columns)
     cells = tuple(tuple(each if isinstance(each, TableCell) else TableCell(each) for each in row) for row in rows)
     return TableBlock(name, heads, cells)
@@ -185,7 +185,7 @@ def bullets(items: Sequence[Text | Item]) -> Bullets:
 
 
 def count(number: int, *, bad: bool = False) -> TableCell:
-    """A count; with `bad` one that should be zero stands out."""
+    """The cell of a count; with `bad`, a count above zero stands out."""
     shown = f"{number:,}"
     return TableCell(Strong(shown), number, "bad") if bad and number else TableCell(shown, number)
 

@@ -1,7 +1,7 @@
-"""What GitHub Actions understands: annotations on standard output, and the job's step summary.
+"""Output for GitHub Actions: annotations on standard output, and the summary of the job's step.
 
-Workflow commands are lines that begin with "::", after blanks too, and "##[" anywhere in a line is one of the older
-form. What strangers say is printed between a pair of commands that suspends both, so that it commands nothing.
+Workflow commands are lines that begin with "::", after blanks too; "##[" anywhere in a line is the older form. Foreign
+text is printed between a pair of commands that suspends both forms.
 """
 
 from __future__ import annotations
@@ -11,17 +11,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from hypcheck.errors import system_reason
-from hypcheck.messages import escaped
+from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.report.markdown import render
-from hypcheck.report.messages import counted
 from hypcheck.report.verdict import Failure, failures
 
 MOST_ANNOTATIONS = 10
-"""Errors of one step that GitHub shows; the last of them speaks for those that are left out."""
+"""Errors of one step that GitHub shows; the last one counts those that are left out."""
 
 LARGEST_SUMMARY = (1 << 20) - 1
-"""Bytes a step's summary may have: GitHub drops a summary of more than 1 MiB as a whole."""
+"""Bytes of a step's summary, at most: GitHub drops a larger one."""
 
 _CUT = b"\n*Cut here: a step summary is less than 1 MiB. report.md has the rest.*\n"
 
@@ -30,12 +29,12 @@ _PROPERTY = {**_DATA, ":": "%3A", ",": "%2C"}
 
 
 def on_github(environment: Mapping[str, str]) -> bool:
-    """Whether these are the environment variables of a step of GitHub Actions."""
+    """Whether these environment variables are those of a step of GitHub Actions."""
     return environment.get("GITHUB_ACTIONS") == "true"
 
 
 def harmless(lines: Iterable[str]) -> Iterator[str]:
-    """The lines, with the processing of commands suspended for as long as they last."""
+    """The lines, between commands that suspend and resume the processing of commands."""
     token = secrets.token_hex(16)
     yield f"::stop-commands::{token}"
     yield from lines
@@ -69,7 +68,7 @@ def _escaped(text: str, escapes: Mapping[str, str]) -> str:
 
 
 def append_summary(record: Record, path: Path) -> str | None:
-    """Append the report to a step's summary; the reason where that is not possible, which fails no run."""
+    """Append the report to a step's summary; returns the reason if that fails, which does not fail the run."""
     try:
         already = path.stat().st_size if path.exists() else 0
         with path.open("ab") as file:
@@ -80,7 +79,7 @@ def append_summary(record: Record, path: Path) -> str | None:
 
 
 def fitting(report: bytes, room: int) -> bytes:
-    """The report, cut at the end of a line and with a note where it is longer than the room in bytes."""
+    """The report; if it has more than `room` bytes, it is cut at the end of a line, with a note."""
     if len(report) <= room:
         return report
     end = report.rfind(b"\n", 0, max(0, room - len(_CUT))) + 1

@@ -1,7 +1,7 @@
-"""report.html: one file that needs no other and no network, for any screen, keyboard, paper or colours.
+"""report.html: one file that needs no other file and no network, for any screen, keyboard, paper or colours.
 
-Its content security policy lets no style and no script run but its own, which it names by their hashes; templates
-escape whatever is put into them.
+Its content security policy allows only its own style and script, which it names by their hashes; templates escape all
+text.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _TAGS = {Strong: "strong", Emphasis: "em"}
 
 
 def html_text(words: Text) -> markupsafe.Markup:
-    """Running text as an element's content: foreign text is escaped, made visible, and cut where it is endless."""
+    """Running text as the content of an element: foreign text is escaped, and cut if it is very long."""
     if isinstance(words, str):
         edges = (" " * words[:1].isspace(), " " * words[-1:].isspace())
         return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
@@ -63,7 +63,7 @@ _KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", TableBloc
 
 @dataclass(frozen=True, slots=True)
 class _TemplateBlock:
-    """A block as the templates take it: its kind, and for those that hold others or plots what is in them."""
+    """A block for the templates: its kind, and the blocks or plots that it holds."""
 
     kind: str
     value: Any
@@ -95,7 +95,7 @@ def _template(name: str) -> str:
 
 
 def _hash(text: str) -> str:
-    """As a content security policy names a text."""
+    """The hash of a text in the form of a content security policy."""
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
 
 

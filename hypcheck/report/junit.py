@@ -1,17 +1,8 @@
 """junit.xml: the run as test suites and cases, in the dialect that CI systems read.
 
-A test suite and its cases, as junit.xml has them.
-
-A benchmark as test suites: its answers, its times, the baseline it was held to, the targets of the kernels.
-
-Only what fails the run is a failure. What a method that promises nothing gets wrong is a passed case that says so.
-
-A run as test suites: a suite for each subject, a case for each thing that could have gone wrong in it.
-
-What fails the run is a failure; a run that stopped before its end is an error. What the paper's own formulas get wrong
-is expected, so it is a passed case whose output says what was found (docs/record.md, "junit.xml").
-
-junit.xml: the run's test suites in the dialect that CI systems read.
+There is a suite for each subject, and a case for each thing that can go wrong in it. A failure of the run is a failure;
+a run that stopped before its end is an error. Errors of the paper's formulas, and of methods that promise nothing, are
+expected: their cases pass, with what was found as output (docs/record.md, "junit.xml").
 """
 
 from __future__ import annotations
@@ -21,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from xml.etree import ElementTree as Xml
 
-from hypcheck.messages import escaped
+from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import EquationLine, FindingLine, GroupLine, OracleLine, ProofLine
 from hypcheck.record.measurements import (
@@ -36,7 +27,6 @@ from hypcheck.record.measurements import (
 from hypcheck.report.messages import (
     Replays,
     classify_command,
-    counted,
     figure,
     from_hex,
     implementation_claims,
@@ -67,9 +57,9 @@ class JunitTrouble:
 
 @dataclass(frozen=True, slots=True)
 class JunitCase:
-    """A test case; `output` are lines of its system-out.
+    """A test case; `output` are the lines of its system-out.
 
-    Its name does not depend on how it ended. Times are whole milliseconds, so that sums add up; None: not measured.
+    Its name does not depend on its result. Times are whole milliseconds, so that sums add up; None: not measured.
     """
 
     name: str
@@ -86,23 +76,23 @@ class JunitSuite:
     cases: tuple[JunitCase, ...]
 
     def count(self, tag: str) -> int:
-        """How many of its cases ended in that trouble."""
+        """How many of its cases have a trouble with this tag."""
         return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
 
     @property
     def milliseconds(self) -> int | None:
-        """The time of all cases that have one; None where none has."""
+        """The time of all cases that have one; None if no case has."""
         return total(case.milliseconds for case in self.cases)
 
 
 def total(times: Iterable[int | None]) -> int | None:
-    """The sum of the times that were measured; None where none was."""
+    """The sum of the times that were measured; None if none was."""
     known = [time for time in times if time is not None]
     return sum(known) if known else None
 
 
 def details(failed: Iterable[Failure]) -> Iterator[str]:
-    """Each failure with its case and how to look at it."""
+    """Each failure with its case, and the command that shows it."""
     for each in failed:
         place = f" ({each.place})" if each.place else ""
         yield f"case {each.case}{place}: {each.message}" if each.case else each.message
@@ -111,7 +101,7 @@ def details(failed: Iterable[Failure]) -> Iterator[str]:
 
 
 def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[JunitSuite]:
-    """The suites of a benchmark, all of them empty where there was none."""
+    """The suites of a benchmark: answers, times, baseline, scenes, kernels; all empty if there was none."""
     found = [failure for failure in failed if failure.subject == MEASUREMENT]
     yield JunitSuite("bench.answers", tuple(_answer_cases(record, found)))
     yield JunitSuite("bench.times", tuple(_time_cases(record, found)))
@@ -178,11 +168,11 @@ def _trouble(failed: Sequence[Failure], kind: str, name: str, group: str) -> Jun
 
 
 _LONGEST_MS = 1e15
-"""Milliseconds that no run takes; what a record says beyond it is no time."""
+"""Milliseconds, at most; a larger time in a record is an error."""
 
 
 def junit_suites(record: Record) -> Iterator[JunitSuite]:
-    """The suites of a record, some of them empty."""
+    """All suites of a record; some may be empty."""
     failed = failures(record)
     others = list(_others(record, failed))
     yield JunitSuite("run", (replace(_ended(record, failed), milliseconds=_rest(record, others)),))
@@ -190,7 +180,7 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
 
 
 def _rest(record: Record, others: Iterable[JunitSuite]) -> int | None:
-    """The time of the run that no other case accounts for; None where the run has no end, or no time."""
+    """The time of the run that no other case has; None if the run has no end, or no time."""
     seconds = None if record.footer is None else record.footer.seconds
     if seconds is None:
         return None
@@ -199,7 +189,7 @@ def _rest(record: Record, others: Iterable[JunitSuite]) -> int | None:
 
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
-    """The suites behind that of the run itself."""
+    """The suites after that of the run itself."""
     yield JunitSuite("proofs", tuple(_distinct_names(_proof(line) for line in record.of(ProofLine))))
     yield JunitSuite("equations", tuple(_distinct_names(_equation(line) for line in record.of(EquationLine))))
     for oracle in oracle_totals(record):
@@ -219,9 +209,9 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
 
 
 def _ended(record: Record, failed: list[Failure]) -> JunitCase:
-    """The end of the run: an error where it was not reached, or where the exit code is not that of the record's lines.
+    """The end of the run: an error if it was not reached, or if the exit code contradicts the record's lines.
 
-    That some other case failed is not repeated here.
+    Failures of other cases are not repeated here.
     """
     ended = verdict(record)
     unfinished = record.footer is None or record.footer.exit_code in EXITS_UNFINISHED
@@ -247,7 +237,7 @@ def _equation(line: EquationLine) -> JunitCase:
 
 
 def _distinct_names(cases: Iterable[JunitCase]) -> Iterator[JunitCase]:
-    """The cases under names of their own: parsers merge those that are called alike."""
+    """The cases under distinct names: parsers merge cases with the same name."""
     seen: Counter[str] = Counter()
     for case in cases:
         seen[case.name] += 1
@@ -273,7 +263,7 @@ def _oracle(line: OracleLine, failed: list[Failure]) -> JunitCase:
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each mathematical finding, and one that says whether they are the known ones."""
+    """A case for each mathematical finding, and one about whether they are the known ones."""
     yield from _distinct_names(map(_finding, record.of(FindingLine)))
     drifted = [each for each in failed if each.subject == "findings"]
     if drifted:
@@ -297,7 +287,7 @@ def _finding(line: FindingLine) -> JunitCase:
 
 
 def _implementation_cases(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each gated implementation: that it was started, and did nothing that no family of its own shows."""
+    """A case for each gated implementation, which fails if it did not start, or failed outside any family."""
     for tested in under_test(record):
         families = {group.family for group in tested.groups}
         mine = [each for each in failed if each.name == tested.name and each.group not in families]
@@ -311,7 +301,7 @@ def _implementation_cases(record: Record, failed: list[Failure]) -> Iterator[Jun
 def _family_case(
     implementation: ImplementationTotal, group: GroupLine, failed: list[Failure], replays: Replays
 ) -> JunitCase:
-    """A family: it fails where any status in which its cases ended fails the run; the output has all of them."""
+    """A case for each family: it fails if any status of its cases fails the run; the output has all statuses."""
     counts, output = in_order(Counter(group.counts)), []
     cases = sum(counts.values())
     for status, number in counts.items():
@@ -335,14 +325,14 @@ def _family_case(
 
 
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
-"""The elements that say why a case did not pass, and the attributes that count them."""
+"""The elements of cases that did not pass, and the attributes that count them."""
 
 
 def render(record: Record) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
     found = [suite for suite in junit_suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})
-    # Without its offset: the schema that most parsers go by allows none.
+    # Without its offset: the schema that most parsers use allows none.
     started = escaped(record.header.started)[:19]
     for suite in found:
         element = Xml.SubElement(root, "testsuite", {"name": escaped(suite.name), **_attributes([suite])})
@@ -355,7 +345,7 @@ def render(record: Record) -> bytes:
 
 
 def _set_properties(element: Xml.Element, record: Record) -> None:
-    """The settings of the run, in each suite: the schema that most parsers go by has properties nowhere else."""
+    """The settings of the run, in each suite: the schema that most parsers use has properties only there."""
     found = list(settings_facts(record.header.settings))
     if found:
         properties = Xml.SubElement(element, "properties")
@@ -386,5 +376,5 @@ def _element(suite: JunitSuite, case: JunitCase) -> Xml.Element:
 
 
 def _time(milliseconds: int | None) -> dict[str, str]:
-    """The attribute in seconds; none where no time was measured, since 0.000 would be a false one."""
+    """The attribute in seconds; none if no time was measured, since 0.000 would be wrong."""
     return {} if milliseconds is None else {"time": f"{milliseconds // 1000}.{milliseconds % 1000:03d}"}

@@ -1,10 +1,7 @@
-"""report.md and overview.md: documents as Markdown (CommonMark, GitHub's tables), foreign text made harmless.
+"""report.md and overview.md: a report as Markdown (CommonMark, GitHub's tables), with foreign text escaped.
 
-The pieces of a Markdown file (CommonMark and GitHub's tables), with foreign text made harmless.
-
-report.md: a run for people, from top to bottom: how it ended, what failed, and then what was found.
-
-overview.md: one page of Markdown for whoever reads no other, such as the README of a folder of reports.
+report.md is a whole run for people: how it ended, what failed, and what was found. overview.md is one page, such as the
+README of a folder of reports.
 """
 
 from __future__ import annotations
@@ -38,15 +35,15 @@ _BLOCK_START = re.compile(r"^(?:[-+=#]|\d+(?=[.)](?:\s|$)))")
 
 
 def escape_text(foreign: object) -> str:
-    """The text as running text that means itself, in a table's cell as elsewhere."""
+    """The text, escaped, for running text and cells of tables."""
     safe = _SPECIAL.sub(lambda found: _ENTITIES.get(found[0], "\\" + found[0]), escaped(foreign))
     return _BLOCK_START.sub(lambda found: "".join(f"&#{ord(c)};" for c in found[0]), safe)
 
 
 def code_span(foreign: object) -> str:
-    """The text as code, in a table's cell as elsewhere; nothing for the empty text.
+    """The text as code, for running text and cells of tables; empty for an empty text.
 
-    A code span has no escapes, so a text with a bar or a backtick becomes an element whose marks are entities.
+    A code span has no escapes, so a text with a bar or a backtick becomes an HTML element with entities.
     """
     shown = escaped(foreign)
     if "|" in shown or "`" in shown:
@@ -55,9 +52,9 @@ def code_span(foreign: object) -> str:
 
 
 def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = ()) -> list[str]:
-    """The lines of a table and an empty one; the columns `numbers` are set to the right.
+    """The lines of a table and an empty line; the columns `numbers` are aligned to the right.
 
-    Cells are Markdown already: what is foreign in them has gone through text() or code().
+    Cells are Markdown already, with foreign text escaped by escape_text() or code_span().
     """
     right = set(numbers)
     rule = ["---:" if column in right else "---" for column in range(len(head))]
@@ -76,7 +73,7 @@ def bullet_lines(items: Iterable[str]) -> list[str]:
 
 
 def render(record: Record, context: ReportContext | None = None) -> bytes:
-    """The report in UTF-8, which refers to the pictures among the files beside it."""
+    """The report in UTF-8; it refers to the pictures among the files beside it."""
     beside = context.beside if context else ()
     return markdown_page(content(record, context.against if context else None), beside)
 
@@ -90,7 +87,7 @@ def markdown_page(whole: Content, beside: Collection[str]) -> bytes:
 
 
 def running_text(words: Text) -> str:
-    """Running text as Markdown; what is foreign in it means itself and is cut where it is endless."""
+    """Running text as Markdown; foreign text is escaped, and cut if it is very long."""
     return _inline(words).strip()
 
 
@@ -143,6 +140,6 @@ def _table(block: TableBlock) -> Iterator[str]:
 
 
 def render_overview(record: Record, context: ReportContext | None = None) -> bytes:
-    """The page in UTF-8, which refers to the pictures among the files beside it."""
+    """The overview in UTF-8; it refers to the pictures among the files beside it."""
     beside = context.beside if context else ()
     return markdown_page(overview(record, beside), beside)

@@ -1,13 +1,4 @@
-"""Numbers, rows, declarations and commands as every report words them.
-
-Numbers, lists and rows as a person reads them.
-
-What a gated implementation says of itself, and as what it was judged, in the words of every report.
-
-And what the settings of a run say that weakens its gate.
-
-The recorded cases again: the number that each has in its record, and the command that shows it.
-"""
+"""Texts that every report uses: numbers, lists, rows, settings, declarations, and the commands that show a case."""
 
 from __future__ import annotations
 
@@ -38,11 +29,9 @@ from hypcheck.record.lines import (
 from hypcheck.record.reader import recorded_cases
 from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
-__all__ = ["classify_command", "counted", "figure", "from_hex", "listed", "short_row", "with_interval"]
-
 
 def listed(items: Sequence[str], last: str = "and") -> str:
-    """The items as a sentence has them: "a, b and c"."""
+    """The items as in a sentence: "a, b and c"."""
     return f" {last} ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
 
 
@@ -61,7 +50,7 @@ def figure(value: float) -> str:
 
 
 def with_interval(value: float, interval: Sequence[float] | None) -> str:
-    """A value with the ends of its interval, where it has one: "1.2 (1.1 to 1.3)"."""
+    """A value with the ends of its interval, if it has one: "1.2 (1.1 to 1.3)"."""
     return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
 
 
@@ -74,7 +63,7 @@ def from_hex(row: Sequence[str]) -> tuple[float, ...]:
 
 
 def short_row(row: Sequence[float]) -> str:
-    """A row to six digits, enough to see what is meant: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
+    """A row to six digits: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
 
     The axis of a tilted spheroid stands behind.
     """
@@ -92,9 +81,9 @@ def classify_command(row: Sequence[float]) -> str:
 
 
 def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
-    """One sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
+    """A sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
 
-    None where there is no settings file and every option that decides is as strict as its default.
+    Nothing if there is no settings file, and every option that decides is as strict as its default.
     """
     if not settings:
         return
@@ -107,7 +96,7 @@ def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
 
 
 def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator[str]:
-    """Sentences without a full stop from the record's line about an implementation; none of one that did not start."""
+    """Sentences without a full stop about an implementation; none about one that did not start."""
     if isinstance(line, NotStartedLine):
         return
     declared, used = line.declared, line.used
@@ -124,7 +113,7 @@ def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator
 
 
 def description_text(description: DescriptionPart) -> str:
-    """Question, precision, domain and the rest of a description: what it answers, and where it claims to be right."""
+    """A description in words: question, precision, domain and the rest."""
     parts = [_declared_value(description, name) for name in ("question", "precision", "domain")]
     parts += [text for text in (description.language, description.version) if text]
     if description.refuses:
@@ -157,36 +146,40 @@ _LIMITS = ("startup_timeout", "timeout", "memory")
 
 @dataclass(frozen=True)
 class Replays:
-    """The cases of one record: `numbers` by the identity of a case, `options` that judge as the run did."""
+    """The commands that show the cases of one record.
+
+    numbers: the number of each case, by its id().
+    options: those of `hypcheck replay` that judge as the run did.
+    """
 
     numbers: Mapping[int, int]
     options: tuple[str, ...]
 
     @classmethod
     def of(cls, record: Record) -> Replays:
-        """Those of a record."""
+        """The commands for the cases of a record."""
         numbers = {id(each.case): each.number for each in recorded_cases(record)}
         return cls(numbers, tuple(_options(record.header.options)))
 
     def place(self, case: WrongAnswer | FaultPart) -> str:
-        """Where the case stands, as `hypcheck replay` reads it beside the record: record.jsonl:7."""
+        """The case as `hypcheck replay` reads it beside the record: record.jsonl:7."""
         return f"record.jsonl:{self.numbers[id(case)]}"
 
     def command(self, group: GroupLine, case: WrongAnswer | FaultPart) -> str:
-        """The command that replays a case of a gated implementation, or decides and proves one of our own methods'."""
+        """The command that replays a case of a gated implementation, or decides and proves one of a built-in method."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)))
         return shlex.join(["hypcheck", "replay", str(case.case), str(group.spec), *self.options])
 
 
 def tolerance_of(options: Mapping[str, Any]) -> float | None:
-    """The tolerance of a run in units u, None where its options, of which the schema says nothing, have no number."""
+    """The tolerance of a run in units u; None if its options have no number for it."""
     tolerance = options.get("tolerance")
     return float(tolerance) if isinstance(tolerance, (int, float)) else None
 
 
 def _options(options: Mapping[str, Any]) -> list[str]:
-    """Options of the run that are not the usual ones and change what a replay shows."""
+    """Options of the run that differ from their defaults and change what a replay shows."""
     said = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
     tolerance = tolerance_of(options)
     if tolerance is not None and tolerance != DEFAULT_TOLERANCE:

@@ -1,8 +1,6 @@
-"""The totals of a record: each oracle, each implementation, each measured method. Every report starts here.
+"""The totals of a record: each oracle, each implementation, each measured method with its errors, times and memory.
 
-What the lines of a record come to: totals for each oracle and each implementation. Every report starts here.
-
-What a benchmark's lines come to: each method with its errors, times and memory by workload.
+Every report starts here, so that all reports count in the same way.
 """
 
 from __future__ import annotations
@@ -38,13 +36,13 @@ from hypcheck.record.measurements import (
 from hypcheck.runs.judge import Status
 
 EXACT_ORACLE = "exact"
-"""The oracle the others are compared with; what can go wrong with it is a certificate that its check refuses."""
+"""The oracle that the others are compared with; it can fail only by a certificate that the check refuses."""
 
 REFUSED = "certificate refused"
-"""The stage of such an answer; the record counts it among the undecided and among the disagreeing, here it is one."""
+"""The stage of an answer whose certificate is refused: undecided and disagreeing in the record, a disagreement here."""
 
 SubjectKey = tuple[str, "str | None"]
-"""A name and a SPEC: two implementations may call themselves alike."""
+"""A name and a SPEC: two implementations may have the same name."""
 
 REFERENCE = "plain numpy formula"
 """The contender whose time every other is divided by."""
@@ -52,10 +50,11 @@ REFERENCE = "plain numpy formula"
 
 @dataclass(frozen=True, slots=True)
 class OracleTotal:
-    """What came of asking one oracle about all families.
+    """The answers of one oracle about all families: asked = agreed + undecided + disagreements.
 
-    asked = agreed + undecided + disagreements. `stages` counts its answers by the part of it that gave them, `seconds`
-    is the time it took over all processes. `unavailable` says why it could not be asked, where it could not.
+    stages: its answers by the part of it that gave them.
+    seconds: its time, over all processes.
+    unavailable: why it could not be asked; None if it was.
     """
 
     name: str
@@ -70,7 +69,7 @@ class OracleTotal:
 
 @dataclass(frozen=True, slots=True)
 class ImplementationTotal:
-    """One implementation under test and the record's group lines about it, a line for each family."""
+    """An implementation that was judged, and the group lines about it, one for each family."""
 
     name: str
     spec: str
@@ -82,12 +81,12 @@ class ImplementationTotal:
 
     @property
     def gated(self) -> bool:
-        """Whether it is under test in its own right, so that its wrong answers fail the run."""
+        """Whether it is under test, so that its wrong answers fail the run."""
         return self.groups[0].tested
 
     @property
     def asked(self) -> int:
-        """The cases it was asked; skipped ones are not among them."""
+        """The cases that it was asked, without skipped ones."""
         return sum(group.asked for group in self.groups)
 
     @property
@@ -97,7 +96,7 @@ class ImplementationTotal:
 
     @property
     def mistakes(self) -> dict[str, int]:
-        """What its wrong and tolerated answers mean to whoever relies on them."""
+        """Its wrong and tolerated answers by the kind of mistake."""
         total: Counter[str] = sum((Counter(group.mistakes) for group in self.groups), Counter())
         return dict(sorted(total.items()))
 
@@ -109,9 +108,9 @@ class ImplementationTotal:
 
 @dataclass(frozen=True, slots=True)
 class UnderTest:
-    """A gated implementation as a whole: its name in reports and the record's implementation line about it.
+    """A gated implementation as a whole: its name in reports, and the implementation line about it.
 
-    `groups` are the lines about its families, none where it could not be started.
+    `groups` are the lines about its families; none if it could not be started.
     """
 
     name: str
@@ -139,14 +138,14 @@ class TimingTotal:
 
 
 def in_order(counts: Counter[str]) -> dict[str, int]:
-    """Counts by status in the order of judge.Status, those of later versions last."""
+    """Counts by status in the order of judge.Status; statuses of later versions last."""
     order = [status.value for status in Status]
     names = sorted(counts, key=lambda name: (order.index(name) if name in order else len(order), name))
     return {name: counts[name] for name in names if counts[name]}
 
 
 def oracle_totals(record: Record) -> list[OracleTotal]:
-    """A total for each oracle: those that were asked, then those that could not be."""
+    """A total for each oracle: those that were asked, then those that could not be asked."""
     by_name: dict[str, list[OracleLine]] = {}
     for line in record.of(OracleLine):
         by_name.setdefault(line.oracle, []).append(line)
@@ -166,7 +165,7 @@ def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
 
 
 def unlisted(finding: FindingLine) -> bool:
-    """Whether a formula errs where it claims to be right and the known findings do not say why."""
+    """Whether a formula errs within its stated regimes, and this is no known finding."""
     return bool(finding.inside) and finding.reason is None
 
 
@@ -204,13 +203,13 @@ def _tested(record: Record) -> list[Tested | NotStartedLine]:
 
 
 def subject_of(line: GroupLine | Tested | NotStartedLine) -> SubjectKey:
-    """Whom a line of a group or of an implementation is about: the name it gives itself, and its spec if it has one."""
+    """The implementation that a line is about: its declared name, and its spec if it has one."""
     name = line.method if isinstance(line, GroupLine) else line.name
     return name, line.spec or None
 
 
 def names_in(record: Record) -> dict[SubjectKey, str]:
-    """The name of everyone that lines are about: its own, with the spec behind it where others have the same."""
+    """The name of each implementation in reports: the declared one, with the spec if others have the same name."""
     subjects = dict.fromkeys(map(subject_of, [*record.of(GroupLine), *_tested(record)]))
     alike = Counter(name for name, _ in subjects)
     return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
@@ -220,7 +219,7 @@ def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
     first = lines[0]
     return ImplementationTotal(
         name=name,
-        spec=first.spec or f"builtin:{name}",  # a line without a spec is about what the project brings along
+        spec=first.spec or f"builtin:{name}",  # a line without a spec is about a built-in method
         title=first.title,
         question=first.question,
         precision=first.precision,
@@ -230,12 +229,12 @@ def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
 
 
 def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
-    """The case with the greatest backward error; the first of equals, None of none."""
+    """The case with the greatest backward error; the first of equals, None if there is none."""
     return max(cases, key=lambda case: float(case.backward_error_u), default=None)
 
 
 def worst_error_u(case: WrongAnswer | None) -> float:
-    """The backward error of worst_case in units u; 0 where no answer was wrong."""
+    """The backward error of worst_case in units u; 0 if no answer was wrong."""
     return 0.0 if case is None else float(case.backward_error_u)
 
 
@@ -269,18 +268,18 @@ PRINCIPAL = "near-contact"
 """The workload that has cases at every distance."""
 
 LEAST_NS = 0.01
-"""What a benchmark writes for a time of which nothing was left when the empty call was taken off: it is not known."""
+"""The time that a benchmark records if a call took no longer than an empty one: the true time is not known."""
 
 NEAREST = 2.0**-75
-"""What a benchmark writes for "reliable above" of a method that is wrong at exact tangencies alone."""
+"""The value of `reliable_above` that a benchmark records for a method that is wrong only at exact tangencies."""
 
 TIERS = ("C", "numpy", "python", "FCL", "foreign")
-"""What methods are written in, the fastest first; only those of one tier compare as algorithms."""
+"""The languages of methods, the fastest first; only methods of one tier compare as algorithms."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasuredMethod:
-    """A method and its lines: of its errors by workload, of its times by workload and mode, of its memory."""
+    """A method and its lines: errors by workload, times by workload and mode, memory."""
 
     name: str
     line: MethodLine
@@ -290,7 +289,7 @@ class MeasuredMethod:
 
     @property
     def tier(self) -> str:
-        """What it is written in."""
+        """The language that it is written in."""
         return str(self.line.tier)
 
     @property
@@ -300,17 +299,17 @@ class MeasuredMethod:
 
     @property
     def asked(self) -> int:
-        """The answers that were judged, on all workloads."""
+        """The number of judged answers, on all workloads."""
         return sum(line.asked for line in self.accuracy.values())
 
     @property
     def wrong(self) -> int:
-        """Those that were wrong."""
+        """The number of wrong answers, on all workloads."""
         return sum(line.wrong for line in self.accuracy.values())
 
     @property
     def never_wrong(self) -> bool:
-        """Whether it promises that, and kept it on every row it was asked about."""
+        """Whether it promises to be exact, and was right about every row."""
         return self.exact and self.asked > 0 and self.reliable_above == 0
 
     @property
@@ -319,13 +318,13 @@ class MeasuredMethod:
         return max((float(line.reliable_above) for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:
-        """Its time by that of the reference method; None where it was not timed or not compared."""
+        """Its time divided by that of the reference method; None if it was not timed or not compared."""
         line = self.speed.get((workload, mode))
         return None if line is None or line.ratio is None or lost(line) else float(line.ratio)
 
 
 def lost(line: SpeedLine) -> bool:
-    """Whether a line of kind speed has no time: the call itself took as long as an empty one."""
+    """Whether a speed line has no time, because a call took no longer than an empty one."""
     return float(line.median_ns) <= LEAST_NS
 
 
@@ -346,7 +345,7 @@ def measured_methods(record: Record) -> list[MeasuredMethod]:
 
 
 def workloads(record: Record) -> dict[str, WorkloadLine]:
-    """The workloads by name, in the order of the record; also those that are measured and not described."""
+    """The workloads by name, in the order of the record, also those that are measured but not described."""
     found = {line.workload: line for line in record.of(WorkloadLine)}
     judged, timed = record.of(AccuracyLine), record.of(SpeedLine)
     for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
@@ -355,19 +354,19 @@ def workloads(record: Record) -> dict[str, WorkloadLine]:
 
 
 def principal(record: Record) -> str:
-    """The workload that has cases at every distance from contact; the first where it was not measured."""
+    """The workload that has cases at every distance from contact; the first one if it was not measured."""
     known = workloads(record)
     return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
 
 
 def reference(record: Record) -> str | None:
-    """The method by whose time every other's is divided, where the record says which."""
+    """The name of the reference method, if the record has one."""
     named = record.header.options.get("reference")
     return None if named is None else str(named)
 
 
 def noise_floor(record: Record, workload: str, mode: str) -> float | None:
-    """The relative difference below which two times of this run are not told apart."""
+    """The relative difference below which two times of this run count as equal."""
     floors = [line.floor for line in record.of(NoiseLine) if (line.workload, line.mode) == (workload, mode)]
     return float(floors[0]) if floors else None
 

@@ -1,4 +1,4 @@
-"""summary.json: what a program wants to know of a run; its schema is schemas/summary-1.2.0.json beside this file."""
+"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.2.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ Units = Annotated[Unsigned, Meta(description="A backward error in units u of the
 CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]
 Exact = Annotated[bool, Meta(description="It promises never to be wrong; the run fails where it is.")]
 Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
-"""Each with what the schema says of it."""
+"""Types with the descriptions that the schema gives."""
 
 
 class OracleSummary(LinePart, frozen=True, kw_only=True):
@@ -77,7 +77,7 @@ class OracleSummary(LinePart, frozen=True, kw_only=True):
 
 
 class Equations(LinePart, frozen=True, kw_only=True):
-    """The numbers of the paper's displayed formulas, by what the derivation says of them."""
+    """The numbers of the paper's displayed formulas, by the verdict of the derivation."""
 
     holds: list[str]
     misprint: list[str]
@@ -85,7 +85,7 @@ class Equations(LinePart, frozen=True, kw_only=True):
 
 
 class Proofs(LinePart, frozen=True, kw_only=True):
-    """How many quantities of formulas were to be proved, and how many are."""
+    """How many quantities of formulas must be proved, and how many are."""
 
     asked: Count
     hold: Count
@@ -102,7 +102,7 @@ class Findings(LinePart, frozen=True, kw_only=True):
 
 
 class Mistakes(LinePart, frozen=True, kw_only=True, rename="kebab"):
-    """What the wrong and the tolerated answers mean to whoever relies on them."""
+    """Wrong and tolerated answers by the kind of mistake."""
 
     false_clear: Count
     false_contact: Count
@@ -110,7 +110,7 @@ class Mistakes(LinePart, frozen=True, kw_only=True, rename="kebab"):
 
 
 class FamilySummary(LinePart, frozen=True, kw_only=True):
-    """What came of an implementation's cases of one family."""
+    """An implementation's cases of one family."""
 
     asked: Count
     right: Count
@@ -123,7 +123,7 @@ class FamilySummary(LinePart, frozen=True, kw_only=True):
 
 
 class Claims(LinePart, frozen=True, kw_only=True):
-    """Only of implementations under test: what it declares, or what it was judged as."""
+    """What an implementation under test declares, or what it was judged as."""
 
     question: Question
     precision: Precision
@@ -131,7 +131,7 @@ class Claims(LinePart, frozen=True, kw_only=True):
 
 
 class ImplementationSummary(LinePart, frozen=True, kw_only=True):
-    """An implementation that was judged; one under test also has what it declares and what asking it cost."""
+    """An implementation that was judged; one under test also has its declaration, restarts and retests."""
 
     name: str
     spec: str
@@ -155,7 +155,7 @@ class ImplementationSummary(LinePart, frozen=True, kw_only=True):
 
 
 class TimingSummary(LinePart, frozen=True, kw_only=True):
-    """What a contender takes; `ratio`: by the plain formula's time in the same rounds; null: that was not timed."""
+    """The time of a contender; `ratio`: to the plain formula's time in the same rounds; null: that was not timed."""
 
     name: str
     workload: str
@@ -204,7 +204,7 @@ class MethodSummary(LinePart, frozen=True, kw_only=True):
 
 
 class FailureSummary(LinePart, frozen=True, kw_only=True):
-    """Something that failed the run, and for how many of its kind it stands."""
+    """A failure of the run, and how many of its kind it stands for."""
 
     subject: Annotated[str, one_of("proof", "oracle", "implementation", "findings", "measurement")]
     name: str
@@ -255,7 +255,7 @@ def schema() -> Fields:
 
 
 def render(record: Record) -> bytes:
-    """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 has not, becomes a question mark."""
+    """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 cannot hold, becomes a question mark."""
     text = json.dumps(as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")
 

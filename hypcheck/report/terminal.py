@@ -1,9 +1,4 @@
-"""The end of a run on the terminal: how it ended, what failed, what was found and where the reports are.
-
-What a run found, in a few sentences without a full stop, for reports that are short.
-
-The end of a run on the terminal: how it ended, what failed, what was found and where the reports are.
-"""
+"""The summary of a run on the terminal: how it ended, what failed, what was found, and where the reports are."""
 
 from __future__ import annotations
 
@@ -13,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 import click
 
-from hypcheck.messages import escaped
+from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
 from hypcheck.record.measurements import AbsentLine, BoundingLine, CostLine, KernelLine, SpeedLine, UnmeasuredLine
@@ -29,7 +24,7 @@ from hypcheck.report.changes import (
 )
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.formats import WrittenReport
-from hypcheck.report.messages import counted, figure, implementation_claims, listed, settings_facts, tolerance_of
+from hypcheck.report.messages import figure, implementation_claims, listed, settings_facts, tolerance_of
 from hypcheck.report.model import (
     NEAREST,
     ImplementationTotal,
@@ -46,7 +41,7 @@ from hypcheck.report.verdict import failures, verdict
 
 
 def oracle_facts(record: Record) -> Iterator[str]:
-    """One line for the oracles that were asked, one for those that could not be."""
+    """One sentence about the oracles that were asked, one about those that could not be asked."""
     totals = oracle_totals(record)
     asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
     if asked:
@@ -78,7 +73,7 @@ def paper_facts(record: Record) -> Iterator[str]:
 
 
 def method_facts(record: Record) -> Iterator[str]:
-    """For each precision how many methods err beyond the tolerance, and the answer that is farthest from right."""
+    """For each precision: how many methods err beyond the tolerance, and the greatest backward error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
     found = [each for each in implementations(record) if each.asked]
@@ -88,29 +83,29 @@ def method_facts(record: Record) -> Iterator[str]:
         yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond {beyond}; {_farthest(methods)}"
 
 
-_ALSO = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a known failure)"}
-"""What is said of the answer farthest off by its status: why it may not count as beyond the tolerance."""
+_REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a known failure)"}
+"""Remarks about the worst answer by its status: why it may not count as beyond the tolerance."""
 
 
 def _farthest(methods: Sequence[ImplementationTotal]) -> str:
-    """The answer with the greatest backward error; that none is wrong is said only where one was judged."""
+    """The answer with the greatest backward error, or that no answer is wrong, if one was judged."""
     method = max(methods, key=lambda each: worst_error_u(each.worst))
     worst = method.worst
     if worst is not None:
-        also = _ALSO.get(worst.status, f" ({worst.status})")
+        also = _REMARKS.get(worst.status, f" ({worst.status})")
         return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
-    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_ALSO))
+    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_REMARKS))
     return "no answer is wrong" if judged else "no answer was judged"
 
 
 def claim_facts(record: Record) -> Iterator[str]:
-    """What the paper's claims of cost came to."""
+    """The verdicts on the paper's claims of cost."""
     for line in record.of(CostLine):
         yield f"claim {line.verdict}, {line.scene}: {line.claim}"
 
 
 def benchmark_facts(record: Record) -> Iterator[str]:
-    """What targets came to, what other shapes cost, where errors end and where they do not."""
+    """Targets met, the price of other shapes, and the distances at which errors end."""
     kernels = record.of(KernelLine)
     if kernels:
         missed = [str(line.name) for line in kernels if not line.met]
@@ -126,12 +121,12 @@ def benchmark_facts(record: Record) -> Iterator[str]:
 
 
 def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iterator[str]:
-    """Where the errors of methods in floats end on a workload; who errs at any distance, or who does not, by name."""
+    """The distances at which errors of methods in floats end on a workload; methods that err at any distance."""
     ends = {each: float(each.accuracy[workload].reliable_above) for each in found}
     most = max((each.accuracy[workload].asked for each in found), default=0)
     for precision in ("float64", "float32"):
         mine = {each: end for each, end in ends.items() if each.line.precision == precision and end < math.inf}
-        # Who was asked a few rows alone would seem to err less.
+        # A method that was asked only a few rows would seem to err less.
         mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload].asked >= most}
         if mine and max(mine.values()):
             best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
@@ -159,17 +154,17 @@ def _end(distance: float) -> str:
 MOST_LINES = 25
 
 MOST_FAILURES = 8
-"""Failures shown one by one; report.md has more of them and junit.xml all."""
+"""Failures that are listed; report.md has more of them, and junit.xml all."""
 
 MOST_CONDITIONS = 3
-"""Differences between two runs, other than what came of them, that are shown one by one."""
+"""Differences in the conditions of two runs that are listed."""
 
 WIDTH = 160
-"""Characters of a line on a terminal; longer ones are cut, the verdict apart. In a file or a pipe nothing is."""
+"""Characters of a line on a terminal; longer ones are cut, but not the verdict, and nothing in a file or a pipe."""
 
 
 def render(record: Record, context: ReportContext | None = None) -> bytes:
-    """The lines as a file has them."""
+    """The summary as a file."""
     return "".join(
         f"{line}\n" for line in summary_lines(record, (), against=context.against if context else None)
     ).encode("utf-8", "replace")
@@ -221,7 +216,7 @@ def _failures(record: Record) -> Iterator[str]:
 
 
 def _changes(record: Record, against: Record) -> Iterator[str]:
-    """What is not as it was in another record, the most important of each kind by name."""
+    """The changes against another record, the most important of each kind by name."""
     yield f"against the run of {against.header.started}, which ended: {verdict(against).sentence}"
     statuses, ratios = status_changes(against, record), ratio_changes(against, record)
     accuracies = accuracy_changes(against, record)
@@ -242,7 +237,7 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
 
 
 def _under_test(record: Record) -> Iterator[str]:
-    """What gated implementations say of themselves, and as what they were judged where that is something else."""
+    """What gated implementations declare, and what they were judged as."""
     for tested in under_test(record):
         yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line))
 
@@ -254,7 +249,7 @@ def _timings(record: Record) -> Iterator[str]:
 
 
 def _advice(record: Record) -> Iterator[str]:
-    """What a benchmark advises."""
+    """The advice of a benchmark."""
     for each in recommendations(record).advice:
         ratio = each.use.ratio(each.workload, each.need.mode) or 0.0
         where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
@@ -263,12 +258,12 @@ def _advice(record: Record) -> Iterator[str]:
 
 
 def _absent(record: Record) -> Iterator[str]:
-    """What was left out because something is not there, and what would bring it."""
+    """What was left out because something is not installed."""
     yield from (f"left out: {line.reason}" for line in record.of(AbsentLine))
 
 
 def _unmeasured(record: Record) -> Iterator[str]:
-    """What could not be timed, and how many samples of what could be were impossible."""
+    """What could not be timed, and how many samples were dropped as impossible."""
     for line in record.of(UnmeasuredLine):
         yield f"not measured: {line.method} on {line.workload}, {line.mode}: {line.reason}"
     dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]
@@ -279,7 +274,7 @@ def _unmeasured(record: Record) -> Iterator[str]:
 
 
 def _reports(written: Sequence[WrittenReport]) -> Iterator[str]:
-    """Where the reports are, and which are missing and why."""
+    """The folders of the reports, and the reports that are missing, with the reason."""
     folders: dict[str, list[str]] = {}
     for each in written:
         if each.skipped is None:

@@ -1,14 +1,8 @@
-"""How a run ended, in one sentence, and every failure behind it, from the record's own lines.
+"""How a run ended, in one sentence, and every failure behind it, from the lines of the record.
 
-One thing that fails a run, in the words of every report.
-
-What fails a benchmark, and what it shows where nothing does.
-
-How the run ended, in one sentence, and what failed it: no more than the record's own lines say.
-
-A misprint in the paper or a wrong answer of one of its procedures is a finding and fails nothing. What fails a run is a
-proof that does not hold, oracles that disagree, a method that promises to be exact and errs or any method that breaks
-down, and findings other than the known ones.
+A misprint in the paper or a wrong answer of one of its procedures is a finding and no failure. A run fails if a proof
+does not hold, oracles disagree, a method that promises to be exact errs, a method breaks down, findings differ from the
+known ones, an implementation under test errs, or a benchmark misses a target.
 """
 
 from __future__ import annotations
@@ -19,11 +13,12 @@ from dataclasses import dataclass
 from itertools import chain
 
 from hypcheck.geometry.pair import Position
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
-from hypcheck.report.messages import Replays, classify_command, counted, figure, from_hex, listed, with_interval
+from hypcheck.report.messages import Replays, classify_command, figure, from_hex, listed, with_interval
 from hypcheck.report.model import (
     ImplementationTotal,
     MeasuredMethod,
@@ -44,10 +39,15 @@ from hypcheck.runs.judge import UNANSWERED, in_words
 class Failure:
     """One thing that fails a run.
 
-    `subject` is "proof", "oracle", "implementation", "findings" or "measurement"; `name` says which, `group` the
-    family, the quantity or the workload, and `kind` is one word for what happened. `case` is the first case to look at,
-    if there is one, `place` where the record has it and `replay` the command that shows it; `count` is how many of its
-    kind it stands for.
+    subject: "proof", "oracle", "implementation", "findings" or "measurement".
+    name: the one that failed.
+    group: the family, the quantity or the workload.
+    kind: one word for what happened.
+    message: one sentence about it, without a full stop.
+    case: the id of the first case, if there is one.
+    place: its place in the record.
+    replay: the command that shows it.
+    count: how many failures of its kind it stands for.
     """
 
     subject: str
@@ -67,11 +67,11 @@ WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
 """Types of lines that a run can have without comparing methods on rows."""
 
 SLOWER, INCONCLUSIVE = "slower", "inconclusive"
-"""Kinds of failures of speed: for certain, and as far as the noise lets tell."""
+"""Kinds of failures of speed: certain, and too noisy to tell."""
 
 
 def benchmark_failures(record: Record) -> Iterator[Failure]:
-    """Promises of exactness that were broken, answers that were other ones while they were timed, slowness, noise."""
+    """Exact methods that erred, answers that changed while they were timed, slowness, noise."""
     for each in measured_methods(record):
         if each.exact:
             yield from _broken_exactness(each)
@@ -84,7 +84,7 @@ def benchmark_failures(record: Record) -> Iterator[Failure]:
 
 
 def _scene_failures(record: Record) -> Iterator[Failure]:
-    """Wrong answers about a forest from what is exact, and about a scene from its kernel."""
+    """Wrong answers of exact methods about a forest, and of a scene's kernel."""
     for line in record.of(ForestLine):
         if line.exact and line.wrong:
             wrong = f"of {counted(line.asked, 'step')} {line.wrong:,} wrong"
@@ -117,9 +117,9 @@ def _wrong_counts(line: AccuracyLine) -> str:
 
 
 def _baseline_failures(record: Record) -> Iterator[Failure]:
-    """Speeds that were held to an earlier run's; a run of which none could be has not passed."""
+    """Speeds compared with the baseline; a run in which none could be compared has not passed."""
     if record.header.options.get("baseline") and not any(line.gates for line in record.of(ComparisonLine)):
-        message = "nothing is held to the baseline: no time of what is to be held to it was measured in both runs"
+        message = "nothing was compared with the baseline: no gated time was measured in both runs"
         yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)
     for line in record.of(ComparisonLine):
         if line.verdict in (SLOWER, INCONCLUSIVE) and line.gates:
@@ -131,7 +131,7 @@ def _baseline_failures(record: Record) -> Iterator[Failure]:
 
 
 def _target_failures(record: Record) -> Iterator[Failure]:
-    """Kernels that miss their targets, for certain or as far as the noise lets tell."""
+    """Kernels that miss their targets, certainly or within the noise."""
     for line in record.of(KernelLine):
         if not line.met:
             low, high = line.ci95 or (line.measured, line.measured)
@@ -142,13 +142,13 @@ def _target_failures(record: Record) -> Iterator[Failure]:
 
 
 def benchmark_clauses(record: Record) -> Iterator[str]:
-    """What a benchmark in which nothing failed has shown."""
+    """Clauses about a benchmark in which nothing failed."""
     yield from _method_clauses(record)
     yield from _other_clauses(record)
 
 
 def _method_clauses(record: Record) -> Iterator[str]:
-    """What was compared on rows."""
+    """Clauses about methods that were compared on rows."""
     found = [each for each in measured_methods(record) if each.asked or each.speed]
     if not found:
         return
@@ -165,7 +165,7 @@ def _method_clauses(record: Record) -> Iterator[str]:
 
 
 def _other_clauses(record: Record) -> Iterator[str]:
-    """What was measured without comparing methods on rows."""
+    """Clauses about measurements other than the comparison of methods on rows."""
     targets = record.of(KernelLine)
     if targets:
         met = sum(bool(line.met) for line in targets)
@@ -189,7 +189,7 @@ MEANINGS = {
     130: "interrupted",
     143: "terminated",
 }
-"""What an exit code means, for the case that no other line of the record explains it."""
+"""The meaning of an exit code, if no other line of the record explains it."""
 
 EXITS_UNFINISHED = (70, 130, 143)
 """The exit codes of runs that stopped before their end."""
@@ -198,12 +198,12 @@ EXIT_INCONCLUSIVE = 4
 """The exit code of a run that neither passed nor failed."""
 
 HARMLESS = ("right", "skipped")
-"""How a case may end under a method that promises to be exact."""
+"""Statuses of cases that do not break the promise of an exact method."""
 
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Whether the run passed, in a bool and in a sentence; a run without its end has not."""
+    """Whether the run passed, and a sentence about how it ended; a run without its end has not passed."""
 
     passed: bool
     sentence: str
@@ -257,7 +257,7 @@ def _starts(record: Record) -> Iterator[Failure]:
 
 
 def _abstentions(record: Record) -> Iterator[Failure]:
-    """What fails an implementation as a whole and no family of its own: abstentions, answers that change."""
+    """Failures of an implementation as a whole: abstentions, answers that change."""
     for tested in under_test(record):
         for trouble in [] if isinstance(tested.line, NotStartedLine) else tested.line.troubles:
             yield Failure("implementation", tested.name, "all families", "behaviour", trouble)
@@ -272,7 +272,7 @@ def _implementations(record: Record) -> Iterator[Failure]:
 
 
 def _breaks_promise(line: GroupLine, status: str) -> bool:
-    """Whether a status fails a method of the project itself; of a gated one the record says what fails it."""
+    """Whether a status fails a built-in method; for a gated implementation the record names failing statuses."""
     return status not in HARMLESS if line.exact else status in UNANSWERED
 
 
@@ -363,13 +363,13 @@ def _passed(record: Record) -> Verdict:
 
 
 def _gated_clause(each: ImplementationTotal) -> str:
-    """What a gated implementation has shown: how its cases ended, skipped ones apart."""
+    """How the cases of a gated implementation ended, without skipped ones."""
     ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
     return f"{each.name}: {ended}; worst backward error {figure(worst_error_u(each.worst))} u"
 
 
 def _oracle_clause(totals: list[OracleTotal]) -> str:
-    """What the oracles show together; of one alone no agreement is claimed."""
+    """The agreement of the oracles; a single oracle shows none."""
     undecided = sum(total.undecided for total in totals)
     doubt = f", {undecided:,} undecided" if undecided else ""
     if len(totals) == 1:

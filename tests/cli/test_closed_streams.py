@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 
-def test_what_cannot_be_told_on_a_closed_standard_error_is_not_told_on_standard_output():
+def test_errors_on_a_closed_standard_error_do_not_go_to_standard_output():
     words = [sys.executable, "-m", "hypcheck", "classify", "--input", "no-such-file.csv", "--output", "-"]
     done = subprocess.run(words, stdout=subprocess.PIPE, preexec_fn=lambda: os.close(2), check=False)
     assert (done.returncode, done.stdout) == (2, b"")

@@ -36,7 +36,7 @@ TABLE = ["classify", "--input", "-", "--format", "csv"]
 BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
 
-def test_the_numbers_are_those_that_scripts_depend_on():
+def test_exit_codes_keep_their_numbers():
     assert {code.name: int(code) for code in Exit} == {
         "HELD": 0,
         "WRONG": 1,
@@ -53,7 +53,7 @@ def test_the_numbers_are_those_that_scripts_depend_on():
     assert all(code.meaning for code in Exit)
 
 
-def test_of_several_reasons_the_first_that_applies_is_told():
+def test_of_several_exit_codes_the_first_in_precedence_applies():
     order = [130, 70, 2, 6, 5, 1, 3, 4, 0]
     for first, second in permutations(order, 2):
         assert first_that_applies([first, second]) == min(first, second, key=order.index)
@@ -69,11 +69,11 @@ def test_an_expected_error_is_its_own_sentence_and_code(kind):
     assert ending.lines == ("hypcheck: error: a.csv: what is wrong",)
 
 
-def test_no_message_commands_a_terminal():
+def test_messages_escape_control_characters():
     assert ending_of(InputError("a\x1b[31m\udc80 α")).lines == ("hypcheck: error: a\\x1b[31m\\udc80 α",)
 
 
-def test_a_full_disk_is_no_fault_of_ours():
+def test_a_full_disk_ends_2_and_is_no_internal_error():
     assert ending_of(OSError(28, "No space left on device")).code == Exit.USAGE
     assert ending_of(OSError("something else")).code == Exit.INTERNAL
 
@@ -97,7 +97,7 @@ def test_a_full_disk_is_no_fault_of_ours():
         (["classify", "extra"], "extra"),
     ],
 )
-def test_wrong_usage_is_one_sentence_and_where_to_look(arguments, sentence, capsys):
+def test_wrong_usage_prints_one_sentence_and_where_to_find_help(arguments, sentence, capsys):
     assert main(arguments) == Exit.USAGE
     output, errors = capsys.readouterr()
     message, hint = errors.splitlines()
@@ -114,7 +114,7 @@ def _commands(arguments):
 
 
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
-def test_a_gate_ends_as_it_must_though_a_stream_is_closed(stream, monkeypatch, tmp_path):
+def test_verify_ends_with_its_code_even_if_a_standard_stream_is_closed(stream, monkeypatch, tmp_path):
     monkeypatch.setattr(sys, stream, None)  # as Python has it where the descriptor is closed
     arguments = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "0", "--out", str(tmp_path)]
     assert main(arguments) == Exit.WRONG
@@ -132,7 +132,7 @@ class Terminal(StringIO):
     ("environment", "coloured"),
     [({}, True), ({"NO_COLOR": "1"}, False), ({"NO_COLOR": ""}, True), ({"TERM": "dumb"}, False)],
 )
-def test_a_terminal_is_coloured_unless_nobody_wants_that(environment, coloured, monkeypatch):
+def test_a_terminal_is_coloured_unless_the_environment_forbids_it(environment, coloured, monkeypatch):
     monkeypatch.delenv("NO_COLOR", raising=False)
     for name, value in ({"TERM": "xterm"} | environment).items():
         monkeypatch.setenv(name, value)
@@ -177,7 +177,7 @@ def test_debug_shows_the_traceback(monkeypatch, capsys):
     assert "Traceback" in capsys.readouterr().err
 
 
-def test_the_handler_of_termination_is_put_back():
+def test_main_restores_the_handler_of_sigterm():
     before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
     try:
         main(["--version"])
@@ -186,7 +186,7 @@ def test_the_handler_of_termination_is_put_back():
         signal.signal(signal.SIGTERM, before)
 
 
-def test_a_terminal_that_is_left_ends_no_run_that_is_to_go_on():
+def test_a_closed_terminal_does_not_end_a_run_that_ignores_sighup():
     """As nohup has it."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
@@ -260,7 +260,7 @@ sys.exit(main(["classify"]))
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
 @pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"]])
-def test_a_full_output_is_told_in_one_line(arguments):
+def test_a_full_output_ends_with_one_line(arguments):
     rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
     with open("/dev/full", "wb") as full:
         words = [*HYPCHECK, *arguments]
@@ -270,7 +270,7 @@ def test_a_full_output_is_told_in_one_line(arguments):
     assert b"no space left" in done.stderr
 
 
-def test_a_system_that_gives_no_more_is_no_fault_of_ours():
+def test_a_limit_of_the_system_ends_2_and_is_no_internal_error():
     ending = ending_of(OSError(errno.EMFILE, os.strerror(errno.EMFILE)))
     assert ending.code == Exit.USAGE
     assert ending.lines == ("hypcheck: error: a limit of the system is reached: too many open files; see `ulimit -a`",)
@@ -297,7 +297,7 @@ def test_an_interrupted_run_leaves_nothing_half_written(number, code, tmp_path):
     assert target.read_text() == "what was there"
 
 
-def test_a_terminal_without_greek_gets_its_answer():
+def test_an_encoding_without_greek_gets_escapes():
     environment = os.environ | {"PYTHONIOENCODING": "latin-1"}
     done = subprocess.run([*HYPCHECK, *PAIR], env=environment, capture_output=True, check=True)
     assert b"\\u03bb" in done.stdout

@@ -21,7 +21,7 @@ def run(*words, **environment):
     )
 
 
-def test_a_program_reads_the_kernel_the_header_and_the_oracles():
+def test_info_json_has_the_kernel_the_header_and_the_oracles():
     done = run("--json", HYPCHECK_KERNEL="numpy", HYPCHECK_THREADS="3")
     found = json.loads(done.stdout)
     assert found["hypcheck"] == hypcheck.__version__
@@ -32,14 +32,14 @@ def test_a_program_reads_the_kernel_the_header_and_the_oracles():
     assert set(found["versions"]) >= {"numpy", "sympy", "click"}
 
 
-def test_people_read_the_same():
+def test_info_text_shows_the_same_as_json():
     done = run(HYPCHECK_KERNEL="numpy")
     assert done.returncode == 0
     assert "kernel     numpy, up to 1 thread: HYPCHECK_KERNEL asks for it\n" in done.stdout
     assert "mesh: available\n" in done.stdout or "mesh: not available: " in done.stdout
 
 
-def test_an_environment_that_cannot_be_followed_is_bad_input():
+def test_info_with_an_invalid_environment_variable_ends_2():
     for name, value in (("HYPCHECK_KERNEL", "fast"), ("HYPCHECK_THREADS", "-1"), ("HYPCHECK_THREADS", "two")):
         done = run(**{name: value})
         assert (done.returncode, done.stdout) == (2, "")

@@ -34,7 +34,7 @@ def test_a_whole_number_is_read_exactly(text, number):
 @pytest.mark.parametrize(
     "text", ["", " ", "1.5", "1e-1", "-1", "+1", "1__0", "_1", "1_", "e9", "1e", "1e999", "0x10", "٣", "inf", "1" * 30]
 )
-def test_anything_else_is_none(text):
+def test_other_texts_are_no_whole_numbers(text):
     assert integer_of(text) is None
 
 
@@ -53,7 +53,7 @@ def test_digits_are_read_as_python_reads_them(number):
         ("--seed", "9223372036854775808", "at least 0 and at most 9223372036854775807"),
     ],
 )
-def test_what_is_out_of_range_is_refused_in_one_sentence(option, text, wanted, capsys):
+def test_a_whole_number_out_of_range_is_refused_in_one_sentence(option, text, wanted, capsys):
     assert main(["verify", "builtin:fast", option, text]) == 2
     said = capsys.readouterr().err.splitlines()[0]
     assert said == f"hypcheck: error: invalid value for '{option}': '{text}' must be a whole number, {wanted}"
@@ -65,11 +65,11 @@ def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
-def test_the_size_of_a_run_is_that_of_its_chunks(families):
+def test_the_planned_size_of_a_run_is_the_sum_of_its_chunks(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
     some = [chunk for family in select(plan.families) for chunk in family_chunks(family, plan.seed, plan.count)]
     assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks())]))
 
 
-def test_a_run_of_any_size_is_sized_at_once():
+def test_the_size_of_a_huge_run_is_computed_without_its_chunks():
     assert planned_size(ConformancePlan(("builtin:fast",), families=("ring",), count=10**15)) > 10**15

@@ -87,7 +87,7 @@ def test_every_setting_reaches_the_run(project):
     }
 
 
-def test_every_key_is_an_option_of_the_commands_that_go_by_it(project):
+def test_every_key_is_an_option_of_the_commands_that_read_it(project):
     for name in COMMANDS:
         module, _, attribute = ALL_COMMANDS[name].partition(":")
         parameters = {each.name for each in getattr(import_module(module), attribute).params}
@@ -96,14 +96,14 @@ def test_every_key_is_an_option_of_the_commands_that_go_by_it(project):
     assert set(read_settings(Path(FILE)).options) | {"specs"} == set(_KEYS)
 
 
-def test_the_command_line_goes_before_it(project):
+def test_the_command_line_takes_precedence_over_the_settings_file(project):
     project('specs = ["builtin:hessian-float64"]\nfamilies = "ring"\ncount = 3\nseed = 4\n')
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--seed", "5", "--out", "here"]) == 0
     said = options("here")
     assert (said["specs"], said["families"], said["count"], said["seed"]) == (["builtin:fast"], ["tower-body"], 3, 5)
 
 
-def test_it_can_be_left_aside(project):
+def test_no_settings_ignores_the_settings_file(project):
     project("count = 'many'")
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
     assert main(["--no-settings", "verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
@@ -112,7 +112,7 @@ def test_it_can_be_left_aside(project):
 @pytest.mark.parametrize(
     "words", [["--help"], ["verify", "--help"], ["replay", "-h"], ["cases", "list"], ["--version"]]
 )
-def test_what_does_not_go_by_it_does_not_read_it(project, words):
+def test_commands_without_settings_do_not_read_the_file(project, words):
     project("nonsense")
     assert main(words) == 0
 
@@ -164,7 +164,7 @@ count = 2
 """
 
 
-def test_settings_that_weaken_the_gate_are_told_at_the_start_and_in_every_report(project, capsys):
+def test_settings_that_weaken_the_gate_are_shown_at_the_start_and_in_every_report(project, capsys):
     project(WEAK)
     assert main(["verify", "--count", "3", "--seed", "5", "--timeout", "60"]) == 0
     said = capsys.readouterr()
@@ -188,7 +188,7 @@ def test_settings_that_weaken_the_gate_are_told_at_the_start_and_in_every_report
     assert f"S{told[1:]}." in html.unescape((folder / "report.md").read_text()).replace("\\", "")
 
 
-def test_a_run_as_strict_as_the_defaults_tells_nothing_of_settings(project, capsys):
+def test_a_run_as_strict_as_the_defaults_shows_no_settings(project, capsys):
     project("")
     Path(FILE).unlink()
     assert main(["verify", "builtin:fast", "--seed", "3", "--count", "400", "--tolerance", "8", "--out", "out"]) == 0
@@ -198,14 +198,14 @@ def test_a_run_as_strict_as_the_defaults_tells_nothing_of_settings(project, caps
 
 
 @pytest.mark.parametrize(("families", "weaker"), [("*", False), ("*,ring", False), ("extreme", True), ("ring", True)])
-def test_a_choice_of_families_weakens_the_gate_only_where_it_leaves_out_one(project, families, weaker):
+def test_a_choice_of_families_weakens_the_gate_only_if_it_leaves_out_one(project, families, weaker):
     context = verify.make_context("verify", ["builtin:fast", "--families", families])
     with context:
         found = in_effect(context)
     assert [each.option for each in (found.weakened if found else [])] == ["--families"] * weaker
 
 
-def test_replay_tells_the_settings_that_weaken_its_judgement(project, capsys):
+def test_replay_shows_the_settings_that_weaken_its_judgement(project, capsys):
     project("tolerance = 1e9\n")
     main(["replay", "ring-0001", "builtin:fast", "--question", "exterior"])
     (line,) = capsys.readouterr().err.splitlines()
@@ -230,14 +230,14 @@ def test_replay_judges_as_verify_does(project, capsys):
     assert json.loads(capsys.readouterr().out)["used"]["precision"] == "float64"
 
 
-def test_a_hunt_keeps_its_own_seed_and_place(project):
+def test_hunt_ignores_seed_and_out_of_the_settings_file(project):
     project(ALL)
     found = read_settings(Path(FILE)).default_map
     assert set(found["hunt"]) == set(found["minimise"]) == set(found["replay"]) == set(ABOUT_ONE)
     assert set(found["verify"]) == set(_KEYS) - {"specs"}
 
 
-def test_without_the_file_nothing_changes(tmp_path, monkeypatch):
+def test_verify_without_a_settings_file_uses_the_defaults(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert read_settings(Path(FILE)) is None
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
@@ -285,7 +285,7 @@ def test_without_the_file_nothing_changes(tmp_path, monkeypatch):
         ("a = " + "[" * 100_000, "is no TOML"),
     ],
 )
-def test_what_cannot_be_is_refused(project, capsys, text, message):
+def test_an_invalid_setting_is_refused_naming_line_and_key(project, capsys, text, message):
     project(text)
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
     said = capsys.readouterr().err
@@ -294,7 +294,7 @@ def test_what_cannot_be_is_refused(project, capsys, text, message):
     assert len(said.splitlines()) == 1
 
 
-def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
+def test_a_settings_file_that_cannot_be_read_is_refused(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path(FILE).write_bytes(b"out = '\xff'")
     assert main(["verify", "builtin:fast"]) == 2
@@ -317,7 +317,7 @@ def test_a_file_that_is_none(tmp_path, monkeypatch, capsys):
         max_size=4,
     )
 )
-def test_any_value_is_taken_or_refused(values):
+def test_any_value_of_a_setting_is_accepted_or_refused_in_one_sentence(values):
     """Nothing that TOML can hold ends otherwise than in settings or in a sentence."""
     with (
         mock.patch.object(toml, "text_of", return_value=""),
@@ -332,7 +332,7 @@ def test_any_value_is_taken_or_refused(values):
 
 
 @pytest.mark.parametrize("language", ["python", "c"])
-def test_what_init_writes_is_understood(tmp_path, monkeypatch, language):
+def test_settings_that_init_writes_are_read(tmp_path, monkeypatch, language):
     monkeypatch.chdir(tmp_path)
     assert main(["init", "--language", language]) == 0
     written = Path(FILE).read_text(encoding="utf-8")
@@ -352,7 +352,7 @@ def test_what_init_writes_is_understood(tmp_path, monkeypatch, language):
     }
 
 
-def test_what_init_writes_for_python_is_gated_by_its_settings(tmp_path):
+def test_verify_gates_the_python_project_of_init_by_its_settings(tmp_path):
     environment = {"PYTHONPATH": str(Path(__file__).parents[2]), "PATH": ""}
     run = {"cwd": tmp_path, "env": environment, "capture_output": True, "text": True}
     subprocess.run([*COMMAND, "init", "--language", "python"], check=True, **run)

@@ -43,7 +43,7 @@ def test_no_command_s_help_loads_anything_heavy():
     assert loaded(f"{each}; assert not any([main([name, '--help']) for name in COMMANDS])") == set()
 
 
-def test_one_pair_needs_no_arrays():
+def test_classify_of_one_pair_loads_no_numpy():
     assert after(PAIR) <= {"mpmath"}
 
 
@@ -62,7 +62,7 @@ def test_one_pair_needs_no_arrays():
         ),
     ],
 )
-def test_a_command_loads_what_it_uses(arguments, allowed, tmp_path):
+def test_a_command_loads_only_libraries_that_it_uses(arguments, allowed, tmp_path):
     """A table of cases needs no oracle, a gate no derivation, and two oracles of four no mesh."""
     out, before = (["--out", str(tmp_path)], UNDRAWN) if arguments[0] == "verify" else ([], "")
     assert after([*arguments, *out], before) <= allowed | {"importlib.metadata"}
@@ -82,7 +82,7 @@ def test_using_the_package_loads_numpy_alone():
     assert loaded("import hypcheck; hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]])") <= {"numpy", "importlib.metadata"}
 
 
-def test_a_public_name_is_found_and_no_other():
+def test_only_public_names_of_the_package_are_found():
     import hypcheck
 
     assert {"classify", "classify_scene", "__version__"} <= set(dir(hypcheck))
@@ -102,7 +102,7 @@ def test_the_module_and_the_script_are_the_same_program():
     assert done.stdout == f"hypcheck {hypcheck.__version__}\n"
 
 
-def test_every_command_in_the_table_can_be_loaded_and_says_what_it_does():
+def test_every_command_in_the_table_loads_and_has_a_help_text():
     import click
 
     from hypcheck.cli.commands import COMMANDS, hypcheck

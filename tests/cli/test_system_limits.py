@@ -36,7 +36,7 @@ def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_pa
 
 
 @pytest.mark.parametrize("reason", [errno.EROFS, errno.ENOENT, errno.EACCES])
-def test_shared_memory_that_takes_no_semaphore_is_named(reason, monkeypatch, capsys):
+def test_missing_semaphores_are_reported_with_shared_memory_as_the_reason(reason, monkeypatch, capsys):
     class Context:
         def Lock(self):
             raise OSError(reason, os.strerror(reason))
@@ -49,7 +49,7 @@ def test_shared_memory_that_takes_no_semaphore_is_named(reason, monkeypatch, cap
     )
 
 
-def test_an_implementation_is_asked_without_a_null_device(monkeypatch):
+def test_an_implementation_runs_without_a_null_device(monkeypatch):
     monkeypatch.setattr(os, "devnull", "/missing/null")
     some = rows(lucky=True)
     with open_implementation(command("right"), LIMITS) as it:
@@ -65,7 +65,7 @@ process()
 """
 
 
-def test_a_missing_null_device_is_named_where_a_closed_stream_needs_it_and_else_not_needed():
+def test_a_missing_null_device_is_an_error_only_if_a_standard_stream_is_closed():
     words = [sys.executable, "-c", WITHOUT_NULL, "--version"]
     assert subprocess.run(words, capture_output=True, check=False).returncode == 0
     done = subprocess.run(["sh", "-c", 'exec "$@" <&-', "sh", *words], capture_output=True, text=True, check=False)  # noqa: S607
@@ -75,7 +75,7 @@ def test_a_missing_null_device_is_named_where_a_closed_stream_needs_it_and_else_
     assert done.returncode == 2
 
 
-def test_only_limits_of_the_system_are_taken_for_such():
+def test_only_errors_about_limits_become_system_limit_errors():
     assert isinstance(limit_reached(OSError(errno.EMFILE, "Too many open files")), SystemLimitError)
     assert limit_reached(PermissionError(errno.EACCES, "Permission denied")) is None
     assert limit_reached(InputError("")) is None

@@ -36,11 +36,11 @@ def outcome(data):
     return ("whole" if scan.footer else "truncated"), lines
 
 
-def test_as_written_it_is_whole(data):
+def test_a_record_as_written_is_complete(data):
     assert outcome(data) == ("whole", LINES)
 
 
-def test_every_change_of_one_byte_is_refused_but_that_of_the_last_line_end_which_reads_as_a_cut(data):
+def test_a_record_with_one_changed_byte_is_refused_except_at_the_last_line_end(data):
     for place, byte in enumerate(data):
         for other in range(256):
             if other == byte:
@@ -52,13 +52,13 @@ def test_every_change_of_one_byte_is_refused_but_that_of_the_last_line_end_which
                 assert (found, lines) == ("truncated", LINES[:-1])
 
 
-def test_a_cut_at_any_byte_is_truncated_with_the_lines_that_are_whole(data):
+def test_a_record_cut_at_any_byte_is_read_up_to_its_last_whole_line(data):
     for length in range(len(data)):
         whole = data.count(b"\n", 0, length)
         assert outcome(data[:length]) == (("truncated", LINES[:whole]) if whole else ("refused", []))
 
 
-def test_every_byte_lost_or_added_is_refused_where_it_is_not_a_cut_or_the_line_end_of_windows(data):
+def test_a_record_with_a_byte_lost_or_added_is_refused_except_for_cuts_and_windows_line_ends(data):
     for place in range(len(data)):
         found, lines = outcome(data[:place] + data[place + 1 :])
         assert found == "refused" or (place == len(data) - 1 and (found, lines) == ("truncated", LINES[:-1]))
@@ -69,7 +69,7 @@ def test_every_byte_lost_or_added_is_refused_where_it_is_not_a_cut_or_the_line_e
             assert found == "refused" or (harmless and (found, lines) == ("whole", LINES)), (place, added)
 
 
-def test_every_line_lost_doubled_or_moved_is_refused(data):
+def test_a_record_with_a_line_lost_doubled_or_moved_is_refused(data):
     lines = data.splitlines(keepends=True)
     for place in range(len(lines) - 1):
         assert outcome(b"".join(lines[:place] + lines[place + 1 :]))[0] == "refused"
@@ -81,7 +81,7 @@ def test_every_line_lost_doubled_or_moved_is_refused(data):
         assert outcome(b"".join(moved))[0] == "refused"
 
 
-def test_a_line_of_another_record_is_refused_where_its_own_number_would_fit(data):
+def test_a_line_from_another_record_is_refused_at_the_same_place(data):
     others = resealed([{"type": "header", "schema": "1.2.0", "seed": 2}, *LINES[1:]]).splitlines(keepends=True)
     lines = data.splitlines(keepends=True)
     for place in range(1, len(lines)):
@@ -92,14 +92,14 @@ def test_a_record_cannot_lose_its_checksums_by_calling_itself_older(data):
     assert outcome(data.replace(b"1.2.0", b"1.0.0"))[0] == "refused"
 
 
-def test_the_damage_is_told_with_its_byte(data):
+def test_damage_is_reported_with_its_byte(data):
     start = data.index(b"\n") + 1
     with pytest.raises(DamagedError, match=f"^it is damaged in line 2, at byte {start}: its checksum is") as caught:
         list(RecordScan(Reader(io.BytesIO(data.replace(b"\\\\", b"/\\")), "it")))
     assert caught.value.at == start
 
 
-def test_the_checksum_is_that_of_all_bytes_before_it_but_for_checksums_and_line_ends(data):
+def test_a_checksum_covers_all_bytes_before_it_except_checksums_and_line_ends(data):
     check = 0
     for line in data.splitlines():
         body, _, end = line.rpartition(b', "crc32": ')

@@ -22,7 +22,7 @@ def held(tmp_path):
     return out
 
 
-def test_reports_of_an_earlier_run_are_gone_while_a_run_goes_on_and_its_record_is_not(held):
+def test_a_new_run_removes_reports_of_the_earlier_run_and_keeps_its_record(held):
     before = (held / FILE).read_bytes()
     (held / "notes.txt").write_text("of the user")
     assert '"passed": true' in (held / "summary.json").read_text()
@@ -41,14 +41,14 @@ def killed(held):
 
 
 @pytest.mark.parametrize("named", ["", FILE])
-def test_record_check_ends_1_where_a_newer_run_has_not_finished(killed, capsys, named):
+def test_record_check_ends_1_if_a_newer_run_has_not_finished(killed, capsys, named):
     assert main(["record", "check", str(killed / named)]) == 1
     first, second = capsys.readouterr().out.splitlines()
     assert first.endswith("it is complete, of a run that ended with 0")
     assert second.startswith(f"this is an older run: {killed / GROWING} is of a newer run")
 
 
-def test_report_says_that_it_shows_an_older_run_and_how_to_go_on(killed, capsys):
+def test_report_of_an_older_run_says_so_and_how_to_resume_the_newer(killed, capsys):
     assert main(["report", str(killed)]) == 0
     said = capsys.readouterr()
     assert said.out.startswith("HELD")
@@ -58,7 +58,7 @@ def test_report_says_that_it_shows_an_older_run_and_how_to_go_on(killed, capsys)
 
 
 @pytest.mark.parametrize("words", [["report"], ["record", "check"]])
-def test_a_folder_with_nothing_but_an_unfinished_run_is_told_as_such(killed, capsys, words):
+def test_a_folder_with_only_an_unfinished_run_is_refused_with_that_reason(killed, capsys, words):
     (killed / FILE).unlink()
     assert main([*words, str(killed)]) == 2
     assert f"{FILE} is not there; {killed / GROWING} is of a newer run" in capsys.readouterr().err

@@ -69,7 +69,7 @@ def path(tmp_path):
     return tmp_path / "record.jsonl"
 
 
-def test_what_is_read_is_what_was_written(path):
+def test_a_record_is_read_back_as_it_was_written(path):
     record = written(path)
     assert read(path) == record
     domain = read(path).of(ImplementationLine)[0].used.domain
@@ -77,19 +77,19 @@ def test_what_is_read_is_what_was_written(path):
     assert '"ratio": [0.1, "inf"]' in path.read_text(encoding="utf-8")
 
 
-def test_without_a_footer_a_record_is_truncated(path):
+def test_a_record_without_a_footer_is_truncated(path):
     written(path, close=False)
     assert read(path).footer is None
     assert len(read(path).lines) == 1
 
 
-def test_lines_that_end_as_on_windows_are_the_same_lines(path):
+def test_windows_line_ends_do_not_change_a_record(path):
     record = written(path)
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     assert read(path) == record
 
 
-def test_a_text_that_utf_8_cannot_hold_comes_back(path):
+def test_a_lone_surrogate_in_a_record_is_read_back(path):
     stream = io.StringIO()
     recorder = Recorder(stream, {})
     recorder.add(DriftLine(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
@@ -120,7 +120,7 @@ def test_progress_is_read_as_the_first_versions_of_schema_1_3_wrote_it(path):
     assert (progress.state.done, progress.state.left.restarts, progress.program) == (3, 2, None)
 
 
-def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
+def test_a_record_of_a_newer_minor_version_is_read_without_its_additions(path):
     drift = {"type": "drift", "sentence": "odd", "new": {"n": [1]}}
     lines = [{**HEADER, "schema": "1.99.0", "new": [1]}, {"type": "novelty", "n": 1e300}, drift]
     path.write_bytes(resealed([*lines, {**FOOTER, "lines": 4}]))
@@ -164,13 +164,13 @@ def test_what_a_newer_minor_version_adds_is_left_out_and_the_rest_is_read(path):
         ((OLDER % "1.0.0").replace("group", "header"), "in line 2, at byte 38: it is a second header"),
     ],
 )
-def test_what_is_no_record_is_refused_naming_the_byte(path, text, message):
+def test_a_file_that_is_no_record_is_refused_naming_the_byte(path, text, message):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=message):
         read(path)
 
 
-def test_bytes_that_are_no_text_and_a_file_that_is_not_there_are_refused(path, tmp_path):
+def test_binary_data_and_missing_files_are_refused(path, tmp_path):
     path.write_bytes((OLDER % "1.0.0").encode().replace(b"group", b"gr\xffup"))
     with pytest.raises(InputError, match="in line 2, at byte 38: its byte 12 is no UTF-8"):
         read(path)

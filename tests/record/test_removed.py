@@ -27,7 +27,7 @@ PROGRESS = ProgressLine(number=0, declared=decoded(DESCRIPTION, DescriptionPart)
 
 @pytest.mark.parametrize("end", [None, KeyboardInterrupt, NothingJudgedError("nothing")])
 @pytest.mark.parametrize("gone", ["folder", "file", "another"])
-def test_a_record_that_somebody_removed_meanwhile_is_written_again(tmp_path, gone, end):
+def test_a_record_that_is_removed_during_its_run_is_written_again(tmp_path, gone, end):
     out = tmp_path / "out"
 
     def removes():
@@ -66,7 +66,7 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
     assert out.read_text() == "a file"
 
 
-def test_links_planted_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
+def test_links_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
     """Nor is a pipe waited for, in which nobody reads."""
     out, precious = tmp_path / "out", tmp_path / "precious"
     out.mkdir()

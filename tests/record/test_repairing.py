@@ -32,7 +32,7 @@ def asked(capsys, *words):
     return code, told.out + told.err
 
 
-def test_a_whole_record_is_whole(path, capsys):
+def test_record_check_of_a_complete_record_ends_0(path, capsys):
     code, text = asked(capsys, "check", path)
     assert code == 0
     assert (
@@ -42,14 +42,14 @@ def test_a_whole_record_is_whole(path, capsys):
 
 
 @pytest.mark.parametrize("cut", [1, 100])
-def test_a_cut_one_is_cut(path, capsys, cut):
+def test_record_check_of_a_cut_record_ends_1(path, capsys, cut):
     path.write_bytes(path.read_bytes()[:-cut])
     code, text = asked(capsys, "check", path)
     assert code == 1
     assert "bytes (1 line) from byte" in text
 
 
-def test_a_single_byte_is_one(path, capsys, tmp_path):
+def test_record_repair_counts_a_single_lost_byte(path, capsys, tmp_path):
     size = path.stat().st_size
     path.write_bytes(path.read_bytes() + b"\n")
     code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
@@ -57,7 +57,7 @@ def test_a_single_byte_is_one(path, capsys, tmp_path):
     assert f"; 1 byte (1 line) from byte {size} on is lost" in text
 
 
-def test_one_without_a_footer_is_cut_or_interrupted(path, capsys):
+def test_record_check_of_a_record_without_a_footer_ends_1(path, capsys):
     path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:-1]))
     code, text = asked(capsys, "check", path)
     assert code == 1
@@ -65,7 +65,7 @@ def test_one_without_a_footer_is_cut_or_interrupted(path, capsys):
     assert "it has no footer" in text
 
 
-def test_a_damaged_one_is_refused_and_saved_up_to_the_damage(path, capsys, tmp_path):
+def test_a_damaged_record_is_refused_and_repaired_up_to_the_damage(path, capsys, tmp_path):
     data = path.read_bytes()
     path.write_bytes(data.replace(b"two", b"twt"))
     start = data.index(b'{"type": "drift", "sentence": "two"')
@@ -83,7 +83,7 @@ def test_a_damaged_one_is_refused_and_saved_up_to_the_damage(path, capsys, tmp_p
     assert read(saved).lines == (DriftLine(sentence="one"),)
 
 
-def test_a_cut_one_is_saved_without_what_is_half(path, capsys, tmp_path):
+def test_repair_of_a_cut_record_drops_its_half_line(path, capsys, tmp_path):
     data = path.read_bytes()
     path.write_bytes(data[:-1])
     saved = tmp_path / "saved.jsonl"
@@ -91,14 +91,14 @@ def test_a_cut_one_is_saved_without_what_is_half(path, capsys, tmp_path):
     assert saved.read_bytes() == b"".join(data.splitlines(keepends=True)[:-1])
 
 
-def test_a_whole_one_is_copied(path, capsys, tmp_path):
+def test_repair_of_a_complete_record_copies_it(path, capsys, tmp_path):
     code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
     assert code == 0
     assert "it is complete" in text
     assert (tmp_path / "saved.jsonl").read_bytes() == path.read_bytes()
 
 
-def test_where_nothing_is_good_nothing_is_written(path, capsys, tmp_path):
+def test_repair_of_a_record_with_a_damaged_header_writes_nothing(path, capsys, tmp_path):
     path.write_bytes(path.read_bytes().replace(b"header", b"heades"))
     code, text = asked(capsys, "repair", path, "--out", tmp_path / "saved.jsonl")
     assert code == 2
@@ -106,7 +106,7 @@ def test_where_nothing_is_good_nothing_is_written(path, capsys, tmp_path):
     assert sorted(tmp_path.iterdir()) == [path]
 
 
-def test_a_record_is_not_repaired_in_its_place(path, capsys):
+def test_repair_refuses_to_replace_the_record_itself(path, capsys):
     data = path.read_bytes()
     code, text = asked(capsys, "repair", path, "--out", path)
     assert code == 2

@@ -46,7 +46,7 @@ def advice(record):
 EXACT = ("never a wrong answer", EVERYWHERE, "position")
 
 
-def test_the_fastest_exact_one_that_was_never_wrong():
+def test_advice_is_the_fastest_exact_method_that_was_never_wrong():
     wrong = [
         {**line, "wrong": 1} if line["type"] == "accuracy" else line
         for line in method("liar", 1.0, {"uniform": 0.5}, exact=True)
@@ -65,7 +65,7 @@ def test_the_fastest_exact_one_that_was_never_wrong():
     ("interval", "floor", "alike"),
     [((1.4, 1.8), None, []), ((0.9, 1.8), None, ["b"]), ((1.4, 1.8), 0.7, ["b"]), ((1.4, 1.8), 0.2, [])],
 )
-def test_those_that_are_not_told_from_the_fastest(interval, floor, alike):
+def test_advice_names_methods_as_fast_within_the_noise(interval, floor, alike):
     """By their intervals (a's ends at 1.01) or by the noise (1.5 is within 70 % of 1)."""
     record = chosen(
         method("a", 1.0, {"uniform": 0.0}, exact=True),
@@ -75,7 +75,7 @@ def test_those_that_are_not_told_from_the_fastest(interval, floor, alike):
     assert [each.name for each in advice(record)[EXACT].alike] == alike
 
 
-def test_reliable_beyond_a_distance_everywhere_and_where_it_is_timed():
+def test_advice_beyond_a_distance_is_given_for_all_and_for_timed_workloads():
     record = chosen(
         method("narrow", 1.0, {"uniform": 1e-11, "ring": math.inf}),
         method("near", 9.0, {"uniform": 1e-13, "ring": 1e-13}),
@@ -98,7 +98,7 @@ def test_a_slow_method_is_not_advised_for_an_octave_or_two(farther, name):
     assert found.use.name == name
 
 
-def test_who_calls_from_python_row_by_row_is_told_what_for():
+def test_advice_covers_calls_row_by_row_from_python():
     in_c = method("in-c", 0.1, {"uniform": 0.0}, exact=True)
     by_row = [
         {**line, "tier": "python"} if line["type"] == "method" else line
@@ -109,12 +109,12 @@ def test_who_calls_from_python_row_by_row_is_told_what_for():
     assert found["never a wrong answer, a call a row from Python", EVERYWHERE, "position"].use.name == "by-row"
 
 
-def test_of_those_that_never_erred_the_fastest_is_advised():
+def test_the_fastest_method_that_never_erred_is_advised():
     record = chosen(method("near", 50.0, {"uniform": 0.0}), method("quick", 1.0, {"uniform": 0.0}))
     assert advice(record)["plain float64; none wrong", EVERYWHERE, "position"].use.name == "quick"
 
 
-def test_who_answers_less_is_advised_for_less():
+def test_a_method_for_another_question_is_advised_only_for_that_question():
     record = chosen(
         method("all", 5.0, {"uniform": 1e-13}),
         method("half", 1.0, {"uniform": 1e-13}, question="exterior"),
@@ -126,7 +126,7 @@ def test_who_answers_less_is_advised_for_less():
     }
 
 
-def test_a_time_that_is_lost_in_an_empty_call_is_none():
+def test_a_method_no_slower_than_an_empty_call_has_no_time():
     lost = [
         {**line, "median_ns": 0.01} if line["type"] == "speed" else line
         for line in method("a", 1e-9, {"uniform": 0.0}, exact=True)
@@ -141,14 +141,14 @@ def test_a_bounding_volume_is_never_advised():
     assert {each.use.name for each in recommendations(record).advice} == {"all"}
 
 
-def test_what_nothing_fills_is_said():
+def test_advice_lists_needs_that_no_method_meets():
     record = chosen(method("rough", 0.5, {"uniform": 0.25}))
     unmet = {(need.what, need.where) for need in recommendations(record).unmet}
     assert ("never a wrong answer", EVERYWHERE) in unmet
     assert ("reliable beyond 1e-12", EVERYWHERE) in unmet
 
 
-def test_who_is_beaten():
+def test_advice_names_methods_that_another_beats():
     record = chosen(
         method("good", 1.0, {"uniform": 1e-9, "ring": 1e-9}),
         method("slower", 2.0, {"uniform": 1e-6, "ring": 1e-9}),
@@ -166,7 +166,7 @@ def test_nothing_is_advised_without_times():
     assert "Which method to use when" not in markdown.render(bench_record(body)).decode()
 
 
-def test_the_section():
+def test_the_section_of_advice_has_its_table_and_sentences():
     text = markdown.render(bench_record()).decode()
     part = text[text.index("## Which method to use when") :]
     assert (

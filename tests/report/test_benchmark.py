@@ -32,7 +32,7 @@ REFUSED = {
 }
 
 
-def test_what_held():
+def test_a_benchmark_in_which_all_held_has_passed():
     said = verdict(bench_record())
     assert said.passed
     assert said.sentence == (
@@ -42,7 +42,7 @@ def test_what_held():
     )
 
 
-def test_a_promise_that_is_broken():
+def test_an_exact_method_that_erred_fails_the_benchmark():
     worst = [{**bench_lines.accuracy("x", "uniform", 1)["worst"][0], "truth": -1, "answer": 1}]
     (failure,) = failures(bench_record(lines("accuracy", wrong=2, abstained=1, worst=worst), 1))
     assert (failure.subject, failure.name, failure.group, failure.kind) == ("measurement", "fast", "uniform", "wrong")
@@ -53,7 +53,7 @@ def test_a_promise_that_is_broken():
     assert failure.replay.startswith("hypcheck classify --alpha 1.0")
 
 
-def test_errors_of_those_that_promise_nothing_fail_nothing():
+def test_errors_of_methods_that_promise_nothing_do_not_fail_the_benchmark():
     assert failures(bench_record()) == []
 
 
@@ -74,7 +74,7 @@ def test_errors_of_those_that_promise_nothing_fail_nothing():
         ([], 0, "NOTHING was asked"),
     ],
 )
-def test_other_ends(body, code, sentence):
+def test_a_benchmark_that_is_slower_or_too_noisy_has_not_passed(body, code, sentence):
     said = verdict(bench_record(body, code))
     assert not said.passed
     assert said.sentence.startswith(sentence)
@@ -88,7 +88,7 @@ def test_other_ends(body, code, sentence):
         ("kernel", {"met": False, "ci95": None, "measured": 0.5}, "slower"),
     ],
 )
-def test_a_missed_target_fails_for_certain_or_as_far_as_the_noise_lets_tell(kind, changes, failing):
+def test_a_missed_target_fails_the_run_or_is_inconclusive_within_the_noise(kind, changes, failing):
     body = [line for line in lines(kind, **changes) if line["type"] != "comparison"]
     (failure,) = failures(bench_record(body, 4))
     assert failure.kind == failing
@@ -100,20 +100,20 @@ def test_a_missed_target_fails_for_certain_or_as_far_as_the_noise_lets_tell(kind
 
 
 @pytest.mark.parametrize("found", ["does not hold", "inconclusive"])
-def test_a_claim_of_cost_fails_no_run_since_nobody_asked_for_that_gate(found):
+def test_a_claim_of_cost_that_does_not_hold_does_not_fail_the_run(found):
     body = [line for line in lines("cost", verdict=found) if line["type"] != "comparison"]
     assert failures(bench_record(body)) == []
     assert verdict(bench_record(body)).passed
 
 
-def test_a_comparison_that_decides_nothing_fails_nothing_and_is_not_counted_among_what_is_held():
+def test_a_comparison_that_does_not_gate_is_neither_a_failure_nor_counted():
     record = bench_record(lines("comparison", verdict="slower", gates=False))
     assert failures(record) == []
     assert "held to the baseline's" not in verdict(record).sentence
     assert "| (slower) |" in markdown.render(record).decode()
 
 
-def test_what_failed_is_named_everywhere():
+def test_every_report_names_the_failures_of_a_benchmark():
     record = bench_record([*lines("comparison", verdict="slower", change=1.4), REFUSED], 1)
     text = markdown.render(record).decode()
     assert "**measurement, flight, batch**: numpy-roots is not timed: its checksum was 3 and then 4." in text
@@ -128,12 +128,12 @@ def test_what_failed_is_named_everywhere():
     assert violations(found, SUMMARY, closed=True) == []
 
 
-def test_what_was_left_out_is_told_with_what_brings_it():
+def test_reports_name_what_was_left_out_and_how_to_install_it():
     text = terminal.render(bench_record(bench_lines.lines())).decode()
     assert "left out: coal cannot be imported; pip install 'hypcheck[peers]' brings it\n" in text
 
 
-def test_what_could_not_be_measured_is_told_everywhere_and_fails_nothing():
+def test_every_report_names_what_could_not_be_measured_which_does_not_fail_the_run():
     hidden = {
         "type": "unmeasured",
         "method": "fast",
@@ -155,7 +155,7 @@ def test_what_could_not_be_measured_is_told_everywhere_and_fails_nothing():
     assert case.find("skipped").get("message") == "it is too short"
 
 
-def test_a_run_of_which_nothing_is_held_to_its_baseline_has_not_passed():
+def test_a_run_in_which_nothing_is_compared_with_its_baseline_has_not_passed():
     body = [line for line in bench_lines.lines() if line["type"] != "comparison"]
     record = bench_record(body, 4, {"baseline": "before/record.jsonl"})
     (failure,) = failures(record)
@@ -163,7 +163,7 @@ def test_a_run_of_which_nothing_is_held_to_its_baseline_has_not_passed():
     assert verdict(record).sentence.startswith("INCONCLUSIVE, exit code 4: ")
 
 
-def test_as_test_suites():
+def test_a_benchmark_has_its_suites_in_junit():
     record = bench_record([*lines("comparison", verdict="slower"), REFUSED], 1)
     root = ElementTree.fromstring(junit.render(record))  # noqa: S314 - just written
     counts = {suite.get("name"): (int(suite.get("tests")), int(suite.get("failures"))) for suite in root}
@@ -175,7 +175,7 @@ def test_as_test_suites():
     assert skipped == ["foreign-adapter on uniform, batch"]
 
 
-def test_the_summary_has_every_method_and_fits_its_schema():
+def test_the_summary_of_a_benchmark_has_every_method_and_fits_its_schema():
     found = json.loads(summary.render(bench_record()))
     assert violations(found, SUMMARY, closed=True) == []
     dual = next(each for each in found["methods"] if each["name"] == "dual-numpy-float32")
@@ -189,7 +189,7 @@ def test_the_summary_has_every_method_and_fits_its_schema():
     ]
 
 
-def test_every_kind_of_line_is_shown():
+def test_the_page_of_a_benchmark_shows_every_type_of_line():
     text = markdown.render(bench_record()).decode()
     for words in (
         "what dual-numpy-float32 is",

@@ -29,7 +29,7 @@ def files(tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", RECORDS)
-def test_everywhere(chromium, files, name):
+def test_the_page_passes_every_check_in_all_sizes_and_schemes(chromium, files, name):
     """On a desk, then on a telephone, in the light and in the dark."""
     visit = chromium.visit(files[name])
     assert page_checks.unreachable(visit) == []
@@ -46,7 +46,7 @@ def test_everywhere(chromium, files, name):
 
 
 @pytest.mark.parametrize("name", ["small", "bench"])
-def test_filters_and_paper(chromium, files, name):
+def test_tables_filter_and_print_whole(chromium, files, name):
     visit = chromium.visit(files[name])
     assert page_checks.folded_on_paper(visit) == []
     assert page_checks.unfiltered(visit) == []

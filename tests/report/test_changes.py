@@ -54,7 +54,7 @@ def test_nothing_changes_from_a_record_to_itself():
     assert "No case ended otherwise." in markdown.render(BEFORE, ReportContext(against=BEFORE)).decode()
 
 
-def test_a_family_that_got_worse_and_one_that_got_better():
+def test_status_changes_list_a_family_that_got_worse_before_one_that_got_better():
     (worse,) = status_changes(BEFORE, WORSE)
     assert (worse.implementation, worse.family, worse.worse) == ("table-2-float32", "tower-body", True)
     assert (worse.worst_before_u, worse.worst_after_u) == (2.5, 40.0)
@@ -62,7 +62,7 @@ def test_a_family_that_got_worse_and_one_that_got_better():
     assert not better.worse
 
 
-def test_worse_is_a_greater_share_and_not_a_greater_number():
+def test_a_family_is_worse_by_its_share_of_wrong_answers_and_not_by_their_number():
     many = changed(
         record_samples.lines(),
         "group",
@@ -85,7 +85,7 @@ def test_ratios_differ_where_their_intervals_are_apart(interval, verdict):
     assert change.verdict == verdict
 
 
-def test_times_alone_are_no_change():
+def test_different_times_with_equal_ratios_are_no_change():
     """A machine that is ten times as slow has other times and the same ratios."""
     slow = json.loads(json.dumps(bench_lines.lines()))
     for line in slow:
@@ -103,7 +103,7 @@ def test_times_alone_are_no_change():
     assert " ns" not in section
 
 
-def test_errors_of_a_benchmark():
+def test_changed_errors_of_a_benchmark_are_listed_by_method_and_workload():
     after = changed(bench_lines.lines(), "accuracy", {"wrong": 7, "reliable_above": 0.25}, method="dual-numpy-float32")
     (change,) = accuracy_changes(BENCH, record_samples.record(after))
     assert (change.method, change.workload, change.after[0], change.reliable_after) == (
@@ -114,7 +114,7 @@ def test_errors_of_a_benchmark():
     )
 
 
-def test_what_else_is_not_the_same_is_said():
+def test_other_differences_of_two_runs_are_reported():
     header = as_json(BEFORE.header)
     header["machine"]["processor"] = "another"
     header["options"]["seed"] = 2
@@ -127,7 +127,7 @@ def test_what_else_is_not_the_same_is_said():
     assert any("truncated" in each for each in said)
 
 
-def test_what_one_record_lacks_is_named_and_not_compared():
+def test_methods_that_one_record_lacks_are_named_and_not_compared():
     fewer = [line for line in record_samples.lines() if line.get("method") != "table-2-float64"]
     fewer = [line for line in fewer if (line.get("method"), line.get("family")) != ("fast", "ring")]
     other = record_samples.record(fewer)
@@ -141,7 +141,7 @@ def test_what_one_record_lacks_is_named_and_not_compared():
     )
 
 
-def test_reports_show_it_behind_what_failed():
+def test_reports_show_changes_after_failures():
     text = markdown.render(WORSE, ReportContext(against=BEFORE)).decode()
     assert text.index("## What changed") < text.index("## The oracles")
     assert "| `table-2-float32` | `tower-body` | 19 right and 1 tolerated | 17 right and 3 wrong | 2.5 | 40 |" in text

@@ -22,7 +22,7 @@ def run(tmp_path):
     return folder
 
 
-def test_the_summary_is_printed(run, capsys):
+def test_report_without_options_prints_the_summary(run, capsys):
     assert main(["report", str(run)]) == 0
     assert capsys.readouterr().out.splitlines()[0] == record_samples.HELD
     assert os.listdir(run) == ["record.jsonl"]
@@ -32,14 +32,14 @@ OF_A_BENCHMARK = ("errors", "pareto", "front")
 
 
 @pytest.mark.parametrize("name", OF_A_BENCHMARK)
-def test_a_picture_of_what_is_not_there_is_refused(run, name, tmp_path, capsys):
+def test_a_picture_without_its_lines_is_refused(run, name, tmp_path, capsys):
     assert main(["report", str(run), "--format", name, "--out", str(tmp_path / "a.svg")]) == 2
     assert "hypcheck: error: the record has no " in capsys.readouterr().err
     assert not (tmp_path / "a.svg").exists()
 
 
 @pytest.mark.parametrize("name", [name for name in REPORTS if name not in OF_A_BENCHMARK])
-def test_one_format_on_standard_output(run, name, capfdbinary):
+def test_report_with_one_format_writes_it_to_standard_output(run, name, capfdbinary):
     assert main(["report", str(run / "record.jsonl"), "--format", name]) == 0
     assert capfdbinary.readouterr().out == render(name, samples_read(run))
 
@@ -50,7 +50,7 @@ def samples_read(run):
     return read(run / "record.jsonl")
 
 
-def test_a_folder_gets_what_a_run_writes(run, tmp_path):
+def test_report_with_a_folder_writes_the_reports_of_a_run(run, tmp_path):
     assert main(["report", str(run), "--out", str(tmp_path / "new")]) == 0
     assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept_formats()} - {
         REPORTS[name].file for name in OF_A_BENCHMARK
@@ -62,12 +62,12 @@ def test_a_folder_gets_what_a_run_writes(run, tmp_path):
 @pytest.mark.parametrize(
     ("file", "name"), [("a.md", "markdown"), ("b.xml", "junit"), ("c.json", "json"), ("d.txt", "terminal")]
 )
-def test_a_file_is_the_report_that_its_name_says(run, tmp_path, file, name):
+def test_report_with_a_file_writes_the_format_of_its_name(run, tmp_path, file, name):
     assert main(["report", str(run), "--out", str(tmp_path / file)]) == 0
     assert (tmp_path / file).read_bytes() == render(name, samples_read(run))
 
 
-def test_a_file_of_any_name_with_a_format(run, tmp_path):
+def test_report_with_a_format_writes_a_file_of_any_name(run, tmp_path):
     assert main(["report", str(run), "--out", str(tmp_path / "a.dat"), "--format", "json"]) == 0
     assert json.loads((tmp_path / "a.dat").read_bytes())["passed"]
 
@@ -82,7 +82,7 @@ def test_a_file_of_any_name_with_a_format(run, tmp_path):
         (["--out", "record.jsonl", "--format", "json"], "is a record that is being read"),
     ],
 )
-def test_what_makes_no_sense_is_refused(run, monkeypatch, capsys, words, said):
+def test_report_options_that_do_not_fit_are_refused(run, monkeypatch, capsys, words, said):
     monkeypatch.chdir(run)
     before = (run / "record.jsonl").read_bytes()
     assert main(["report", "record.jsonl", *words]) == 2
@@ -99,12 +99,12 @@ def test_a_truncated_record_is_reported_and_noted(run, capsys):
     assert "hypcheck: note: the record has no end" in err
 
 
-def test_what_is_no_record_is_one_sentence(run, capsys):
+def test_report_of_a_file_that_is_no_record_is_refused_in_one_sentence(run, capsys):
     (run / "record.jsonl").write_bytes(b"\xff\xfe\x00")
     assert main(["report", str(run)]) == 2
     assert "is no record" in capsys.readouterr().err
 
 
-def test_against_another_record(run, tmp_path, capsys):
+def test_report_against_another_record_shows_the_changes(run, tmp_path, capsys):
     assert main(["report", str(run), "--against", str(run)]) == 0
     assert "against the run of " in capsys.readouterr().out

@@ -31,7 +31,7 @@ def unescaped(text):
 
 
 @pytest.mark.parametrize("number", [0, 1, 9, 10, 11, 500])
-def test_ten_annotations_at_most(number):
+def test_github_gets_at_most_ten_annotations(number):
     lines = github.error_lines(failing(number))
     assert len(lines) == min(number, 10)
     if number > 10:
@@ -40,7 +40,7 @@ def test_ten_annotations_at_most(number):
 
 
 @given(record_samples.FOREIGN, record_samples.FOREIGN)
-def test_strangers_cannot_break_out_of_an_annotation(name, text):
+def test_foreign_text_cannot_end_an_annotation(name, text):
     body = [{"type": "implementation", "spec": name, "name": name, "started": False, "trouble": text}]
     (line,) = github.error_lines(record_samples.record(body, exit_code=5))
     title, message = ANNOTATION.fullmatch(line).groups()
@@ -48,13 +48,13 @@ def test_strangers_cannot_break_out_of_an_annotation(name, text):
     assert unescaped(message).isprintable()
 
 
-def test_escapes_are_those_of_the_runner():
+def test_annotations_are_escaped_as_the_github_runner_reads_them():
     body = [{"type": "implementation", "spec": "s", "name": "a,b:c%0A", "started": False, "trouble": "1:2,3%25"}]
     (line,) = github.error_lines(record_samples.record(body, exit_code=5))
     assert line == "::error title=hypcheck%3A a%2Cb%3Ac%250A%2C start::1:2,3%2525"
 
 
-def test_the_replay_has_a_line_of_its_own():
+def test_the_replay_command_has_a_line_of_its_own_in_an_annotation():
     case = record_samples.worst("ring/1/1/7", "wrong", 3.1e6)
     group = record_samples.group(
         "m", "float64", "ring", {"wrong": 1}, [case], spec="command:a b", failing=["wrong"], faults=[]
@@ -77,7 +77,7 @@ def test_a_report_is_cut_at_the_end_of_a_line(texts, room):
         assert kept.endswith(b"\n")
 
 
-def test_a_report_of_more_than_a_mebibyte_is_cut_and_says_so(tmp_path):
+def test_a_step_summary_of_more_than_a_mebibyte_is_cut_with_a_note(tmp_path):
     path = tmp_path / "summary.md"
     path.write_bytes(b"of an earlier command\n")
     record = record_samples.record(
@@ -93,7 +93,7 @@ def test_a_report_of_more_than_a_mebibyte_is_cut_and_says_so(tmp_path):
     assert path.stat().st_size < 1 << 20
 
 
-def test_a_summary_that_cannot_be_written_is_told(tmp_path):
+def test_a_step_summary_that_cannot_be_written_is_reported_and_fails_no_run(tmp_path):
     assert "no step summary" in github.append_summary(record_samples.record(), tmp_path)
 
 
@@ -104,7 +104,7 @@ def run(monkeypatch, tmp_path, capsys, *words, on=True):
     return code, capsys.readouterr().out.splitlines()
 
 
-def test_a_gating_run_on_github(monkeypatch, tmp_path, capsys):
+def test_a_failing_run_on_github_prints_annotations_and_writes_the_step_summary(monkeypatch, tmp_path, capsys):
     code, lines = run(monkeypatch, tmp_path, capsys, "builtin:table-2-float64")
     assert code == 1
     stop, *rest = lines
@@ -118,14 +118,14 @@ def test_a_gating_run_on_github(monkeypatch, tmp_path, capsys):
     assert (tmp_path / "summary.md").read_bytes() == (tmp_path / "out" / "report.md").read_bytes()
 
 
-def test_no_run_elsewhere_says_so_much(monkeypatch, tmp_path, capsys):
+def test_a_run_outside_github_prints_no_annotations(monkeypatch, tmp_path, capsys):
     code, lines = run(monkeypatch, tmp_path, capsys, "builtin:table-2-float64", on=False)
     assert code == 1
     assert not [line for line in lines if line.startswith("::")]
     assert not (tmp_path / "summary.md").exists()
 
 
-def test_commands_that_strangers_print_are_suspended(monkeypatch, tmp_path, capsys):
+def test_workflow_commands_in_foreign_text_are_suspended(monkeypatch, tmp_path, capsys):
     """What a crashed program wrote on standard error is quoted in the summary; the runner must not obey it."""
     program = "import sys; print('::add-mask::a\\n##[error]b', file=sys.stderr); sys.exit(3)"
     spec = f"command:{json.dumps([sys.executable, '-c', program])}"

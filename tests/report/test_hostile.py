@@ -31,31 +31,31 @@ def texts(record):
 
 
 @pytest.mark.parametrize("name", REPORTS)
-def test_nothing_unseen_gets_through(texts, name):
+def test_reports_escape_invisible_characters_of_foreign_text(texts, name):
     assert not UNSEEN.search(texts[name]) or name == "json"
     if name == "json":  # whose strings have escapes of their own
         assert not re.search(r"[\x00-\x09\x0b-\x1f]", texts[name])
 
 
 @pytest.mark.parametrize("name", [name for name in REPORTS if name not in WHOLE])
-def test_what_people_read_stays_readable(texts, name):
+def test_reports_for_people_keep_readable_foreign_text(texts, name):
     assert len(texts[name]) < 2_000_000
     assert "e" * 3000 not in texts[name]
 
 
 @pytest.mark.parametrize("name", [name for name, each in REPORTS.items() if each.file.endswith((".svg", ".xml"))])
-def test_what_is_xml_stays_xml(texts, name):
+def test_reports_in_xml_stay_valid_with_foreign_text(texts, name):
     root = ElementTree.fromstring(texts[name])  # noqa: S314 - just written
     assert not [each for each in root.iter() if each.tag.endswith(("script", "img"))]
 
 
-def test_the_summary_has_the_names_as_they_are(texts, record):
+def test_summary_json_keeps_foreign_names_unchanged(texts, record):
     found = json.loads(texts["json"])
     assert any(SCRIPT in each["name"] for each in found["methods"])
 
 
 @pytest.mark.parametrize("name", ["markdown", "overview"])
-def test_markdown_holds_no_html_of_theirs(texts, name):
+def test_markdown_holds_no_foreign_html(texts, name):
     tokens = PARSER.parse(texts[name])
     inside = [child for token in tokens for child in token.children or ()]
     html = {token.content for token in (*tokens, *inside) if token.type in ("html_inline", "html_block")}

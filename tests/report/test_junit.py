@@ -50,7 +50,7 @@ def milliseconds(element):
         junit(body=[], exit_code=70),
     ],
 )
-def test_the_numbers_add_up(root):
+def test_the_counts_of_suites_add_up(root):
     for parent in (root, *root):
         cases = list(parent.iter("testcase"))
         assert int(parent.get("tests")) == len(cases) > 0
@@ -94,7 +94,7 @@ def test_the_name_of_a_case_does_not_depend_on_its_result(good, bad):
     assert names[0] == names[1]
 
 
-def test_names_are_not_repeated():
+def test_names_of_cases_are_unique():
     found = [(each.get("classname"), each.get("name")) for each in junit().iter("testcase")]
     assert len(set(found)) == len(found)
     assert ("hypcheck.proofs", "table-2: c2 (2)") in found
@@ -104,7 +104,7 @@ def test_a_timestamp_has_no_offset():
     assert all(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d", suite.get("timestamp")) for suite in junit())
 
 
-def test_what_the_papers_formulas_get_wrong_is_no_failure():
+def test_wrong_answers_of_the_papers_formulas_are_passed_cases():
     root = junit()
     assert root.get("failures") == root.get("errors") == "0"
     assert "misprint: the coefficient of λ² lacks" in case(root, "equations", "(12)").findtext("system-out")
@@ -116,7 +116,7 @@ def test_what_the_papers_formulas_get_wrong_is_no_failure():
     assert "the ring: Δ = 0 without contact" in finding.findtext("system-out")
 
 
-def test_what_was_not_asked_is_skipped():
+def test_cases_that_were_not_asked_are_skipped():
     assert ended(junit(), "skipped") == [
         ("hypcheck.oracles.mesh", "available"),
         ("hypcheck.implementations.table-2-float64", "tower-body"),
@@ -135,7 +135,7 @@ def test_what_was_not_asked_is_skipped():
         (DRIFT, "findings", "known findings", "drift"),
     ],
 )
-def test_what_fails_the_run_is_a_failure_and_the_only_one(line, suite, name, kind):
+def test_each_failure_of_the_run_is_one_failed_case(line, suite, name, kind):
     root = junit(line, exit_code=1)
     assert ended(root, "failure") == [(f"hypcheck.{suite}", name)]
     assert ended(root, "error") == []
@@ -143,7 +143,7 @@ def test_what_fails_the_run_is_a_failure_and_the_only_one(line, suite, name, kin
 
 
 @pytest.mark.parametrize(("line", "suite"), [(DISAGREEMENT, "oracles.nearest"), (EXACT_WRONG, "implementations.fast")])
-def test_a_failure_says_how_to_look_at_it(line, suite):
+def test_a_failed_case_has_its_replay_command(line, suite):
     (failure,) = junit(line, exit_code=1).iter("failure")
     assert line["family"] == "tangent"
     assert "case tangent/1/1/" in failure.text
@@ -207,6 +207,6 @@ def test_no_control_character_reaches_the_file(old, foreign):
 
 
 @given(record_samples.FOREIGN)
-def test_a_name_comes_through(foreign):
+def test_a_foreign_name_comes_back_from_the_xml(foreign):
     root = parsed(record_samples.record(record_samples.rewritten(record_samples.lines(), "table-2-float32", foreign)))
     assert escaped(f"implementations.{foreign}") in [suite.get("name") for suite in root]

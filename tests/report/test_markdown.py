@@ -35,7 +35,7 @@ def rows(text, heading):
     return [cells[0], *cells[2:]]
 
 
-def test_the_verdict_stands_first():
+def test_markdown_begins_with_the_verdict():
     assert report().splitlines()[:3] == [
         "# hypcheck verify",
         "",
@@ -44,7 +44,7 @@ def test_the_verdict_stands_first():
     assert report(exit_code=None).splitlines()[2].startswith("**TRUNCATED: ")
 
 
-def test_sections_in_order():
+def test_markdown_has_its_sections_in_order():
     assert headings(report()) == [
         "The oracles",
         "The paper's equations",
@@ -71,7 +71,7 @@ def test_failures_come_before_everything_else():
     assert "`hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0`" in items[0]
 
 
-def test_the_oracles():
+def test_markdown_shows_the_oracles():
     table = rows(report(), "The oracles")
     assert table[0] == ["oracle", "asked", "agreed", "undecided", "disagreed", "how it answered", "seconds"]
     assert table[1] == ["`exact`", "40", "40", "0", "0", "proved 40", "0.5"]
@@ -80,7 +80,7 @@ def test_the_oracles():
     assert rows(report(DISAGREEMENT), "The oracles")[2][4] == "**1**"
 
 
-def test_equations_and_their_corrections():
+def test_markdown_shows_equations_and_their_corrections():
     text = report()
     assert "1 of 2 hold: (1)." in text
     start = text.index("- **(12)** misprint: the coefficient of λ² lacks − z\\_c².")
@@ -117,7 +117,7 @@ def test_mathematical_findings_with_one_witness_share_a_line():
     assert "**not a known finding; cause: ring**" in report(unknown)
 
 
-def test_numerical_findings():
+def test_markdown_shows_numerical_findings():
     text = report()
     assert rows(text, "float32")[1] == [
         "`table-2`",
@@ -136,7 +136,7 @@ def test_numerical_findings():
     assert "- `theirs` also ended: crash 2" in report(CRASHED, exit_code=1)
 
 
-def test_the_matrix_of_wrong_answers():
+def test_markdown_shows_wrong_answers_by_method_and_family():
     text = report()
     low, high = text[text.index("### float32") :], text[text.index("### float64") :]
     assert "| `ring` | 6 |" in low
@@ -145,7 +145,7 @@ def test_the_matrix_of_wrong_answers():
     assert "| `tower-body` | – |" in high  # all skipped
 
 
-def test_timings():
+def test_markdown_shows_timings():
     assert rows(report(), "Timings")[1:] == [
         ["fast path", "how fast path works", "1,000", "80", "50 to 90", "0.5"],
         ["plain numpy formula", "how plain numpy formula works", "1,000", "100", "100 to 200", "1"],
@@ -175,7 +175,7 @@ def inline(text):
 @example("\\|")
 @example("`|`")
 @example("**x** [y](z) <b> &amp; ~~s~~ `c`")
-def test_foreign_text_in_a_cell_means_itself(foreign):
+def test_foreign_text_in_a_cell_stays_text(foreign):
     children = inline(markdown.escape_text(foreign)).children
     assert {child.type for child in children} <= {"text", "text_special"}
     assert "".join(child.content for child in children) == escaped(foreign)
@@ -186,7 +186,7 @@ def test_foreign_text_in_a_cell_means_itself(foreign):
 @example("`")
 @example("\\")
 @example("<script>|")
-def test_foreign_code_in_a_cell_means_itself(foreign):
+def test_foreign_code_in_a_cell_stays_text(foreign):
     children = inline(markdown.code_span(foreign)).children
     shown = "".join(child.content for child in children if child.type != "html_inline")
     assert {child.type for child in children} <= {"text", "text_special", "code_inline", "html_inline"}

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.report.messages import classify_command, counted, figure, from_hex, listed, short_row
+from hypcheck.messages import counted
+from hypcheck.report.messages import classify_command, figure, from_hex, listed, short_row
 from tests.report import record_samples
 
 
@@ -31,18 +32,18 @@ from tests.report import record_samples
         (5e-324, "4.9e-324"),
     ],
 )
-def test_figures(value, text):
+def test_figures_have_three_digits(value, text):
     assert figure(value) == text
 
 
 @pytest.mark.parametrize(
     ("items", "text"), [([], ""), (["a"], "a"), (["a", "b"], "a and b"), (list("abc"), "a, b and c")]
 )
-def test_lists(items, text):
+def test_lists_are_written_as_in_a_sentence(items, text):
     assert listed(items) == text
 
 
-def test_counts():
+def test_counts_have_their_noun():
     assert [counted(number, "case") for number in (0, 1, 5600)] == ["0 cases", "1 case", "5,600 cases"]
 
 
@@ -54,7 +55,7 @@ def test_a_row_survives_the_record_and_the_command(row):
     assert [float(word) for word in (*words[3:10:2], *words[11:])] == row
 
 
-def test_a_short_row():
+def test_a_short_row_has_six_digits():
     assert (
         short_row((2.0, 17.8, 0.25, 1 / 3, -3.0, 0.0, 1e-9))
         == "alpha 2, gamma 17.8, b 0.25, d 0.333333, centre (-3, 0, 1e-09)"

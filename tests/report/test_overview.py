@@ -11,7 +11,7 @@ from tests.report.bench_lines import bench_record
 from tests.report.test_benchmark import REFUSED
 
 
-def test_a_verification():
+def test_the_overview_of_a_verification_has_verdict_findings_and_picture():
     text = markdown.render_overview(record_samples.record(), ReportContext(["map.svg"])).decode()
     assert text.startswith(f"# hypcheck verify\n\n**{record_samples.HELD}**\n\n## Pictures\n")
     assert "- Equations of the paper: 1 of 2 hold; misprint: (12)." in text
@@ -19,7 +19,7 @@ def test_a_verification():
     assert "](" not in markdown.render_overview(record_samples.record()).decode()
 
 
-def test_a_benchmark():
+def test_the_overview_of_a_benchmark_has_advice_and_pictures():
     text = markdown.render_overview(bench_record(), ReportContext(["front.svg", "pareto.svg", "errors.svg"])).decode()
     order = [
         "## Which method to use when",
@@ -34,7 +34,7 @@ def test_a_benchmark():
     assert places == sorted(places)
 
 
-def test_what_a_benchmark_shows():
+def test_the_overview_says_what_a_benchmark_shows():
     found = [*claim_facts(bench_record()), *benchmark_facts(bench_record())]
     assert "claim holds, the tower: Procedure 2.b costs less than 2.a (§ 4)" in found
     assert "targets of the kernels: 2 of 2 met" in found
@@ -45,12 +45,12 @@ def test_what_a_benchmark_shows():
     assert "the uniform rows: at no distance reliable: table-2-numpy-float16" in found
 
 
-def test_failures_come_first():
+def test_the_overview_shows_failures_first():
     text = markdown.render_overview(bench_record([*bench_record().lines, REFUSED], 1)).decode()
     assert text.index("## What failed") < text.index("## Which method to use when")
 
 
-def test_as_the_readme_of_a_run(tmp_path, capsys):
+def test_report_writes_the_overview_as_the_readme_of_a_run(tmp_path, capsys):
     (tmp_path / "record.jsonl").write_text(record_samples.text_and_record()[0], encoding="utf-8")
     (tmp_path / "map.svg").write_text("<svg/>", encoding="utf-8")
     assert main(["report", str(tmp_path), "--format", "overview", "--out", str(tmp_path / "README.md")]) == 0

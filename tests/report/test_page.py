@@ -85,7 +85,7 @@ def without(monkeypatch, module):
 
 
 @pytest.mark.parametrize("name", RECORDS)
-def test_nothing_is_loaded(pages, name):
+def test_the_page_loads_nothing(pages, name):
     for tag, attributes in Elements(pages[name]).found:
         for attribute in ("src", "href", "xlink:href", "action", "data", "poster", "srcset"):
             value = attributes.get(attribute)
@@ -96,7 +96,7 @@ def test_nothing_is_loaded(pages, name):
 
 
 @pytest.mark.parametrize("name", RECORDS)
-def test_the_policy_lets_its_own_style_and_script_run_and_no_other(pages, name):
+def test_the_security_policy_allows_only_the_pages_own_style_and_script(pages, name):
     elements = Elements(pages[name])
     policy = next(attributes["content"] for tag, attributes in elements.found if "http-equiv" in attributes)
     rules = dict(part.strip().split(" ", 1) for part in policy.split(";"))
@@ -112,7 +112,7 @@ def test_the_policy_lets_its_own_style_and_script_run_and_no_other(pages, name):
         assert not any(name.startswith("on") for name in attributes), tag
 
 
-def test_hostile_names_are_text(pages):
+def test_hostile_names_in_the_page_are_text(pages):
     elements = Elements(pages["hostile"])
     assert len(elements.texts["script"]) == len(elements.texts["style"]) == 1
     assert not any(tag in {"b", "img"} for tag, _ in elements.found)
@@ -124,14 +124,14 @@ def test_hostile_names_are_text(pages):
     assert r"\u202e" in pages["hostile"]
 
 
-def test_an_endless_name_is_cut_and_counted(pages):
+def test_a_very_long_name_is_cut_with_its_length(pages):
     assert "e" * (LONGEST + 1) not in pages["hostile"]
     assert f"{'e' * 50}… (1,000,000 characters)" in pages["hostile"]
     assert len(pages["hostile"]) < 1_500_000
 
 
 @pytest.mark.parametrize("name", RECORDS)
-def test_ids_are_ones_own_and_links_lead_somewhere(pages, name):
+def test_ids_in_the_page_are_unique_and_links_lead_to_them(pages, name):
     found = Elements(pages[name]).found
     ids = [attributes["id"] for _, attributes in found if "id" in attributes]
     assert len(ids) == len(set(ids))
@@ -141,7 +141,7 @@ def test_ids_are_ones_own_and_links_lead_somewhere(pages, name):
     assert links | labels | clips <= set(ids)
 
 
-def test_what_failed_stands_before_what_holds(no_plots):
+def test_the_page_shows_failures_first(no_plots):
     proof = {"type": "proof", "formula": "f", "quantity": "q", "holds": False, "statement": "x"}
     text = html.render(record_samples.record([*record_samples.lines(), proof], exit_code=6)).decode("utf-8")
     assert text.index("verdict failed") < text.index("What failed") < text.rindex("The oracles")
@@ -161,7 +161,7 @@ def test_failures_beyond_the_length_of_the_table_or_of_the_list_are_counted(no_p
     assert "… and 7 more failures; `junit.xml` and `summary.json` list them all." in markdown.render(record).decode()
 
 
-def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_plots):
+def test_the_page_shows_settings_that_weaken_the_gate_after_failures(no_plots):
     weakened = [{"option": "--tolerance", "value": "1e+18", "default": "8", "source": "hypcheck.toml"}]
     record = record_samples.record()
     settings = decoded({"file": "hypcheck.toml", "weakened": weakened}, SettingsPart)
@@ -172,7 +172,7 @@ def test_the_page_tells_the_settings_that_weaken_the_gate_behind_what_failed(no_
     assert "Settings" not in html.render(record).decode("utf-8")
 
 
-def test_changes_stand_there_too(no_plots):
+def test_the_page_shows_changes_against_another_record(no_plots):
     text = html.render(bench_record(), ReportContext(against=bench_record())).decode("utf-8")
     assert text.index("What changed") < text.index("Which method to use when")
 
@@ -190,7 +190,7 @@ def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
 @pytest.mark.parametrize(
     ("module", "what"), [("jinja2", "jinja2 cannot be imported"), ("matplotlib", "The plots are missing")]
 )
-def test_without_an_extra(monkeypatch, module, what):
+def test_without_jinja2_the_page_is_unavailable_and_without_matplotlib_it_has_no_plots(monkeypatch, module, what):
     without(monkeypatch, module)
     if module == "jinja2":
         with pytest.raises(UnavailableError, match=r"hypcheck\[report\]"):

@@ -39,7 +39,7 @@ def test_each_role_has_a_colour_of_its_own():
     assert len({light for light, _ in ROLES.values()}) == len(ROLES)
 
 
-def test_curves_are_told_apart_without_colour():
+def test_curves_differ_without_colour():
     looks = [curve_style(place) for place in range(curves.AT_MOST)]
     for one, other in combinations(looks, 2):
         assert one.marker != other.marker
@@ -47,13 +47,13 @@ def test_curves_are_told_apart_without_colour():
     assert len({(each.colour, each.marker, str(each.dashes)) for each in map(curve_style, range(40))}) == 40
 
 
-def test_none_of_n_is_drawn_as_its_upper_limit():
+def test_no_wrong_answer_of_n_is_drawn_as_its_upper_limit():
     assert Octave(-3, 300, 0).share == 0.01
     assert Octave(-3, 300, 6).share == 0.02
     assert Octave(-3, 2, 0).share == 1.0
 
 
-def test_octaves_are_merged_where_they_are_many_and_nothing_is_lost():
+def test_many_octaves_are_merged_and_keep_all_cases():
     few = curve("few", {-3.0: (10, 1), -2.0: (20, 0), TANGENT: (5, 2)})
     assert few.octaves == (Octave(TANGENT, 5, 2), Octave(-3, 10, 1), Octave(-2, 20, 0))
     many = curve("many", {float(k): (10, int(k == -30)) for k in range(-40, 0)})
@@ -77,13 +77,13 @@ def test_a_curve_s_marks_stand_where_their_octaves_are():
     assert legends == ["none of n wrong: at most 3/n (95 %)", "m"]
 
 
-def test_cases_that_nothing_changes_have_no_place_on_a_curve():
+def test_cases_at_infinite_distance_are_left_out_of_a_curve():
     found = curve("one", {-3.0: (5, 1), math.inf: (7, 7)})
     assert [(octave.exponent, octave.asked, octave.wrong) for octave in found.octaves] == [(-3.0, 5, 1)]
     assert curve("none", {math.inf: (7, 0)}).octaves == ()
 
 
-def test_many_curves_are_shared_out_evenly():
+def test_many_curves_are_divided_evenly_among_plots():
     assert [len(part) for part in in_parts(range(9))] == [4, 5]
     assert [len(part) for part in in_parts(range(8))] == [8]
     assert list(in_parts([])) == []
@@ -93,15 +93,15 @@ def test_many_curves_are_shared_out_evenly():
     ("asked", "wrong", "role"),
     [(10, 0, 0), (1000, 1, 1), (100, 1, 1), (100, 2, 2), (10, 1, 2), (10, 2, 3), (10, 5, 3), (10, 6, 4), (1, 1, 4)],
 )
-def test_steps_of_colour(asked, wrong, role):
+def test_each_share_of_wrong_answers_has_its_step_of_colour(asked, wrong, role):
     assert heat.step(asked, wrong) == f"share-{role}"
 
 
-def test_cells_are_merged_by_sums_also_below_zero():
+def test_cells_are_merged_by_sums_also_at_negative_places():
     assert heat.cells([[-1, 0, 5, 1], [-2, 1, 5, 2], [0, 0, 7, 0]], 2) == {(-1, 0): (10, 3), (0, 0): (7, 0)}
 
 
-def test_the_front_is_what_no_other_beats():
+def test_the_front_has_the_points_that_no_other_beats():
     points = [
         ParetoPoint("fast", "C", 1.0, 1e-3, 5000, exact=False),
         ParetoPoint("beaten", "C", 2.0, 1e-2, 5000, exact=False),
@@ -148,17 +148,17 @@ def test_labels_cover_neither_each_other_nor_points_nor_lines():
         (0.5, 2e3, ["1", "10", "100", "10³"]),
     ],
 )
-def test_an_axis_always_has_two_marks(low, high, wanted):
+def test_a_logarithmic_axis_always_has_two_marks(low, high, wanted):
     assert [label for _, label in ticks(low, high)] == wanted
 
 
-def test_powers_of_ten():
+def test_powers_of_ten_are_written_as_on_an_axis():
     assert [power_of_ten(k) for k in (-17, -3, -2, 0, 2, 3)] == ["10⁻¹⁷", "10⁻³", "0.01", "1", "100", "10³"]
     assert decades(1e-18, 1.0) == [-18, -15, -12, -9, -6, -3, 0]
 
 
 @pytest.mark.parametrize("name", PLOTS)
-def test_every_plot_has_named_axes_words_and_tooltips(name):
+def test_every_plot_has_named_axes_a_description_and_tooltips(name):
     found = [plot for record in (record_samples.record(), bench_record()) for plot in draw_plots(name, record)]
     assert found
     for plot in found:

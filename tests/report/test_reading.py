@@ -55,7 +55,7 @@ def test_a_record_from_its_file_or_its_folder(tmp_path, body):
         ),
     ],
 )
-def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
+def test_an_invalid_line_is_refused_by_its_number(tmp_path, kind, spoilt, said):
     body = [{**line, **spoilt} if line["type"] == kind else line for line in record_samples.lines()]
     number = 2 + next(place for place, line in enumerate(body) if line["type"] == kind)
     with pytest.raises(InputError) as caught:
@@ -72,7 +72,7 @@ def test_a_line_that_does_not_fit_is_named(tmp_path, kind, spoilt, said):
         ([[-3, "-inf", 3]], 'octaves[0][1] is "-inf"; it must be a whole number'),
     ],
 )
-def test_counts_that_cannot_be_are_named(tmp_path, octaves, said):
+def test_impossible_counts_are_refused_by_name(tmp_path, octaves, said):
     body = [{**line, "octaves": octaves} if line["type"] == "accuracy" else line for line in bench_lines.lines()]
     with pytest.raises(InputError) as caught:
         read(written(tmp_path, body))
@@ -87,7 +87,7 @@ def test_constants_that_are_no_json_are_refused(tmp_path, constant):
         read(path)
 
 
-def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
+def test_a_line_that_lacks_a_field_is_refused_naming_the_field(tmp_path):
     """Whatever is left out, there is a sentence or a report."""
     every = [*record_samples.lines(), *bench_lines.lines()]
     first = {line["type"]: line for line in reversed(every)}
@@ -104,7 +104,7 @@ def test_every_kind_of_line_without_each_of_its_fields(tmp_path):
                 read(path)
 
 
-def test_other_versions(tmp_path):
+def test_later_minor_versions_are_read_and_other_major_versions_refused(tmp_path):
     later = read(written(tmp_path, [*record_samples.lines(), {"type": "dream", "of": "sheep"}], schema="1.9.0"))
     assert notes(later) == [
         "the record has schema 1.9.0, later than this program's 1.5.0; what it adds is not shown",
@@ -119,7 +119,7 @@ def test_other_versions(tmp_path):
         read(written(tmp_path, schema="1"))
 
 
-def test_a_truncated_record_is_noted(tmp_path):
+def test_a_truncated_record_has_a_note(tmp_path):
     text, _ = record_samples.text_and_record(exit_code=None)
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")

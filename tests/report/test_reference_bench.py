@@ -28,7 +28,7 @@ def record():
     return read(FOLDER / "record.jsonl")
 
 
-def test_it_is_a_whole_run_of_this_version_that_held_within_five_minutes(record):
+def test_the_reference_benchmark_is_complete_of_this_version_and_held_within_five_minutes(record):
     assert record.header.hypcheck == VERSION
     assert record.header.schema.partition(".")[0] == SCHEMA.partition(".")[0]
     assert (record.header.options["command"], record.header.options["quick"]) == ("bench", False)
@@ -36,20 +36,20 @@ def test_it_is_a_whole_run_of_this_version_that_held_within_five_minutes(record)
     assert record.footer.seconds < 300
 
 
-def test_every_method_was_there_and_judged(record):
+def test_the_reference_benchmark_judged_every_method(record):
     named = {line.method for line in record.of(MethodLine)}
     assert named == set(contenders(BenchPlan()))
     assert {line.method for line in record.of(AccuracyLine)} == named
     assert not record.of(AbsentLine)
 
 
-def test_the_pages_are_those_of_the_record(record):
+def test_the_reference_pages_equal_those_made_from_the_record(record):
     assert (FOLDER / "README.md").read_bytes() == markdown.render_overview(record, AROUND)
     assert (FOLDER / "report.md").read_bytes() == markdown.render(record, AROUND)
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_the_pictures_say_what_the_record_does(record, name):
+def test_the_reference_pictures_show_the_texts_and_points_of_the_record(record, name):
     """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
     fresh, committed = render(name, record), (FOLDER / REPORTS[name].file).read_bytes()
     assert said(fresh) == said(committed)
@@ -80,7 +80,7 @@ def test_the_readme_shows_its_picture():
     assert "](reports/reference/bench/README.md)" in text
 
 
-def test_all_of_it_is_small():
+def test_the_reference_benchmark_is_small():
     assert sum(REPORTS[name].file in {path.name for path in FOLDER.iterdir()} for name in PICTURES) == len(PICTURES)
     kept = [FOLDER / name for name in ("record.jsonl", "README.md", "report.md", *(REPORTS[p].file for p in PICTURES))]
     assert sum(path.stat().st_size for path in kept) < 3_000_000

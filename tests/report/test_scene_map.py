@@ -30,14 +30,14 @@ def of_figure(body=None):
         return half_plane.maps_together(record_samples.record(body)).figure
 
 
-def test_it_is_svg_without_a_date():
+def test_the_map_is_svg_without_a_date():
     content = pictures.render_map(record_samples.record())
     assert ElementTree.fromstring(content).tag == "{http://www.w3.org/2000/svg}svg"  # noqa: S314 - just written
     assert b"<dc:date>" not in content
     assert b"Matplotlib v" not in content
 
 
-def test_each_grid_point_has_its_colour():
+def test_each_grid_point_of_the_map_has_its_colour():
     colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in half_plane.REGIONS.items()}
     panels = [axes for axes in of_figure().axes if axes.images]
     assert len(panels) == len(maps())
@@ -90,7 +90,7 @@ def test_colours_differ_in_lightness():
     assert lightness[1] - lightness[0] > 0.25  # what is wrong stands out
 
 
-def test_nobodys_settings_are_used_or_changed():
+def test_matplotlib_settings_of_the_user_are_neither_used_nor_changed():
     import matplotlib
 
     drawn = pictures.render_map(record_samples.record())
@@ -106,7 +106,7 @@ def test_without_a_map_there_is_no_picture():
         pictures.render_map(record_samples.record([]))
 
 
-def test_without_matplotlib_there_is_a_reason(monkeypatch):
+def test_without_matplotlib_the_picture_is_unavailable_with_a_reason(monkeypatch):
     imported = builtins.__import__
 
     def without(name, *arguments, **options):
@@ -122,14 +122,14 @@ def test_without_matplotlib_there_is_a_reason(monkeypatch):
     assert "\n" not in str(caught.value)
 
 
-def test_it_is_loaded_only_where_it_is_used():
+def test_importing_the_writer_of_reports_loads_no_matplotlib():
     code = "import sys, hypcheck.report.write; sys.exit('matplotlib' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
 @settings(max_examples=4)
 @given(foreign=record_samples.FOREIGN)
-def test_any_name_can_be_drawn(foreign):
+def test_a_map_with_any_foreign_name_is_valid_svg(foreign):
     body = record_samples.rewritten([as_json(line) for line in maps()], "table-2-float32", f"${foreign}$ \\frac")
     content = pictures.render_map(record_samples.record(body))
     ElementTree.fromstring(content)  # noqa: S314

@@ -63,7 +63,7 @@ def test_a_published_schema_is_that_of_the_classes(file):
     assert file.read_text(encoding="utf-8") == text(PUBLISHED[file]()), "make schemas writes it anew"
 
 
-def test_every_line_of_the_sample_fits():
+def test_every_line_of_the_sample_fits_its_schema():
     text, _ = record_samples.text_and_record()
     kinds = set()
     for line in lines_of(text):
@@ -72,7 +72,7 @@ def test_every_line_of_the_sample_fits():
     assert kinds == set(LINES) - {"drift", "implementation", "progress"} - OF_A_BENCHMARK
 
 
-def test_every_line_of_a_benchmark_fits():
+def test_every_line_of_a_benchmark_fits_its_schema():
     found = [as_json(line) for line in bench_lines.bench_record().lines]
     for line in found:
         assert violations(line, RECORD, closed=True) == []
@@ -93,7 +93,7 @@ def test_a_line_that_fits_an_older_schema_fits_this_one(version):
             assert violations(plain(line), older) == violations(plain(line), RECORD) == []
 
 
-def test_an_implementation_that_was_not_started_has_nothing_but_its_trouble():
+def test_the_line_of_an_implementation_that_did_not_start_has_only_its_trouble():
     line = {"type": "implementation", "spec": "command:x", "name": "x", "started": False, "trouble": "none"}
     assert violations(line, RECORD, closed=True) == []
     assert violations({**line, "started": True}, RECORD["$defs"]["implementation"] | {"$defs": RECORD["$defs"]})
@@ -112,14 +112,14 @@ def really_recorded():
     return stream.getvalue()
 
 
-def test_what_a_run_records_fits(really_recorded):
+def test_the_record_of_a_run_fits_its_schema(really_recorded):
     lines = list(lines_of(really_recorded))
     assert {"header", "oracle", "finding", "group", "map", "footer"} <= {line["type"] for line in lines}
     for line in lines:
         assert violations(line, RECORD, closed=True) == []
 
 
-def test_the_summary_of_what_a_run_records_fits(really_recorded, tmp_path):
+def test_the_summary_of_a_run_fits_its_schema(really_recorded, tmp_path):
     path = tmp_path / "record.jsonl"
     path.write_text(really_recorded, encoding="utf-8")
     assert violations(of_summary(read(path)), SUMMARY, closed=True) == []
@@ -130,7 +130,7 @@ def test_lines_of_the_derivation_have_the_fields_of_their_values(kind, type_):
     assert set(RECORD["$defs"][kind]["required"]) == {field.name for field in fields(type_)} | {"type"}
 
 
-def test_a_timing_line_is_a_timing():
+def test_a_timing_line_has_the_fields_of_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
     contender = TimedMethod("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
     *_, (_, (timing,)) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
@@ -144,7 +144,7 @@ def truncated_early():
 
 
 @pytest.mark.parametrize("record", [record_samples.record(), record_samples.record(exit_code=None), truncated_early()])
-def test_summaries_fit(record):
+def test_summaries_of_samples_fit_their_schema(record):
     assert violations(of_summary(record), SUMMARY, closed=True) == []
 
 

@@ -124,7 +124,7 @@ def test_shares_of_wrong_answers_are_drawn_over_the_step():
     assert min(wall.get_xdata()) == 2.0
 
 
-def test_every_stop_and_the_rings_of_guilty_trees_are_drawn():
+def test_every_stop_is_drawn_with_the_ring_of_its_tree():
     result = walked(1500)
     with styled():
         plot, _ = forest_walk.plots(result)

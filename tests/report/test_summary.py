@@ -14,7 +14,7 @@ def summary(record):
     return json.loads(render(record))
 
 
-def test_the_contract():
+def test_the_summary_has_its_documented_keys():
     """The fields that other people's programs read."""
     found = summary(record_samples.record())
     assert (found["schema"], found["exit_code"], found["passed"], found["truncated"]) == ("1.2.0", 0, True, False)
@@ -55,7 +55,7 @@ def test_an_implementation_is_the_sum_of_its_families():
         assert each["asked"] == sum(number for status, number in each["statuses"].items() if status != "skipped")
 
 
-def test_oracles():
+def test_the_summary_counts_the_answers_of_each_oracle():
     found = summary(record_samples.record())["oracles"]
     assert list(found) == ["exact", "nearest", "roots", "mesh"]
     for each in found.values():
@@ -66,7 +66,7 @@ def test_oracles():
     assert "unavailable" not in found["exact"]
 
 
-def test_what_was_found():
+def test_the_summary_counts_equations_proofs_and_findings():
     found = summary(record_samples.record())
     assert found["equations"] == {"holds": ["1"], "misprint": ["12"], "false": []}
     assert found["proofs"] == {"asked": 2, "hold": 2, "fail": 0}
@@ -101,7 +101,7 @@ def test_the_order_of_keys_does_not_depend_on_the_run():
 
 
 @given(record_samples.FOREIGN)
-def test_any_name_makes_json_in_utf_8(name):
+def test_a_summary_with_any_foreign_name_is_json_in_utf_8(name):
     changed = record_samples.rewritten(record_samples.lines(), "table-2-float32", name)
     found = json.loads(render(record_samples.record(changed)).decode("utf-8"))
     assert name.encode("utf-8", "replace").decode("utf-8") in [each["name"] for each in found["implementations"]]

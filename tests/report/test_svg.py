@@ -48,7 +48,7 @@ def test_colours_are_classes_and_nothing_is_styled():
         assert f".{each}{{" in colour_rules()
 
 
-def test_text_is_text_and_means_itself():
+def test_foreign_text_in_a_plot_stays_text():
     assert [each.text for each in parsed(inline(simple())).iter(f"{SVG}text")].count("<x> & $y$") == 1
 
 
@@ -60,12 +60,12 @@ def test_every_mark_has_its_tooltip():
     ]
 
 
-def test_tooltips_that_do_not_fit_their_marks_are_a_defect():
+def test_more_tooltips_than_marks_raise_value_error():
     with pytest.raises(ValueError, match="marks has 2 marks and 3 tooltips"):
         inline(simple(tips=3))
 
 
-def test_it_says_what_it_is():
+def test_a_plot_has_a_title_and_a_description():
     root = parsed(inline(simple(title="\x1b[31m<b>\u202e")))
     assert root.get("role") == "img"
     texts = {each.get("id"): each.text for each in root if each.get("id")}
@@ -80,7 +80,7 @@ def test_two_plots_share_no_id():
     assert used <= first
 
 
-def test_a_file_of_its_own_follows_the_scheme_and_has_a_ground():
+def test_a_standalone_plot_follows_the_colour_scheme_and_has_a_background():
     root = parsed(standalone(simple()))
     style = root.find(f"{SVG}style").text
     assert "prefers-color-scheme:dark" in style

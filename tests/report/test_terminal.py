@@ -25,7 +25,7 @@ def shown(*extra, exit_code=0, body=None, options=None, **how):
     return summary_lines(record_samples.record(lines, exit_code, options), WRITTEN, **how)
 
 
-def test_a_run_that_held():
+def test_the_terminal_shows_a_run_that_held():
     assert shown() == [
         record_samples.HELD,
         "oracles in agreement: exact 40 of 40, nearest 40 of 40, roots 3 of 5",
@@ -54,7 +54,7 @@ def test_an_interrupted_run_says_so_first():
     assert shown(exit_code=None)[0].startswith("TRUNCATED: ")
 
 
-def test_it_stays_short():
+def test_the_terminal_shows_at_most_25_lines():
     many = [bench_lines.cost(f"claim {name}", "holds") for name in "abcdefghijklmnop"]
     lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6, width=WIDTH)
     assert len(lines) == MOST_LINES == 25
@@ -63,7 +63,7 @@ def test_it_stays_short():
     assert max(map(len, lines)) == WIDTH + 2  # and the two spaces before a failure
 
 
-def test_a_summary_in_a_pipe_or_a_file_is_cut_nowhere():
+def test_lines_of_a_summary_in_a_pipe_or_a_file_are_not_cut():
     lines = shown({**UNPROVED, "statement": "x" * 1000}, exit_code=6)
     assert lines[1] == f"  ✗ hessian: not proved: {'x' * 1000}"
     assert not any("…" in line for line in lines)
@@ -97,13 +97,13 @@ ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [record_samples.worst("r
         ),
     ],
 )
-def test_the_answer_farthest_off_says_why_it_is_not_beyond_the_tolerance(group, options, says):
+def test_the_worst_answer_is_shown_with_the_reason_why_it_is_within_the_tolerance(group, options, says):
     lines = shown(body=[record_samples.group("m", "float64", "ring", **group)], options=options)
     assert f"float64: {says}" in lines
 
 
 @pytest.mark.parametrize("code", [0, 6, None])
-def test_colour_only_where_it_is_asked_for(code):
+def test_the_summary_has_colour_only_if_asked_for(code):
     plain, coloured = shown(exit_code=code), shown(exit_code=code, colour=True)
     assert not any("\x1b" in line for line in plain)
     assert coloured[0].startswith("\x1b[32m" if code == 0 else "\x1b[31m")

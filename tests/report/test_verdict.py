@@ -31,19 +31,19 @@ DRIFT = {"type": "drift", "sentence": "table-2 errs on uniform inside its stated
 TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no pass."
 
 
-def test_all_held():
+def test_a_run_in_which_all_held_has_passed():
     found = verdict(of())
     assert found.passed
     assert found.sentence == record_samples.HELD
     assert failures(of()) == []
 
 
-def test_one_oracle_alone_agrees_with_nobody():
+def test_a_single_oracle_claims_no_agreement():
     body = [record_samples.oracle("exact", "ring", {"proved": 20})]
     assert verdict(of(body=body)).sentence == "HELD: 20 cases asked of exact and of no other oracle."
 
 
-def test_what_the_papers_formulas_get_wrong_fails_nothing():
+def test_wrong_answers_of_the_papers_formulas_do_not_fail_the_run():
     body = [
         line
         for line in record_samples.lines()
@@ -74,7 +74,7 @@ def test_each_failure_is_named(line, code, says, case):
     assert (failure.replay is None) == (case is None)
 
 
-def test_a_replay_line_is_the_command_that_decides_the_row():
+def test_the_replay_of_a_failure_is_the_command_that_decides_its_row():
     (failure,) = failures(of(EXACT_WRONG))
     assert "tangent/1/1/0 is contact; answered: exterior (false-clear, wrong by " in failure.message
     assert failure.replay == "hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0"
@@ -88,7 +88,7 @@ def test_several_failures_are_counted_worst_first():
     )
 
 
-def test_cases_that_the_record_did_not_keep_are_counted():
+def test_disagreements_that_the_record_did_not_keep_are_counted():
     line = record_samples.oracle(
         "roots", "tangent", {"signs suffice": 50}, cases=[record_samples.disagreement("roots")] * 20, disagreeing=33
     )
@@ -114,12 +114,12 @@ def test_cases_that_the_record_did_not_keep_are_counted():
         ((UNPROVED,), 0, "CONTRADICTORY: the record ends with exit code 0, but holds 1 failed proof."),
     ],
 )
-def test_no_other_end_is_a_pass(extra, code, sentence):
+def test_a_run_with_any_other_end_has_not_passed(extra, code, sentence):
     assert verdict(of(*extra, exit_code=code)).sentence == sentence
     assert not verdict(of(*extra, exit_code=code)).passed
 
 
-def test_nothing_asked_is_no_pass():
+def test_a_run_that_asked_nothing_has_not_passed():
     assert verdict(record_samples.record([])).sentence == "NOTHING was asked and nothing was judged: this is no pass."
     assert not verdict(record_samples.record([])).passed
     skipped = [record_samples.group("fast", "float64", "ring", {"skipped": 9}, exact=True)]

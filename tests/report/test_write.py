@@ -20,7 +20,7 @@ FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "me
 TEXTS = ("json", "junit", "markdown", "csv")
 
 
-def test_all_of_them(tmp_path):
+def test_write_reports_writes_every_format(tmp_path):
     record = record_samples.record()
     written = write_reports(record, tmp_path / "a" / "b")
     assert {each.path.name for each in written} == FILES == set(os.listdir(tmp_path / "a" / "b"))
@@ -59,7 +59,7 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
 
 
 @pytest.mark.parametrize("kept", range(len(record_samples.lines()) + 1))
-def test_wherever_it_was_interrupted(kept, tmp_path):
+def test_reports_of_a_run_that_was_interrupted_anywhere_are_written(kept, tmp_path):
     record = record_samples.record(record_samples.lines()[:kept], exit_code=None)
     written = write_reports(record, tmp_path, [*TEXTS, *(["map", "html"] if kept % 6 == 0 else [])])
     assert not [each.path.name for each in written if each.skipped]
@@ -80,7 +80,7 @@ def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
     assert "map.svg" not in (tmp_path / "report.md").read_text(encoding="utf-8")
 
 
-def test_a_place_that_cannot_be_written_is_named(tmp_path):
+def test_a_report_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "junit.xml").mkdir()
     with pytest.raises(InputError, match=r"cannot write .*junit\.xml"):
         write_reports(record_samples.record(), tmp_path)
@@ -93,7 +93,7 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
         write_reports(record_samples.record(), tmp_path / "file" / "reports")
 
 
-def test_a_report_that_breaks_leaves_the_old_one(tmp_path, monkeypatch):
+def test_an_error_while_a_report_is_made_leaves_the_old_report(tmp_path, monkeypatch):
     (tmp_path / "summary.json").write_text("old", encoding="utf-8")
 
     def broken(record):

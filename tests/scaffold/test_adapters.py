@@ -153,7 +153,7 @@ def expected(rows):
     return answers
 
 
-def test_it_describes_the_stub(built, spec):
+def test_the_adapter_describes_the_stub(built, spec):
     with asked(spec) as it:
         declared = it.declared
     assert (declared.name, declared.precision, declared.question) == ("stub", "float64", "exterior")
@@ -165,7 +165,7 @@ def test_it_describes_the_stub(built, spec):
         assert declared.language.replace("c++", "cpp") == built.language.name
 
 
-def test_it_answers_as_table_2_does_to_the_last_bit(built, spec, rows, expected):
+def test_the_adapter_answers_exactly_as_table_2(built, spec, rows, expected):
     with asked(spec) as it:
         for batch in (None, 65536, 4097, 1):
             some = slice(0, 200 if batch == 1 else None)
@@ -175,14 +175,14 @@ def test_it_answers_as_table_2_does_to_the_last_bit(built, spec, rows, expected)
         assert it.restarts == 0
 
 
-def test_the_largest_question_is_answered(built, spec):
+def test_the_adapter_answers_the_largest_question(built, spec):
     many = FAMILIES["uniform"].rows(3, 65536)
     with asked(spec) as it:
         answered = it.classify(many, batch=65536)
     assert answered.answers.tolist() == builtin("table-2-float64").answer(many).tolist()
 
 
-def test_it_can_be_timed(built, spec, rows):
+def test_the_adapter_can_be_timed(built, spec, rows):
     with asked(spec) as it:
         once, often = (it.time(rows, repeat) for repeat in (1, 50))
     assert once is not None
@@ -192,7 +192,7 @@ def test_it_can_be_timed(built, spec, rows):
 
 
 @commands
-def test_text_is_read_to_the_last_bit(built, spec, rows, expected):
+def test_the_adapter_reads_numbers_in_text_exactly(built, spec, rows, expected):
     """Through the runner: a filter keeps the adapter from offering the binary form."""
     text_only = """exec "$0" "$@" | sed -u '1s/"binary":true/"binary":false/'"""
     words = ["sh", "-c", text_only, *shlex.split(spec.removeprefix("command:"))]
@@ -203,7 +203,7 @@ def test_text_is_read_to_the_last_bit(built, spec, rows, expected):
     assert np.flatnonzero(answered.answers != expected).tolist() == []
 
 
-def test_another_predicate_takes_the_stubs_place(built, rows, expected, tmp_path, monkeypatch):
+def test_another_predicate_can_replace_the_stub(built, rows, expected, tmp_path, monkeypatch):
     """One that answers -1 too, which bytes and signs must carry."""
     other = replace(built, folder=tmp_path / "other")
     shutil.copytree(built.folder, other.folder)
@@ -268,21 +268,21 @@ GOOD, ANSWER = b"classify 7 1 text\n1 2 1 1 4 0 0\n", b"7 1\n1\n"
 
 
 @commands
-def test_a_question_that_is_none_is_an_error_and_the_next_is_answered(built, spec):
+def test_an_invalid_question_is_an_error_and_the_next_is_answered(built, spec):
     said = b"".join(line + b"\n" + GOOD for line in NONSENSE)
     replies = built.talk(spec, said).partition(b"\n")[2]
     assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NONSENSE)
 
 
 @commands
-def test_a_row_that_is_none_is_an_error_of_the_whole_question_and_of_it_alone(built, spec):
+def test_an_invalid_row_is_an_error_of_its_whole_question_only(built, spec):
     said = b"".join(b"classify 1 3 text\n1 2 1 1 4 0 0\n" + row + b"\n1 2 1 1 4 0 0\n" + GOOD for row in NO_ROWS)
     replies = built.talk(spec, said).partition(b"\n")[2]
     assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NO_ROWS)
 
 
 @commands
-def test_what_has_no_finite_value_is_read_as_that(built, spec):
+def test_the_adapter_reads_nan_and_infinities(built, spec):
     """As rows to be refused are written; the stub answers all of them 0."""
     said = b"classify 1 3 text\nnan 2 1 1 4 0 0\n1 2 1 1 inf 0 0\n1 2 1 1 -inf 0 -0.0\n"
     assert built.talk(spec, said + GOOD).partition(b"\n")[2] == b"1 3\n0\n0\n0\n" + ANSWER
@@ -296,13 +296,13 @@ def test_no_rows_have_no_answers(built, spec):
 
 @commands
 @pytest.mark.parametrize("left", [b"classify 1", b"classify 1 2 text\n1 2 1 1 4 0 0\n", b"classify 1 2 binary\n1234"])
-def test_the_end_of_the_input_is_goodbye_wherever_it_comes(built, spec, left):
+def test_the_adapter_ends_quietly_at_any_end_of_input(built, spec, left):
     replies = built.talk(spec, GOOD + left).partition(b"\n")[2]
     assert re.fullmatch(re.escape(ANSWER) + rb"(error [ -~]+\n)?", replies)
 
 
 @commands
-def test_the_page_about_the_protocol_shows_what_is_said(built, spec):
+def test_the_example_in_docs_protocol_is_what_the_adapter_says(built, spec):
     said, shown = [], []
     for line in PROTOCOL.read_text(encoding="utf-8").splitlines():
         if line.startswith(("    → ", "    ← ")):
@@ -335,7 +335,7 @@ def test_the_predicate_alone_is_a_library(built, spec, rows, expected):
     assert answered.answers.tolist() == expected.tolist()
 
 
-def test_it_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec):
+def test_the_stub_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec):
     _, passes, fails = built.typed
     done = built.run(f"{passes} --out passed")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -347,7 +347,7 @@ def test_it_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec):
     assert failed["implementations"][0]["name"] == "stub"
 
 
-def test_what_building_leaves_behind_is_ignored(built, spec):
+def test_git_ignores_the_products_of_the_build(built, spec):
     if shutil.which("git") is None:
         pytest.skip("git is not on the PATH")
     project = Project(built.language, "stub")

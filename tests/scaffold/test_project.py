@@ -46,7 +46,7 @@ def every_file(folder, language, name: str) -> dict[str, str]:
     return project.files() | shared_files(folder / "empty", project, None, force=True)[0]
 
 
-def test_every_file_of_a_language_is_written_and_what_to_type_next_is_told(language, tmp_path, capsys):
+def test_init_writes_every_file_of_a_language_and_prints_the_next_commands(language, tmp_path, capsys):
     project = Project(language, "engine")
     expected = every_file(tmp_path, language, "engine")
     assert init("--language", language.name, "--directory", tmp_path, "--name", "engine") == 0
@@ -61,7 +61,7 @@ def test_every_file_of_a_language_is_written_and_what_to_type_next_is_told(langu
     assert f"in {tmp_path}:" in printed
 
 
-def test_the_working_directory_is_the_default_and_lends_its_name(tmp_path, monkeypatch, capsys):
+def test_init_writes_to_the_working_directory_and_uses_its_name_by_default(tmp_path, monkeypatch, capsys):
     folder = tmp_path / "Moteur à tiges"
     folder.mkdir()
     monkeypatch.chdir(folder)
@@ -70,7 +70,7 @@ def test_the_working_directory_is_the_default_and_lends_its_name(tmp_path, monke
     assert "Type next:" in capsys.readouterr().out
 
 
-def test_templates_are_those_of_the_table_and_nothing_in_them_is_left_open(language, tmp_path):
+def test_templates_are_those_of_the_table_and_all_their_places_are_filled(language, tmp_path):
     folder = files("hypcheck.scaffold").joinpath("templates")
     there = {str(path.relative_to(folder / language.name)) for path in (folder / language.name).rglob("*")}
     assert {path for path in there if "." in path and "__pycache__" not in path} == set(language.files)
@@ -82,7 +82,7 @@ def test_templates_are_those_of_the_table_and_nothing_in_them_is_left_open(langu
         assert "\r" not in text
 
 
-def test_the_stub_says_that_it_is_one_where_it_stands(language, tmp_path):
+def test_the_stub_says_in_its_file_that_it_is_a_stub(language, tmp_path):
     written = every_file(tmp_path, language, "engine")
     saying = [path for path, text in written.items() if "Replace this with your predicate" in text]
     assert saying == [f"{language.folder}/{language.predicate}"]
@@ -105,7 +105,7 @@ def test_the_settings_are_toml_and_name_the_adapter(language, tmp_path):
 
 
 @pytest.mark.parametrize("taken", ["hypcheck.toml", ".github/workflows/hypcheck.yml", "hypcheck-c/predicate.c"])
-def test_what_is_there_stays_unless_force_is_said(taken, tmp_path, capsys):
+def test_init_keeps_existing_files_unless_forced(taken, tmp_path, capsys):
     (tmp_path / taken).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / taken).write_text("mine")
     assert init("--language", "c", "--directory", tmp_path) == 2
@@ -115,14 +115,14 @@ def test_what_is_there_stays_unless_force_is_said(taken, tmp_path, capsys):
     assert tree(tmp_path) == every_file(tmp_path, LANGUAGES["c"], safe_name(tmp_path.name))
 
 
-def test_even_a_dangling_link_counts_as_there(tmp_path, capsys):
+def test_init_counts_a_dangling_link_as_an_existing_file(tmp_path, capsys):
     (tmp_path / "hypcheck.toml").symlink_to(tmp_path / "nowhere")
     assert init("--language", "c", "--directory", tmp_path) == 2
     assert "hypcheck.toml exists" in capsys.readouterr().err
     assert not (tmp_path / "nowhere").exists()
 
 
-def test_a_folder_is_not_replaced_even_by_force(tmp_path, capsys):
+def test_init_does_not_replace_a_folder_even_if_forced(tmp_path, capsys):
     (tmp_path / "hypcheck.toml").mkdir()
     assert init("--language", "c", "--directory", tmp_path, "--force") == 2
     assert f"{tmp_path / 'hypcheck.toml'} is in the way; it must be a file" in capsys.readouterr().err
@@ -130,7 +130,7 @@ def test_a_folder_is_not_replaced_even_by_force(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("taken", [".github", "hypcheck-c"])
-def test_a_file_where_a_folder_must_be_leaves_nothing_half_written(taken, tmp_path, capsys):
+def test_a_file_in_place_of_a_folder_leaves_nothing_half_written(taken, tmp_path, capsys):
     (tmp_path / taken).write_text("mine")
     assert init("--language", "c", "--directory", tmp_path / "") == 2
     assert f"cannot make the folder {tmp_path / taken}" in capsys.readouterr().err
@@ -155,7 +155,7 @@ def test_a_full_disk_or_an_interrupt_leaves_everything_as_it_was(fails_at, error
     assert list(tmp_path.iterdir()) == []
 
 
-def test_names_are_made_safe():
+def test_names_keep_only_safe_characters():
     assert safe_name("engine_2.0-rc") == "engine_2.0-rc"
     assert safe_name("Größe & Co") == "Groe-Co"
     assert safe_name('a"; rm -rf ~ #\n\\') == "a-rm-rf"
@@ -164,7 +164,7 @@ def test_names_are_made_safe():
     assert len(safe_name("x" * 1000)) == LONGEST_NAME
 
 
-def test_a_name_of_nothing_is_refused_and_a_changed_one_is_told(tmp_path, capsys):
+def test_a_name_without_safe_characters_is_refused_and_a_changed_one_reported(tmp_path, capsys):
     assert init("--language", "python", "--directory", tmp_path, "--name", "δ") == 2
     assert "--name is 'δ'; it must have a letter or a digit" in capsys.readouterr().err
     assert init("--language", "python", "--directory", tmp_path, "--name", 'x"y') == 0
@@ -175,13 +175,13 @@ def test_a_name_of_nothing_is_refused_and_a_changed_one_is_told(tmp_path, capsys
     assert r"\"name\":\"predicate\"" in (tmp_path / "δ/hypcheck-c/predicate.c").read_text()
 
 
-def test_a_language_that_is_none_is_refused(tmp_path, capsys):
+def test_an_unknown_language_is_refused(tmp_path, capsys):
     assert init("--language", "fortran", "--directory", tmp_path) == 2
     assert "'fortran' is not one of" in capsys.readouterr().err
     assert init("--directory", tmp_path) == 2
 
 
-def test_it_loads_nothing_heavy(tmp_path):
+def test_init_loads_nothing_heavy(tmp_path):
     heavy = ("numpy", "sympy", "mpmath", "fcl", "matplotlib")
     code = f"""
 import json, sys

@@ -57,7 +57,7 @@ BAD_SOURCES = [
 
 
 @pytest.mark.parametrize("source", BAD_SOURCES)
-def test_anything_else_ends_2_before_a_file_is_written(source, tmp_path, capsys):
+def test_an_invalid_source_ends_2_before_a_file_is_written(source, tmp_path, capsys):
     assert main(["init", "--language", "c", "--directory", str(tmp_path), f"--from={source}"]) == 2
     assert "it must be a git URL such as https://host/owner/hypcheck.git@v1.2.0" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
@@ -100,13 +100,13 @@ def test_a_path_of_a_repository_is_the_same_as_its_url(repository, tmp_path):
     assert requirement(str(repository), tmp_path / "engine") == requirement(f"file://{repository}", tmp_path)
 
 
-def test_a_commit_is_pinned_without_asking(tmp_path):
+def test_a_source_with_a_commit_is_pinned_without_asking_git(tmp_path):
     wanted = requirement(f"file:///no/such/repository@{COMMIT}", tmp_path)
     assert pinned(wanted) == wanted
 
 
 @pytest.mark.parametrize("end", ["", "@v1"])
-def test_a_remote_repository_that_cannot_be_asked_is_told_as_not_pinned(end, tmp_path, monkeypatch):
+def test_a_remote_repository_that_cannot_be_asked_is_reported_as_not_pinned(end, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))  # no git, hence no network
     wanted = pinned(requirement(f"https://example.org/hypcheck.git{end}", tmp_path))
     assert wanted.text == f"hypcheck @ git+https://example.org/hypcheck.git{end}"
@@ -114,7 +114,7 @@ def test_a_remote_repository_that_cannot_be_asked_is_told_as_not_pinned(end, tmp
 
 
 @pytest.mark.parametrize(("end", "said"), [("@v9", "has no branch or tag 'v9'"), ("", "git cannot read")])
-def test_a_local_repository_without_the_name_or_that_is_none_is_refused(end, said, repository, tmp_path):
+def test_a_local_repository_that_cannot_be_read_or_lacks_the_ref_is_refused(end, said, repository, tmp_path):
     where = repository if end else tmp_path / "nothing"
     with pytest.raises(InputError, match=said):
         pinned(requirement(f"file://{where}{end}", tmp_path))
@@ -151,7 +151,7 @@ TOLD = {
 
 
 @pytest.mark.parametrize("source", TOLD)
-def test_what_is_to_be_known_of_a_source_is_printed_and_stands_in_the_workflow(source, tmp_path, capsys):
+def test_notes_about_a_source_are_printed_and_written_into_the_workflow(source, tmp_path, capsys):
     assert main(["init", "--language", "c", "--directory", str(tmp_path), "--from", source]) == 0
     assert TOLD[source] in capsys.readouterr().out
     comments = re.findall(r"^ +# (.*)$", (tmp_path / WORKFLOW).read_text(), flags=re.MULTILINE)

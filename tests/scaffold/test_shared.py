@@ -98,7 +98,7 @@ def test_a_spec_is_added_to_settings_that_a_user_wrote_and_the_rest_stays(text, 
 @pytest.mark.parametrize(
     "text", ['specs = [\n  "command:./mine" # ours\n]\n', 'specs = ["a",\n  "b"]\n', "specs = 1\n"]
 )
-def test_settings_that_cannot_be_added_to_stay_and_the_spec_to_add_is_told(text, init, tmp_path, capsys):
+def test_settings_that_cannot_be_added_to_stay_and_the_missing_spec_is_reported(text, init, tmp_path, capsys):
     (tmp_path / "hypcheck.toml").write_text(text)
     assert init("c") == 0
     assert (tmp_path / "hypcheck.toml").read_text() == text
@@ -133,7 +133,7 @@ def test_a_source_named_with_the_second_language_fills_the_step_that_had_none(in
         ("/reports\nhypcheck-report\n", "/reports\nhypcheck-report\n"),
     ],
 )
-def test_what_runs_write_is_added_to_what_git_ignores_even_by_force(before, after, init, tmp_path):
+def test_init_adds_files_of_runs_to_gitignore_even_if_forced(before, after, init, tmp_path):
     (tmp_path / ".gitignore").write_text(before)
     assert init("c", "--force") == 0
     assert (tmp_path / ".gitignore").read_text() == after

@@ -1,4 +1,8 @@
-"""The colours of all plots by what they mean, their rules for a style sheet, and the legends that a page shows."""
+"""The colours of all plots by what they mean, their rules for a style sheet, and the legends that a page shows.
+
+Colours are after Okabe and Ito (https://jfly.uni-koeln.de/color/), darkened on light ground where their contrast would
+be less than 3:1.
+"""
 
 from __future__ import annotations
 

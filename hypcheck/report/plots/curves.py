@@ -1,13 +1,7 @@
 """Share of wrong answers against flip distance: one curve a method, for a verification and for a benchmark.
 
-Shares of wrong answers against flip distance: one curve a method.
-
-Where none of n answers was wrong the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
-three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn, as a hollow triangle that points down.
-
-How wrong answers depend on the distance to the nearest other position, for each judged method of a verification.
-
-The principal figure of a benchmark: the share of wrong answers against flip distance, one curve a method.
+If none of n answers was wrong, the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
+three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn as a hollow triangle that points down.
 """
 
 from __future__ import annotations
@@ -22,10 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from hypcheck.messages import escaped
+from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.measurements import AccuracyLine
-from hypcheck.report.messages import counted, figure
+from hypcheck.report.messages import figure
 from hypcheck.report.model import (
     TIERS,
     ImplementationTotal,

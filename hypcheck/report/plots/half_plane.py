@@ -1,12 +1,6 @@
-"""Pictures of the half plane (r, z): where methods are wrong, and the exact positions of a scene.
+"""Pictures of the half plane (r, z), a dot a grid point: exact positions of a scene, and where methods are wrong.
 
-Pictures of a half plane, a dot a grid point, which lie under a plot's axes: r across, z up.
-
-Where each judged method of a verification errs in the half plane, in semi-axes of the hyperboloid: r/α and |z|/γ.
-
-Where each method of a benchmark is wrong in the half plane of a scene, and in the ring.
-
-Exact positions over the half plane (r, z) of a scene, and where a method is wrong, in a run of verify.
+r is drawn across and z up; the fields of a verification are in semi-axes of the hyperboloid, r/α and |z|/γ.
 """
 
 from __future__ import annotations

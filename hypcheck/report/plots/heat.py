@@ -1,11 +1,4 @@
-"""Shares of wrong answers over a plane of two quantities; the sizes at which methods are wrong.
-
-Shares of wrong answers over a plane of two quantities, in five steps of colour; empty where nothing was asked.
-
-At which sizes each judged method of a verification errs: α/b across, γ/d up.
-
-At which sizes each method of a benchmark errs, for each precision: α/b across, γ/d up, in half decades.
-"""
+"""Shares of wrong answers over the sizes of the bodies, in five steps of colour; empty where nothing was asked."""
 
 from __future__ import annotations
 

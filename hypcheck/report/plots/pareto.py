@@ -1,8 +1,6 @@
-"""Error against run time: points, their labels, and the front that no method beats.
+"""Error against run time: how near to contact a method is reliable, its cost, and the front that no other method beats.
 
-Names beside points, where they cover neither each other nor a point; the others have their tooltips alone.
-
-Error against run time: how near to contact a method can be trusted, and what it costs; the front is drawn.
+Names stand beside points if they cover neither each other nor a point; the other points have only tooltips.
 """
 
 from __future__ import annotations

@@ -1,12 +1,7 @@
-"""What all plots share: colours by role, lines that differ without colour, sizes for a telephone, axes.
-
-What all plots have in common: colours by role, lines that differ without colour, sizes for a telephone, axes.
+"""The style of all plots: lines that differ without colour, sizes for a telephone, axes.
 
 Widths are in points of the picture, which a page scales: 380 of them are legible across a telephone and across half a
-screen. Colours are after Okabe and Ito (https://jfly.uni-koeln.de/color/), darkened on light ground where they would
-have less than 3:1 against it; each curve has a marker and dashes of its own besides.
-
-What pictures of simulations have in common.
+screen. Each curve has its own marker and dashes besides its colour.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A figure as SVG for a page or for itself: colours by role, tooltips, a title and a description, nothing to load.
+"""A figure as SVG for a page or as a file: colours by role, tooltips, a title and a description, nothing to load.
 
 matplotlib writes colours and sizes as style attributes, which a strict content security policy forbids, and ids that
-meet those of other figures on a page. Here colours become classes, which a page's style sheet gives their values on
-light and on dark ground, the rest become attributes, and ids carry the plot's name.
+clash with those of other figures on a page. Here colours become classes, which a style sheet defines for light and dark
+ground, the rest become attributes, and ids begin with the plot's name.
 """
 
 from __future__ import annotations

@@ -1,13 +1,4 @@
-"""What answers cost: ratios of times, meshes, bounding volumes, and a walker's step in a forest.
-
-Times of all methods by the reference's, with their intervals, and the noise below which nothing is concluded.
-
-How a mesh's errors and times change with its triangles.
-
-What a bounding volume costs in invisible walls: false contacts and excess clearance against d/b.
-
-What a walker's step costs against the number of trees.
-"""
+"""The cost of answers: ratios of times, meshes, bounding volumes, and a walker's step in a forest."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Pictures of `simulate tower`: the paper's Figure 4 redrawn, and its Table 5 over the step v·t.
-
-The paper's Figure 4 redrawn: flights in the tower in space and from above, and Δ along them.
-
-Pictures of `simulate tower`: the paper's Figure 4 redrawn, and its Table 5 over the step v·t.
-"""
+"""Pictures of `simulate tower`: the paper's Figure 4 redrawn, its Table 5 over the step v·t, a leaning quadcopter."""
 
 from __future__ import annotations
 

@@ -1,11 +1,4 @@
-"""Sections about errors: by family, distance, workload, size and place; of meshes and bounding volumes.
-
-What only the page has room for: every family of every judged method, the worst cases, and where they lie.
-
-The errors of a benchmark's methods: by distance, by workload, by size and by place.
-
-What meshes and bounding volumes cost in answers and in time.
-"""
+"""Sections about errors: by family, distance, workload, size and place; of meshes and bounding volumes."""
 
 from __future__ import annotations
 
@@ -58,7 +51,7 @@ from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.runs.judge import Status
 
 MOST_CASES = 12
-"""Cases shown of one implementation, the worst first; the record keeps up to three a family, and counts are exact."""
+"""Cases of one implementation that are shown, the worst first; the record keeps up to three for each family."""
 
 HEAT = tuple((f"share-{place}", words) for place, (_, words) in enumerate(STEPS))
 
@@ -72,7 +65,7 @@ _FAMILY_DISTANCE = prose(
 
 
 def family_sections(record: Record) -> Iterator[Section]:
-    """The sections, for the page alone; none where nothing was judged."""
+    """Every family of every judged method, the worst cases, and where they lie; only the page has these sections."""
     found = [each for each in implementations(record) if each.asked or each.statuses]
     if not found:
         return
@@ -88,7 +81,7 @@ def family_sections(record: Record) -> Iterator[Section]:
 
 
 def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[Block]:
-    """Of a gated implementation a fold of its own, of the project's methods one for all."""
+    """A fold for each gated implementation, and one for all built-in methods."""
     replays = Replays.of(record)
     for each in found:
         if each.gated:
@@ -100,7 +93,7 @@ def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[
 
 
 def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
-    """Family by status, with columns for the statuses that occurred."""
+    """Families by status, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
     named = [] if len(found) == 1 else [Column("method")]
     errors = map(number, ("false clear", "false contact", "wrong side", "worst error in u"))
@@ -178,7 +171,7 @@ _WORKLOAD_DISTANCE = prose(
 )
 _FRONT = prose(
     "Lower is right nearer to contact, farther left is faster; the line joins the methods that no other beats in both."
-    " Every mark tells what it is. The *worst of all workloads* is with those that are only judged, as the ring."
+    " Every mark has a tooltip. The *worst of all workloads* includes those that are only judged, such as the ring."
 )
 _TABLE = prose(
     "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
@@ -192,7 +185,7 @@ _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
 
 def error_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of these."""
+    """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
     if record.of(AccuracyLine):
         blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
         if record.of(SpeedLine):
@@ -256,17 +249,17 @@ def _never_wrong(words: str, names: Sequence[str]) -> Block:
 
 
 _MESHES = prose(
-    "A mesh in the hyperboloid's place errs by its deviation; triangles bring it down, and cost time. A build is a"
-    " mesh, a query one position."
+    "A mesh in place of the hyperboloid errs by its deviation; more triangles reduce it, and cost time. A build makes"
+    " one mesh, a query decides one position."
 )
 _BOUNDS = prose(
     "Another shape around the spheroid is never clear where the spheroid is not, so a *false clear* would be a fault;"
-    " what it costs are invisible walls, the more the less the spheroid is like the shape."
+    " it costs invisible walls: the less the spheroid resembles the shape, the more of them."
 )
 
 
 def peer_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of these."""
+    """The price of meshes and bounding volumes, in answers and in time."""
     if record.of(ConvergenceLine):
         yield Section("Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(ConvergenceLine))))
     if record.of(BoundingLine):

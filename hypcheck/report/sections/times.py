@@ -1,11 +1,4 @@
-"""Sections about cost: times, memory, scenes, and the targets and claims a benchmark is held to.
-
-The times and the memory of a benchmark's methods, with their intervals and the noise of the run.
-
-What scenes save by leaving out, and what a walker's step costs in a forest.
-
-What a benchmark was held to: the paper's claims of cost, the kernels' targets, an earlier run.
-"""
+"""Sections about cost: times, memory, scenes, and the targets and claims of a benchmark."""
 
 from __future__ import annotations
 
@@ -13,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec.structs import astuple, fields
 
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import Interval
 from hypcheck.record.measurements import (
@@ -44,19 +38,19 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import counted, figure, with_interval
+from hypcheck.report.messages import figure, with_interval
 from hypcheck.report.model import lost, measured_methods, noise_floor, workloads
 
 _TIMES = prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"
-    " the run's reference; over 1 is slower. *Noise* is what one method differs from itself by: a smaller difference is"
-    " none. Absolute times do not carry over to another machine, ratios mostly do."
+    " the run's reference; over 1 is slower. *Noise* is the difference of one method from itself: a smaller difference"
+    " means nothing. Absolute times do not carry over to another machine, ratios mostly do."
 )
 _MEMORY = "The growth of a fresh process's peak resident memory while it answers a batch."
 
 
 def speed_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of these."""
+    """The times and the memory of methods, with their intervals and the noise of the run."""
     refused = [
         (Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in record.of(RefusedLine)
     ]
@@ -66,10 +60,10 @@ def speed_sections(record: Record) -> Iterator[Section]:
     if record.of(SpeedLine) or refused or unmeasured:
         blocks: list[Block] = [Paragraph(_TIMES)]
         if refused:
-            blocks += [Paragraph("Not timed, because its answers were not what they must be:"), bullets(refused)]
+            blocks += [Paragraph("Not timed, because the answers were wrong:"), bullets(refused)]
         if unmeasured:
             blocks += [
-                Paragraph("Not to be timed here, which fails nothing and holds nobody to a baseline:"),
+                Paragraph("Could not be timed here, which does not fail the run:"),
                 bullets(unmeasured),
             ]
         yield Section("Run times", (*blocks, Figures("speeds"), _speed_table(record)))
@@ -128,8 +122,8 @@ def _memory(record: Record) -> TableBlock:
 
 
 _FOREST = prose(
-    "A walker's step from Python, one call each, on the same way through the same trees; *building* is from a list of"
-    " trees to the first answer. *Wrong* answers are counted against rational arithmetic about every tree."
+    "A walker's step from Python, one call each, on the same path among the same trees; *building* is the time from a"
+    " list of trees to the first answer. *Wrong* answers are counted against rational arithmetic about every tree."
 )
 _SCENES = prose(
     "Centres spread evenly over each scene's region; the share that each stage of its kernel (`hypcheck emit`) decides."
@@ -140,7 +134,7 @@ _STAGES = tuple(each.name for each in fields(Shares))
 
 
 def scene_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of these."""
+    """What scenes leave out and save, and the cost of a walker's step in a forest."""
     scenes, forests = record.of(SceneLine), record.of(ForestLine)
     if scenes:
         yield Section("What scenes leave out", (Paragraph(_SCENES), _shares(scenes), _scene_table(scenes)))
@@ -211,20 +205,19 @@ def _scene_table(lines: list[SceneLine]) -> TableBlock:
 _TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "good"}
 _BASELINE = prose(
     "Ratios to the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
-    " *Slower* is what exceeds what is allowed even at the interval's lower end; *inconclusive*, what the noise does"
-    " not let tell. In brackets are verdicts that are only shown: they are about methods that nobody asked to be held"
-    " to the baseline, and decide nothing."
+    " *Slower* means beyond what is allowed even at the interval's lower end; *inconclusive*, that the noise is too"
+    " large to tell. Verdicts in brackets are about methods that the baseline does not gate, and decide nothing."
 )
 
 
 def baseline_sections(record: Record) -> Iterator[Section]:
-    """The comparison with an earlier run, which stands behind what failed; none where there is no baseline."""
+    """The comparison with the baseline; none if there is no baseline."""
     if record.of(ComparisonLine):
         yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of(ComparisonLine))))
 
 
 def target_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of the others."""
+    """The paper's claims of cost, and the targets of the kernels."""
     if record.of(CostLine):
         yield Section("The paper's claims of cost", tuple(_claims(record)))
     if record.of(KernelLine):
@@ -270,7 +263,7 @@ def costs_by_claim(record: Record) -> dict[str, list[CostLine]]:
 
 
 def claim_sections(record: Record) -> Iterator[Section]:
-    """The claims with what was measured of them, without the table of what was compared."""
+    """The claims of cost with their verdicts, without the tables."""
     items = [
         Item(claim, tuple((Strong(line.verdict), f", {line.scene}. {line.says}") for line in lines))
         for claim, lines in costs_by_claim(record).items()

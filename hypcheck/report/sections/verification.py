@@ -1,22 +1,10 @@
-"""Sections of a verification: oracles, methods, implementations under test, timings, maps, and the paper.
-
-The oracles' agreement.
-
-What each method got wrong, by how much, and in which families.
-
-Gated implementations as wholes: what each declares, and as what it was judged.
-
-How long the fast path takes beside others, in a run of verify.
-
-Where a method goes wrong in the half plane of a scene.
-
-What was found about the paper: its equations, the proofs of its formulas, and what they get wrong exactly.
-"""
+"""Sections of a verification: oracles, methods, implementations under test, timings, maps, and the paper."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
 from hypcheck.report.document import (
@@ -38,7 +26,7 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import counted, domain_text, figure, from_hex, short_row, tolerance_of
+from hypcheck.report.messages import domain_text, figure, from_hex, short_row, tolerance_of
 from hypcheck.report.model import (
     REFERENCE,
     ImplementationTotal,
@@ -56,13 +44,13 @@ from hypcheck.report.model import (
 
 _ORACLES = prose(
     "Each oracle answers on its own. `exact` agrees where an independent check accepts the certificate of its answer;"
-    " the others agree where they say what `exact` says. An oracle that cannot tell says so and is counted as"
+    " the others agree where they say what `exact` says. An oracle that cannot decide says so and is counted as"
     " undecided. Seconds are summed over all processes."
 )
 
 
 def oracle_sections(record: Record) -> Iterator[Section]:
-    """The section; none where no oracle was wanted."""
+    """The agreement of the oracles; none if no oracle was wanted."""
     totals = oracle_totals(record)
     if not totals:
         return
@@ -100,11 +88,11 @@ NOTHING = "·"
 NOT_ASKED = "–"
 
 _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
-"""The statuses that have a column, and the one that stands for a case not asked."""
+"""The statuses that have a column, and that of cases that were not asked."""
 
 
 def method_sections(record: Record) -> Iterator[Section]:
-    """The sections; none where nothing was judged."""
+    """What each method got wrong, by how much, and in which families; none if nothing was judged."""
     found = implementations(record)
     exact = [each for each in found if each.exact]
     others = [each for each in found if not each.exact]
@@ -121,7 +109,7 @@ def _exact(methods: Sequence[ImplementationTotal]) -> Section:
     return Section(
         "Methods that promise to be exact",
         (
-            Paragraph("One answer of theirs that is not right fails the run."),
+            Paragraph("A single answer that is not right fails the run."),
             table("exact methods", ("method", "what it is", number("asked"), "answers"), rows),
         ),
     )
@@ -145,7 +133,7 @@ def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Sec
 
 
 def _glossary(methods: Sequence[ImplementationTotal]) -> Block:
-    """What the methods are; one that runs in several precisions is described once."""
+    """The titles of the methods; one that runs in several precisions is described once."""
     titles = {_plain_name(each): each.title.removesuffix(f", {each.precision}") for each in methods}
     return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
 
@@ -215,7 +203,7 @@ _NONE = "–"
 
 
 def gated_sections(record: Record) -> Iterator[Section]:
-    """The section; none where nothing was gated."""
+    """Gated implementations: what each declares, and what it was judged as; none if nothing was gated."""
     found = under_test(record)
     if not found:
         return
@@ -228,7 +216,7 @@ def gated_sections(record: Record) -> Iterator[Section]:
 
 
 def _gated_rows(name: str, line: ImplementationLine) -> list[tuple[Text, ...]]:
-    """What it declares, and what it was judged as: options of the command line stand for what it declares."""
+    """What it declares, and what it was judged as: options of the command line replace declarations."""
     names: dict[str, Text] = {"declared": Code(name), "judged as": ""}
     return [
         (
@@ -262,7 +250,7 @@ def _gated_value(tested: UnderTest) -> Text:
 
 
 def timing_sections(record: Record) -> Iterator[Section]:
-    """The section; none where nothing was timed."""
+    """How long the fast path takes beside other methods; none if nothing was timed."""
     totals = timing_totals(record)
     if not totals:
         return
@@ -293,7 +281,7 @@ MAP = Figures("map", "exact positions and wrong answers over the half plane (r, 
 
 
 def map_sections(record: Record) -> Iterator[Section]:
-    """The section; none where there is no map."""
+    """Where a method goes wrong in the half plane of a scene; none if there is no map."""
     items = [
         (
             f"{line.name}: ",
@@ -311,13 +299,13 @@ _PROOFS = prose(
     "compared with its rule for every combination of signs. `derivation` are the identities that the rules rest on."
 )
 _FINDINGS = prose(
-    "Evaluated in exact rationals, so that no rounding is to blame. *Inside* its stated regimes a formula claims to be "
-    "right; *outside* them it does not: the table shows what comes of not checking."
+    "Evaluated in exact rationals, without rounding. *Inside* its stated regimes a formula claims to be right; "
+    "*outside* them it does not, and the table shows how it errs there."
 )
 
 
 def paper_sections(record: Record) -> Iterator[Section]:
-    """The sections about what the record has of these."""
+    """The paper's equations, the proofs of its formulas, and what they get wrong exactly."""
     equations, proofs, found = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
     if equations:
         yield _equations(equations)
@@ -355,7 +343,7 @@ def _proofs(lines: list[ProofLine]) -> Section:
 
 
 def _findings(lines: list[FindingLine]) -> Section:
-    """Inside the stated regimes first: there a formula breaks its own word. Formulas with one witness share a line."""
+    """Findings inside the stated regimes come first: they are errors. Formulas with the same witness share a row."""
     alike: dict[tuple[object, ...], list[FindingLine]] = {}
     for line in sorted(lines, key=lambda line: not line.inside):
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
