@@ -123,45 +123,30 @@ def one_of(*choices: str) -> Check[str]:
     return check
 
 
-def number(value: object) -> float:
-    """A finite number."""
-    return _number(value, "a finite number")
+def _number_with(wanted: str, low: float = -math.inf, high: float = math.inf, *, above: bool = False) -> Check[float]:
+    """A check for a finite number from `low` to `high`, or `above` low; `wanted` ends the sentence of a refusal."""
+
+    def check(value: object) -> float:
+        result = _number(value, wanted)
+        if not low <= result <= high or (above and result == low):
+            raise ValueError(wanted)
+        return result
+
+    return check
 
 
-def positive(value: object) -> float:
-    """A length of a body."""
-    wanted = "a finite number above 0"
-    result = _number(value, wanted)
-    if result <= 0:
-        raise ValueError(wanted)
-    return result
+number = _number_with("a finite number")
+positive = _number_with("a finite number above 0", 0, above=True)
+"""A length of a body."""
 
+not_negative = _number_with("a finite number, 0 or more", 0)
+"""A distance."""
 
-def not_negative(value: object) -> float:
-    """A distance."""
-    wanted = "a finite number, 0 or more"
-    result = _number(value, wanted)
-    if result < 0:
-        raise ValueError(wanted)
-    return result
+turn = _number_with("a number of degrees, from -180 to 180", -180, 180)
+"""An angle, in degrees."""
 
-
-def turn(value: object) -> float:
-    """An angle, in degrees."""
-    wanted = "a number of degrees, from -180 to 180"
-    result = _number(value, wanted)
-    if not -180 <= result <= 180:
-        raise ValueError(wanted)
-    return result
-
-
-def share(value: object) -> float:
-    """A chance."""
-    wanted = "a number from 0 to 1"
-    result = _number(value, wanted)
-    if not 0 <= result <= 1:
-        raise ValueError(wanted)
-    return result
+share = _number_with("a number from 0 to 1", 0, 1)
+"""A chance."""
 
 
 def integer(value: object) -> int:

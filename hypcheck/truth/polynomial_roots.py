@@ -55,16 +55,7 @@ def linear_factor(root: Fraction) -> Polynomial:
 
 def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
     """The quotient of a primitive f by the linear factor of one of its roots; in integers, by Gauss's lemma."""
-    quotient = []
-    carry = 0
-    for coefficient in f:
-        carry, rest = divmod(coefficient + root.numerator * carry, root.denominator)
-        if rest:
-            break
-        quotient.append(carry)
-    if len(quotient) < len(f) or quotient.pop() != 0:
-        raise AssertionError("a number that is no root was to be divided out")
-    return tuple(quotient)
+    return _quotient(f, linear_factor(root))
 
 
 def sturm_chain(f: Polynomial) -> list[Polynomial]:
@@ -224,13 +215,15 @@ def squarefree(f: Polynomial) -> Polynomial:
 def _quotient(f: Polynomial, g: Polynomial) -> Polynomial:
     """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
     rest, quotient = list(f), []
-    for _ in range(len(f) - len(g) + 1):
+    while len(rest) >= len(g):
         factor, remainder = divmod(rest[0], g[0])
         if remainder:
-            raise AssertionError("a polynomial that is no factor was to be divided out")
+            break
         quotient.append(factor)
         tail = [*g[1:], *[0] * (len(rest) - len(g))]
         rest = [a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    if any(rest):
+        raise AssertionError("a polynomial that is no factor was to be divided out")
     return tuple(quotient)
 
 

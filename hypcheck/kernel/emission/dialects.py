@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
@@ -21,16 +21,23 @@ from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 class Dialect:
     """A language: the file its kernel is usually called, its types of numbers, and its phrases.
 
-    `numbers` has the type for each format that the language computes in, as its printer knows it. `phrases` are
-    templates with {name}, {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE.
+    `extension` is that of its source files and templates, `comment` begins a line of the head. `numbers` has the type
+    for each format that the language computes in, as its printer knows it. `phrases` are templates with {name},
+    {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE. `suffixes` end literals of a format.
+    `exports`: its kernels have functions that a linker sees; the others' names are their module's. `by_block`: they
+    have loops over many centres that compilers make vectors of.
     """
 
     name: str
     file: str
+    extension: str
+    comment: str
     numbers: Mapping[str, str]
     printer: Callable[..., tuple[str, ...]]
     phrases: Mapping[str, str]
-    suffixes: Mapping[str, str]
+    suffixes: Mapping[str, str] = field(default_factory=dict)
+    exports: bool = False
+    by_block: bool = False
 
     def number_of(self, precision: str) -> str:
         """The type of numbers for a format; raises InputError where the language has none."""
@@ -136,22 +143,17 @@ _PYTHON = {
 
 _C_NUMBERS = {"float64": "double", "float32": "float"}
 _C_SUFFIXES = {"float32": "F"}
+_RUST_NUMBERS = {"float64": "f64", "float32": "f32"}
+_JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
 
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "kernel.c", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES),
-        Dialect("cpp", "kernel.cpp", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES),
-        Dialect("rust", "kernel.rs", {"float64": "f64", "float32": "f32"}, rust_statements, _RUST, {}),
-        Dialect(
-            "javascript",
-            "predicate.mjs",
-            {"float64": "number", "float32": "float32"},
-            javascript_statements,
-            _JAVASCRIPT,
-            {},
-        ),
-        Dialect("python", "kernel.py", {"float64": "float"}, python_statements, _PYTHON, {}),
+        Dialect("c", "kernel.c", "c", " * ", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES, True, True),
+        Dialect("cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, True, True),
+        Dialect("rust", "kernel.rs", "rs", "//! ", _RUST_NUMBERS, rust_statements, _RUST, exports=True),
+        Dialect("javascript", "predicate.mjs", "mjs", "// ", _JAVASCRIPT_NUMBERS, javascript_statements, _JAVASCRIPT),
+        Dialect("python", "kernel.py", "py", "", {"float64": "float"}, python_statements, _PYTHON),
     )
 }
 """By name: what `emit --language` takes."""

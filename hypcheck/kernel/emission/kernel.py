@@ -93,18 +93,10 @@ def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str
     yield text[-3:]
 
 
-COMMENTS = {"c": " * ", "cpp": "// ", "rust": "//! ", "javascript": "// ", "python": ""}
-EXTENSIONS = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}
-EXPORTING = ("c", "cpp", "rust")
-"""Languages whose kernels have functions that a linker sees; the others' names are their module's."""
-
 PREFIX = "hypcheck"
 """With it the functions have the names that `verify library:` asks for."""
 
 _PREFIX, _LONGEST_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", re.ASCII), 40
-
-BY_BLOCK = ("c", "cpp")
-"""Languages whose kernels have loops over many centres that compilers make vectors of."""
 
 SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
 """The constants of a search, in the order in which a kernel holds them."""
@@ -112,10 +104,9 @@ SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
 
 def require_prefix(prefix: str, language: str) -> None:
     """Raise InputError unless functions of a kernel in this language can begin with `prefix`."""
-    if prefix != PREFIX and language not in EXPORTING:
-        raise InputError(
-            f"--prefix is for {', '.join(EXPORTING)}: a {language} kernel is a module with names of its own"
-        )
+    if prefix != PREFIX and not DIALECTS[language].exports:
+        exporting = ", ".join(dialect.name for dialect in DIALECTS.values() if dialect.exports)
+        raise InputError(f"--prefix is for {exporting}: a {language} kernel is a module with names of its own")
     if not _PREFIX.fullmatch(prefix) or len(prefix) > _LONGEST_PREFIX:
         raise InputError(
             f"the prefix is {escaped(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
@@ -133,24 +124,23 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
     require_prefix(prefix, language)
     dialect = DIALECTS[language]
     number = dialect.number_of(plan.format.name)
-    extension = EXTENSIONS[language]
     functions = [setting_function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
     parts = {
-        "header": header(plan, command, COMMENTS[language]),
+        "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
-        "search": _search(plan, dialect, extension) if _searches(plan) else "",
+        "search": _search(plan, dialect) if _searches(plan) else "",
         "imports": "\n".join(["import math"] * _searches(plan) + ["from collections.abc import Iterable"]),
         "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
         "many": "\n\n".join(batch_function(plan, stages, place, dialect) for place, stages in _numbered(plan))
-        if language in BY_BLOCK
+        if dialect.by_block
         else "",
         "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
         "description": description_in_language(description(plan, language), language),
     }
-    return filled(template(f"kernel.{extension}.tmpl"), parts).strip("\n") + "\n"
+    return filled(template(f"kernel.{dialect.extension}.tmpl"), parts).strip("\n") + "\n"
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
@@ -197,7 +187,7 @@ def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
     ]
 
 
-def _search(plan: ScenePlan, dialect: Dialect, extension: str) -> str:
+def _search(plan: ScenePlan, dialect: Dialect) -> str:
     """The search that all settings share."""
 
     def printed(program: Program, *wanted: str) -> str:
@@ -219,4 +209,4 @@ def _search(plan: ScenePlan, dialect: Dialect, extension: str) -> str:
         "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),
         "geometric_steps": str(GEOMETRIC_STEPS),
     }
-    return filled(template(f"search.{extension}.tmpl"), parts) + "\n"
+    return filled(template(f"search.{dialect.extension}.tmpl"), parts) + "\n"

@@ -21,7 +21,8 @@ import numpy as np
 import pytest
 
 from hypcheck.implementations.description import domain_of, representable
-from hypcheck.kernel.emission.kernel import EXTENSIONS, description, emitted
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.truth import float_filter
@@ -56,7 +57,7 @@ def skip_without(language):
 
 def built(folder, scene, language, precision="float64", *options):
     """The file of a kernel: a library, or the text itself where nothing compiles. Fails with the compiler's words."""
-    path = folder / f"kernel.{EXTENSIONS[language]}"
+    path = folder / f"kernel.{DIALECTS[language].extension}"
     path.write_text(emitted(plan_of(scene, precision), language, COMMAND), encoding="utf-8")
     if language not in COMMANDS:
         return path

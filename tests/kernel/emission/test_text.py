@@ -13,7 +13,7 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import EXTENSIONS, description, emitted
+from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.emission.plan_text import operations_before
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, Span
@@ -113,7 +113,7 @@ def test_emitted_python_passes_mypy_and_ruff(chosen, tmp_path):
 @pytest.mark.parametrize("chosen", [SCENES["tower"], PLAIN, HILLS], ids=["tower", "plain", "hills"])
 def test_emitted_javascript_loads_as_a_module(chosen, tmp_path):
     skip_without("javascript")
-    path = tmp_path / f"kernel.{EXTENSIONS['javascript']}"
+    path = tmp_path / "kernel.mjs"
     path.write_text(text_of(chosen, "javascript"), encoding="utf-8")
     done = subprocess.run([str(shutil.which("node")), "--check", str(path)], capture_output=True, check=False)
     assert done.returncode == 0, done.stderr
