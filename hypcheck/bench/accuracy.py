@@ -36,6 +36,9 @@ from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
 from hypcheck.truth import float_filter
 
+if sys.platform != "win32":
+    import resource
+
 WORST_KEPT = 3
 _WORST_TRIED = 12
 _PIECE = 500
@@ -258,6 +261,4 @@ def peak() -> int:
         status = Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines()
         words = next(line for line in status if line.startswith("VmHWM:")).split()
         return int(words[1]) * 1024
-    import resource  # noqa: PLC0415 - not on Windows, nor needed on Linux
-
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)

@@ -33,6 +33,7 @@ from hypcheck.record import Recorder
 from hypcheck.record.measurements import ForestLine
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.truth import exact
+from hypcheck.truth.mesh import fcl_module
 
 ROOM = 25.0
 """Square metres for each tree."""
@@ -137,8 +138,7 @@ def _walker_scene(forest: Forest) -> Clear:
 
 def _meshes() -> list[Any]:
     """A mesh of each kind, which all trees of that kind share."""
-    import fcl  # noqa: PLC0415
-
+    fcl = fcl_module()
     found = []
     for alpha, gamma in KINDS:
         vertices, triangles = grid_of(alpha, gamma, HEIGHT, TRIANGLES).mesh()
@@ -153,16 +153,12 @@ def _meshes() -> list[Any]:
 
 def _cylinders() -> list[Any]:
     """The smallest upright cylinder around the part of each kind that the walker can reach."""
-    import fcl  # noqa: PLC0415
-
-    return [fcl.Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
+    return [fcl_module().Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
 
 
 def _by_fcl(shapes: Callable[[], list[Any]]) -> Callable[[Forest], Clear]:
     def make(forest: Forest) -> Clear:
-        import fcl  # noqa: PLC0415
-
-        kinds = shapes()
+        fcl, kinds = fcl_module(), shapes()
         trees = [
             fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
             for kind, (x, y) in zip(forest.kinds.tolist(), forest.places.tolist(), strict=True)

@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass
 from math import cos, hypot, isqrt, pi, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.implementations.method import Answers
-from hypcheck.truth.mesh import Triangles, Vertices, availability, mesh_object, require_fcl
+from hypcheck.truth.mesh import Triangles, Vertices, availability, fcl_module, mesh_object, require_fcl
 
 Touches = Callable[[float, float, float], bool]
 """Whether the body with this centre touches the mesh."""
@@ -50,9 +51,7 @@ class Engine:
 
 
 def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
-    import fcl  # noqa: PLC0415
-
-    mesh = mesh_object(vertices, triangles)
+    fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
     if mesh is None:
         return None
     shapes = {"point": lambda: fcl.Sphere(0.0), "sphere": lambda: fcl.Sphere(1.0)}
@@ -75,8 +74,7 @@ def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: fl
 
 
 def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
-    import coal  # noqa: PLC0415
-
+    coal = _coal_module()
     mesh = coal.BVHModelOBBRSS()
     mesh.beginModel(len(triangles), len(vertices))
     mesh.addVertices(vertices)
@@ -103,9 +101,16 @@ def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: f
     return collides
 
 
+def _coal_module() -> Any:  # noqa: ANN401 - it has no types
+    """The module of coal. Raises ImportError if it is not installed."""
+    import coal  # noqa: PLC0415
+
+    return coal
+
+
 def _coal_trouble() -> str | None:
     try:
-        import coal  # noqa: F401, PLC0415
+        _coal_module()
     except ImportError as error:
         return f"coal cannot be imported ({error}); pip install 'hypcheck[peers]' brings it"
     return None
@@ -309,33 +314,26 @@ def _mesh(body: FclBody, triangles: int) -> tuple[Vertices, Triangles]:
 
 
 def _ellipsoid_touches(body: FclBody, mesh: object) -> bool:
-    import fcl  # noqa: PLC0415
-
-    return _collides(fcl.Ellipsoid(body.b, body.b, body.d), body, mesh)
+    return _collides(fcl_module().Ellipsoid(body.b, body.b, body.d), body, mesh)
 
 
 def _sphere_touches(body: FclBody, mesh: object) -> bool:
-    import fcl  # noqa: PLC0415
-
-    return _collides(fcl.Sphere(1.0), body, mesh)
+    return _collides(fcl_module().Sphere(1.0), body, mesh)
 
 
 def _point_touches(body: FclBody, mesh: object) -> bool:
-    import fcl  # noqa: PLC0415
-
+    fcl = fcl_module()
     distance = fcl.distance(_placed(fcl.Sphere(0.0), body), mesh, fcl.DistanceRequest(), fcl.DistanceResult())
     return bool(distance <= 1.0)
 
 
 def _collides(shape: object, body: FclBody, mesh: object) -> bool:
-    import fcl  # noqa: PLC0415
-
+    fcl = fcl_module()
     # FCL does not reset a result between calls: each needs its own.
     return bool(fcl.collide(_placed(shape, body), mesh, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
 
 
 def _placed(shape: object, body: FclBody) -> object:
-    import fcl  # noqa: PLC0415
-
+    fcl = fcl_module()
     placed: object = fcl.CollisionObject(shape, fcl.Transform(np.array([body.rho, 0.0, body.z])))
     return placed

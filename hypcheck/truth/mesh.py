@@ -25,7 +25,7 @@ Triangles = NDArray[np.int64]
 _HALVES_OF_A_SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-def _fcl() -> Any:  # noqa: ANN401 - the wheel has no types
+def fcl_module() -> Any:  # noqa: ANN401 - the wheel has no types
     """The module of python-fcl. Raises ImportError where it is not installed: it has no wheel for some platforms."""
     import fcl  # noqa: PLC0415
 
@@ -35,7 +35,7 @@ def _fcl() -> Any:  # noqa: ANN401 - the wheel has no types
 def availability() -> str | None:
     """None where FCL can be imported, else the sentence that says why not."""
     try:
-        _fcl()
+        fcl_module()
     except ImportError as error:
         return f"python-fcl cannot be imported ({error}); it has no wheels for musl Linux"
     return None
@@ -71,7 +71,7 @@ def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
     FCL checks nothing: an empty mesh or an index out of range ends the interpreter, and vertices that are not finite
     make every answer about it meaningless. The caller sees to these.
     """
-    fcl = _fcl()
+    fcl = fcl_module()
     mesh = fcl.BVHModel()
     mesh.beginModel(len(triangles), len(vertices))
     mesh.addSubModel(vertices, triangles)
@@ -85,7 +85,7 @@ def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
     """FCL's distance from the origin to a mesh: inf where it has no triangles, nan where FCL refuses it."""
     if not len(triangles):
         return float("inf")
-    fcl = _fcl()
+    fcl = fcl_module()
     mesh = mesh_object(vertices, triangles)
     if mesh is None:
         return float("nan")
