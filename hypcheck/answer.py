@@ -71,12 +71,12 @@ class TiltedAnswer:
     """The same about a pair whose axis leans, which has no kind: the kinds are those of upright spheroids."""
 
     pair: TiltedPair
-    decision: tilted_exact.Decision
+    decision: tilted_exact.TiltedDecision
     clearance: float
     certificate: TiltedCertificate
 
 
-def measured_clearance(pair: TiltedPair, decision: tilted_exact.Decision) -> float:
+def measured_clearance(pair: TiltedPair, decision: tilted_exact.TiltedDecision) -> float:
     """The clearance by the nearest point, which must agree with the decision. Raises DisagreementError."""
     from hypcheck.truth.tilted.nearest import nearest  # noqa: PLC0415 - loads mpmath
 

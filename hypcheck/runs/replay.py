@@ -34,7 +34,7 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
 from hypcheck.truth.tilted.certificate import TiltedCertificate
-from hypcheck.truth.tilted.exact import Decision as TiltedDecision
+from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import MARK, is_extreme, parse_case_id

@@ -1,7 +1,8 @@
 """The frozen files made anew: old cases stay as they are, with the ids they have; new rows are added after them.
 
 A family's file has the first rows of seed SEED, as many as COUNTS says, each once. Where a new version of a generator
-makes other rows, these are added too: no copy of a case ever loses its meaning.
+makes other rows, these are added too: no copy of a case ever loses its meaning. Vector files of generated rows are made
+in the same way.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import Family, FamilyDescription, Metadata, Row, Vector, VectorFile
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id, parse_case_id
+from hypcheck.vectors.family import BLOCK, Family, FamilyDescription, Metadata, Row, Vector, VectorFile
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
 from hypcheck.vectors.format import read_vectors, vectors_text
 from hypcheck.vectors.frozen import InvalidRowFile, invalid_rows_text, read_invalid_rows
@@ -199,6 +200,24 @@ def assembled_tilted(head: Metadata, cases: Iterable[TiltedVector]) -> TiltedVec
     kept = tuple(cases)
     used = {flag for case in kept for flag in case.flags}
     return TiltedVectorFile(head, {name: facts for name, facts in TILTED_FLAGS.items() if name in used}, kept)
+
+
+def generated_case(name: str) -> Vector | TiltedVector:
+    """The generated case of that id, labelled and proved. Raises InputError where there is none."""
+    case = parse_case_id(name)
+    block, place = divmod(case.index, BLOCK)
+    row = tuple(case.family.block(case.seed, block)[place].tolist())
+    named = [(case_id(case.family, case.seed, case.index), row)]
+    return labelled_tilted(named)[0] if case.family.tilted else labelled(named)[0]
+
+
+def generated_text(family: Family, seed: int, count: int) -> str:
+    """A vector file of the first rows of a family's seed, with generated ids."""
+    named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
+    head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
+    if family.tilted:
+        return tilted_vectors_text(assembled_tilted(head, labelled_tilted(named)))
+    return vectors_text(assembled(head, labelled(named)))
 
 
 def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusals.INVALID_NAME) -> InvalidRowFile:

@@ -16,8 +16,8 @@ from hypcheck.tables.numbers import hex_of, readable_text
 from hypcheck.tables.streams import writing
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import EXTREME, case_id, family_of, parse_case_id, select
-from hypcheck.vectors.family import BLOCK, Family, Metadata, Vector, VectorFile
+from hypcheck.vectors.families import EXTREME, case_id, family_of, select
+from hypcheck.vectors.family import Family, Metadata, Vector, VectorFile
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
 from hypcheck.vectors.format import vector_text
 from hypcheck.vectors.frozen import InvalidRow, InvalidRowFile
@@ -139,14 +139,9 @@ def _json_text(case: Vector | TiltedVector) -> str:
 
 
 def _generated(name: str) -> Vector | TiltedVector:
-    from hypcheck.vectors.labels import labelled  # noqa: PLC0415 - frozen cases are shown without the oracles
-    from hypcheck.vectors.tilted.labels import labelled_tilted  # noqa: PLC0415
+    from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases are shown without the oracles
 
-    case = parse_case_id(name)
-    block, place = divmod(case.index, BLOCK)
-    row = tuple(case.family.block(case.seed, block)[place].tolist())
-    named = [(case_id(case.family, case.seed, case.index), row)]
-    return labelled_tilted(named)[0] if case.family.tilted else labelled(named)[0]
+    return generated_case(name)
 
 
 def _metadata_lines(head: Metadata) -> Iterator[str]:
@@ -234,21 +229,9 @@ def _family_to_generate(name: str) -> Family:
 
 def as_json(family: Family, seed: int, count: int) -> bytes:
     """A vector file whose cases have generated ids."""
-    from hypcheck.vectors.format import vectors_text  # noqa: PLC0415
-    from hypcheck.vectors.freezing import (  # noqa: PLC0415 - bare rows need no oracles
-        assembled,
-        assembled_tilted,
-        metadata_of,
-    )
-    from hypcheck.vectors.labels import labelled  # noqa: PLC0415
-    from hypcheck.vectors.tilted.format import tilted_vectors_text  # noqa: PLC0415
-    from hypcheck.vectors.tilted.labels import labelled_tilted  # noqa: PLC0415
+    from hypcheck.vectors.freezing import generated_text  # noqa: PLC0415 - bare rows need no oracles
 
-    named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
-    head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
-    if family.tilted:
-        return tilted_vectors_text(assembled_tilted(head, labelled_tilted(named))).encode()
-    return vectors_text(assembled(head, labelled(named))).encode()
+    return generated_text(family, seed, count).encode()
 
 
 def as_csv(family: Family, seed: int, count: int) -> bytes:

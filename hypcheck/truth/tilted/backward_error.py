@@ -22,7 +22,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import backward_error as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.box_certificate import Goal, Row, Signs, State, certified, fraction
-from hypcheck.truth.tilted.exact import Bracket, Decision
+from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedLengths
 
 RATIO = Fraction(5, 4)
@@ -40,7 +40,7 @@ def goal_of(truth: Position, answer: Position) -> Goal:
     return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
 
 
-def is_limit(truth: Decision, answer: Position) -> bool:
+def is_limit(truth: TiltedDecision, answer: Position) -> bool:
     """Whether an answer is right or the limit of right answers (the truth is a tangency from that side)."""
     return answer in (truth.position, truth.limit_of)
 
@@ -82,7 +82,9 @@ def _reached_upright(row: Sequence[float], goal: Goal, change: Fraction) -> bool
     return upright.makes_right(Pair.from_row(row[:7]).lengths, goal.side, other, change)
 
 
-def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
+def tolerated(
+    row: Sequence[float], truth: TiltedDecision, answers: Iterable[Position], change: Fraction
+) -> bool | None:
     """Whether a relative change up to `change` makes one of the wrong answers right; None where neither is proved."""
     if change == 0:
         return False
@@ -102,7 +104,9 @@ def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position]
     return False if all(excluded(row, goal, change, 2 * CUTS) for goal in goals) else None
 
 
-def bracket(row: Sequence[float], truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
+def bracket(
+    row: Sequence[float], truth: TiltedDecision, answer: Position, cuts: int = CUTS, steps: int = STEPS
+) -> Bracket:
     """The backward error of an answer to a row of ten valid float64 numbers; inf where no change up to 1 is enough.
 
     The upper end is at most RATIO times the lower where first derivatives tell (changes that do not bend the surfaces
@@ -121,7 +125,7 @@ def bracket(row: Sequence[float], truth: Decision, answer: Position, cuts: int =
     return Bracket(_rounded(low, -math.inf), _rounded(high, math.inf))
 
 
-def upper_end(row: Sequence[float], truth: Decision, answer: Position) -> float:
+def upper_end(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
     """The upper end of the bracket alone, which takes less time; 0, or inf, as there."""
     if is_limit(truth, answer):
         return 0.0
@@ -129,7 +133,7 @@ def upper_end(row: Sequence[float], truth: Decision, answer: Position) -> float:
     return math.inf if is_out_of_reach(row, goal) else _rounded(_reached_end(row, goal), math.inf)
 
 
-def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
+def estimate(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
     """About the backward error, as derivatives at the row tell: fast, and no proof. It ranks answers."""
     if is_limit(truth, answer):
         return 0.0
@@ -137,7 +141,7 @@ def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
     return math.inf if is_out_of_reach(row, goal) else float(_estimate(tuple(map(Fraction, row)), goal))
 
 
-def is_bracket(row: Sequence[float], truth: Decision, answer: Position, ends: Bracket, cuts: int = CUTS) -> bool:
+def is_bracket(row: Sequence[float], truth: TiltedDecision, answer: Position, ends: Bracket, cuts: int = CUTS) -> bool:
     """Whether proofs are found that the backward error of an answer lies between these ends."""
     if is_limit(truth, answer):
         return ends == Bracket(0.0, 0.0)

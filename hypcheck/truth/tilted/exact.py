@@ -43,7 +43,7 @@ from hypcheck.truth.tilted.pair import TiltedLengths
 
 
 @dataclass(frozen=True, slots=True)
-class Decision:
+class TiltedDecision:
     """The exact answer. `limit_of` is, for a tangency, the clear position that a smaller spheroid would have."""
 
     position: Position
@@ -128,17 +128,17 @@ def position(lengths: TiltedLengths) -> Position:
     return upright.position(vertical) if vertical is not None else _decide(quartic(lengths)).position
 
 
-def decide(lengths: TiltedLengths) -> Decision:
+def decide(lengths: TiltedLengths) -> TiltedDecision:
     """The exact position of the two surfaces, and whether they are tangent."""
     vertical = lengths.upright
     if vertical is None:
         return _decide(quartic(lengths))
     decision = upright.decide(vertical)
-    return Decision(decision.position, decision.kind.limit_of)
+    return TiltedDecision(decision.position, decision.kind.limit_of)
 
 
-def _decide(F: Quartic) -> Decision:
-    contact = Decision(Position.CONTACT)
+def _decide(F: Quartic) -> TiltedDecision:
+    contact = TiltedDecision(Position.CONTACT)
     if F.side == 0 or _variations(F.coefficients) < 3:
         return contact  # the centre on the hyperboloid, or one positive root alone
     sign = discriminant(F)
@@ -146,7 +146,7 @@ def _decide(F: Quartic) -> Decision:
         return contact
     if sign == 0:
         return _with_multiple_root(F)
-    return contact if _three_beyond(F) else Decision(Position(F.side))
+    return contact if _three_beyond(F) else TiltedDecision(Position(F.side))
 
 
 def _variations(signs: tuple[int, ...]) -> int:
@@ -236,14 +236,14 @@ def _sign_with_root(u: int, r: int, w: int) -> int:
     return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)
 
 
-def _with_multiple_root(F: Quartic) -> Decision:
+def _with_multiple_root(F: Quartic) -> TiltedDecision:
     """The decision where F has a multiple root, which is one number and rational."""
     m = double_root(F)
     if m <= 0 or (beyond := _beyond(F, m)) > 0:
-        return Decision(Position.CONTACT)
+        return TiltedDecision(Position.CONTACT)
     if beyond == 0 and sign_at(_derivative(F, 2), m) > 0:
-        return Decision(Position(F.side))  # the simple root lies between 0 and ℓ
-    return Decision(Position.CONTACT, limit_of=Position(F.side))
+        return TiltedDecision(Position(F.side))  # the simple root lies between 0 and ℓ
+    return TiltedDecision(Position.CONTACT, limit_of=Position(F.side))
 
 
 def _beyond(F: Quartic, m: Fraction) -> int:

@@ -17,14 +17,14 @@ from hypcheck.geometry.pair import Position
 from hypcheck.truth import prove as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import Point, TiltedCertificate
-from hypcheck.truth.tilted.exact import Decision, Quartic
+from hypcheck.truth.tilted.exact import Quartic, TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 
 Vector = list[Fraction]
 Matrix = list[list[Fraction]]
 
 
-def prove(pair: TiltedPair, decision: Decision | None = None) -> TiltedCertificate:
+def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> TiltedCertificate:
     """A certificate for the exact answer about a pair (`decision`, where the caller has it already)."""
     vertical = pair.upright
     if vertical is not None:

@@ -19,7 +19,7 @@ from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.backward_error import bracket, is_bracket
 from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate
-from hypcheck.truth.tilted.exact import Bracket, Decision
+from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.nearest import nearest
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.truth.tilted.prove import prove
@@ -52,14 +52,14 @@ def _labelled(name: str, row: Row) -> TiltedVector:
     )
 
 
-def tilted_flips(row: Row, decision: Decision) -> dict[Position, Bracket]:
+def tilted_flips(row: Row, decision: TiltedDecision) -> dict[Position, Bracket]:
     """The bracket of each other position, in the order exterior, contact, interior."""
     return {
         other: bracket(row, decision, other, cuts=0, steps=2) for other in Position if other is not decision.position
     }
 
 
-def tilted_flags(pair: TiltedPair, decision: Decision) -> tuple[str, ...]:
+def tilted_flags(pair: TiltedPair, decision: TiltedDecision) -> tuple[str, ...]:
     """What is special about a case, each decided exactly."""
     lengths, sizes = pair.lengths, pair.row[:7]
     vertical = lengths.upright is not None

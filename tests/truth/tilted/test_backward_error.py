@@ -52,7 +52,9 @@ def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair(
         lengths = Pair.from_row(row[:7]).lengths
         truth = upright_exact.decide(lengths)
         for answer in set(Position) - {truth.position}:
-            found = bracket([*row[:7], 0.0, 0.0, 2.0], exact.Decision(truth.position, truth.kind.limit_of), answer)
+            found = bracket(
+                [*row[:7], 0.0, 0.0, 2.0], exact.TiltedDecision(truth.position, truth.kind.limit_of), answer
+            )
             error = backward_error.backward_error(lengths, truth, answer)
             assert found.lower <= error * (1 + 1e-4)
             assert error <= found.upper * (1 + 1e-4)

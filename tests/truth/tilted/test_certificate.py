@@ -75,7 +75,7 @@ def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
 def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
     # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
     crossing = TiltedPair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
-    assert exact.decide(crossing.lengths) == exact.Decision(CONTACT)
+    assert exact.decide(crossing.lengths) == exact.TiltedDecision(CONTACT)
     assert not check_certificate(crossing, TiltedCertificate(CONTACT, double_root=Fraction(-1, 4)))
 
 

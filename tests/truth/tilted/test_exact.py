@@ -92,7 +92,7 @@ def test_position_of_hand_worked_pairs(row, position, why):
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
 def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it(row, position, limit_of):
     decision = exact.decide(TiltedPair.from_row(row).lengths)
-    assert decision == exact.Decision(position, limit_of)
+    assert decision == exact.TiltedDecision(position, limit_of)
 
 
 def test_vertical_axis_and_sphere_have_the_upright_position():
