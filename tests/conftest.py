@@ -50,7 +50,7 @@ SLOW = {
     "tools/fuzz": "fuzz",
     "tools/mutants": "mutants",
     "tools/soak": "soak",
-    "truth": "mesh motion nearest nearest_bounds roots_table",
+    "truth": "mesh swept nearest nearest_bounds roots_table",
     "vectors": "razor",
     "vectors/frozen": "cases_cli files labels reading",
 }

@@ -1,4 +1,4 @@
-"""Every link of every chain holds, and none would hold if what it says were a little different."""
+"""Every link of every chain holds, and none holds after a small change of its statement."""
 
 from __future__ import annotations
 

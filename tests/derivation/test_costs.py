@@ -1,4 +1,4 @@
-"""Operations are counted from the programs; here they are counted by hand."""
+"""Operations counted from the programs are those counted by hand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers p + q√h: the laws of a field, signs against 200 digits, and what has no value."""
+"""Numbers p + q√h: the laws of a field, signs against 200 digits, and undefined values."""
 
 from __future__ import annotations
 

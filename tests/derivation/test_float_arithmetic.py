@@ -1,4 +1,4 @@
-"""Machine arithmetic: one correctly rounded operation a step, in one format from the inputs to the answer."""
+"""Float arithmetic: one correctly rounded operation a step, in one format from the inputs to the answer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the formulas answer, in exact arithmetic, to pairs whose position is known by geometry."""
+"""Answers of the formulas, in exact arithmetic, to pairs whose position is known by geometry."""
 
 from __future__ import annotations
 

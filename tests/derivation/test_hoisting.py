@@ -1,4 +1,4 @@
-"""What is taken out of a loop changes no bit of any answer."""
+"""Taking constants out of a loop changes no bit of any answer."""
 
 from __future__ import annotations
 

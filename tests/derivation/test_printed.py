@@ -1,4 +1,4 @@
-"""The check of the paper's formulas: what is known to be wrong is found, and so is any other misprint."""
+"""The check of the paper's formulas finds the known misprints and any other that is introduced."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Straight-line programs: what is refused, how they are written, run, cut and counted."""
+"""Straight-line programs: malformed ones raise errors; well-formed ones are written, run, cut and counted."""
 
 from __future__ import annotations
 

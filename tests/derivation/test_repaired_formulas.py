@@ -1,4 +1,4 @@
-"""The procedures put right answer as the exact oracle does in their regimes; one changed in one step is not proved."""
+"""The repaired procedures answer as the exact oracle does in their regimes; a changed step is not proved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Counted rounding bounds, held against exact rationals: never broken, not idle, and refused where none is derived."""
+"""Counted rounding bounds against exact rationals: never exceeded, nearly reached, refused where none is derived."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A sign is shown by the form of an expression, or it is not shown: never a wrong one."""
+"""`has_sign` reads a sign off the form of an expression, and never a wrong one."""
 
 from __future__ import annotations
 

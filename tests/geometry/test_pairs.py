@@ -1,4 +1,4 @@
-"""A pair is seven valid numbers or a sentence that says which is not; its integers are the same pair."""
+"""A pair accepts seven valid numbers and names an invalid one; its integers stand for the same pair."""
 
 from __future__ import annotations
 

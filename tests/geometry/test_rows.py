@@ -1,4 +1,4 @@
-"""Arrays of rows: what is taken as one, and which row is named when one is bad."""
+"""Arrays of rows: which values are accepted, and which row an error names."""
 
 from __future__ import annotations
 

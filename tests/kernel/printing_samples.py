@@ -1,4 +1,4 @@
-"""Programs and inputs on which every printer is tried, and what their steps must come to."""
+"""Programs and inputs on which every printer is tried, with the expected values of their steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which kernel answers: what the environment may force, what happens where there is none, and that all answer alike."""
+"""The choice of the kernel: what the environment may force, a missing compiled kernel, and equal answers of all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""hypcheck.classify and hypcheck.classify_scene: exact, and nothing written unless all is well."""
+"""hypcheck.classify and hypcheck.classify_scene: exact answers, and no output unless all rows are valid."""
 
 from __future__ import annotations
 

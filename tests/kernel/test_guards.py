@@ -1,4 +1,4 @@
-"""What the proofs ask of the kernel's limits, and the rules by which comparisons become answers."""
+"""The limits of the kernel that its proofs need, and the rules by which comparisons become answers."""
 
 from __future__ import annotations
 

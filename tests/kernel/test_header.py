@@ -1,4 +1,4 @@
-"""hypcheck.h and the printed modules: they are what the programs print, and compilers take them without a word."""
+"""hypcheck.h and the printed modules are what the programs print, and compilers accept them without warnings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Programs over buffers in numpy: every step the same to the bit, in as few buffers as that takes."""
+"""Programs over buffers in numpy: every step the same to the bit, in as few buffers as possible."""
 
 from __future__ import annotations
 

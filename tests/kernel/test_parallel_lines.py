@@ -1,4 +1,4 @@
-"""The numpy kernel's first stage, in single precision: exact where its lines touch the border, and what it leaves."""
+"""The numpy kernel's first stage, in single precision: exact where its lines touch the border; most centres decided."""
 
 from __future__ import annotations
 

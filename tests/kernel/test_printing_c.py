@@ -1,4 +1,4 @@
-"""C printed from a program: the same value to the bit, for every step of every formula, and refusals."""
+"""C printed from a program: the same value to the bit for every step of every formula, and refused programs."""
 
 from __future__ import annotations
 

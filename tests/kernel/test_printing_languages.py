@@ -1,4 +1,4 @@
-"""C++, Rust, JavaScript and Python printed from a program: the same value to the bit, for every step; and refusals."""
+"""C++, Rust, JavaScript and Python printed from a program: the same value to the bit for every step; refusals."""
 
 from __future__ import annotations
 

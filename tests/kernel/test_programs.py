@@ -1,4 +1,4 @@
-"""The kernel's programs: the formulas they are built on, the roundings their constants allow for, the bounds' terms."""
+"""The kernel's programs: the formulas in them, the roundings that their constants allow for, terms of the bounds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The C core under the address and undefined-behaviour sanitizers: every family, every level, odd counts, bad rows."""
+"""The C core under the address and undefined-behaviour sanitizers: every family and level, odd counts, invalid rows."""
 
 from __future__ import annotations
 

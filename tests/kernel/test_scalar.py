@@ -1,4 +1,4 @@
-"""hypcheck.position: one pair, compiled or not, exact, and a sentence for what is no pair."""
+"""hypcheck.position: exact for one pair, compiled or not, and one sentence for an invalid pair."""
 
 from __future__ import annotations
 

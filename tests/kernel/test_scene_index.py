@@ -1,4 +1,4 @@
-"""A scene asked as a whole: exact against rational arithmetic, whatever the grid leaves out."""
+"""Answers about a whole scene are exact against rational arithmetic, whatever the grid leaves out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scene asked at its limits: heights, far centres, what is no number, and arrays of every shape."""
+"""Answers about a scene at its limits: heights, far centres, values that are no numbers, arrays of every layout."""
 
 from __future__ import annotations
 

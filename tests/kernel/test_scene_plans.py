@@ -1,4 +1,4 @@
-"""Plans of scenes: which settings there are, what they do without, and what is said about it."""
+"""Plans of scenes: their settings, what each leaves out, and the text and JSON about them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each stage of a plan against exact decisions: what it claims is true, and it claims enough to be worth having."""
+"""Each stage of a plan against exact decisions: its claims are true, and it decides enough to be worth its cost."""
 
 from __future__ import annotations
 

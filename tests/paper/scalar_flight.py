@@ -1,4 +1,4 @@
-"""Random flights once more, one at a time and step by step: slow, in plain Python, with exact positions."""
+"""Random flights a second time, one at a time and step by step: slow, in plain Python, with exact positions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The erratum says what the ledger says, compiles to three pages at most, and takes no claim and no part."""
+"""The erratum agrees with the ledger, compiles to three pages at most, and takes no claim and no part."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flights of many lanes are what slow flights, one at a time and with exact positions, are."""
+"""Flights flown many at once equal slow flights, one at a time and with exact positions."""
 
 from __future__ import annotations
 

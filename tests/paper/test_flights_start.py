@@ -1,4 +1,4 @@
-"""Flights start where the quadcopter may be, or are refused before the first draw."""
+"""Flights start where the quadcopter may be; other starts are refused before the first draw."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`simulate forest` as numbers: each step, line, phantom and way against exact decisions one by one."""
+"""`simulate forest` as numbers: each step, line, phantom and way against single exact decisions."""
 
 from __future__ import annotations
 

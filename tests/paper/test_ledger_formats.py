@@ -1,4 +1,4 @@
-"""What is printed: 100 columns of text, LaTeX that is well formed, JSON by its schema, and a fresh page for the web."""
+"""The output of `derive`: text of 100 columns, well-formed LaTeX, JSON by its schema, and a fresh docs/paper.md."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The witnesses against the printed procedures are quadcopters that could fly, and the programs do err at them."""
+"""The witnesses against the printed procedures are quadcopters that could fly, and the programs err at them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The space of small pairs: its facts are right, its witnesses the simplest, and it has one for every mistake."""
+"""The space of small pairs: its facts are right, its witnesses the simplest, and every introduced mistake has one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every verdict is what independent work says it is, and another verdict in its place would not be confirmed."""
+"""Every verdict of the ledger agrees with independent work, and a different verdict is not confirmed."""
 
 from __future__ import annotations
 

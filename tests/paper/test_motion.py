@@ -1,4 +1,4 @@
-"""Many ways at once are judged as each of them alone, exactly."""
+"""Many ways and turns at once are decided as each of them alone, exactly."""
 
 from __future__ import annotations
 

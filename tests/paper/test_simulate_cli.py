@@ -1,4 +1,4 @@
-"""`hypcheck simulate`: text, JSON by its schema, files, and one sentence about what cannot be."""
+"""`hypcheck simulate`: text, JSON by its schema, files, and one sentence about bad input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`simulate tower` as numbers: Table 5, Figure 4, and what both say of the ways between positions."""
+"""`simulate tower` as numbers: Table 5, Figure 4, and the ways between positions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Coq sources, what the build says without Coq, and the proved checker where it has been built."""
+"""The Coq sources, the messages of the build without Coq, and the proved checker where it has been built."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
 
 
 def test_flip_exponents_are_those_of_the_distance_to_the_nearest_other_position():
-    """CROSS: exterior after 1/11 (see test_flip), interior only later; TOUCH: 0."""
+    """CROSS: exterior after 1/11 (see test_backward_error), interior only later; TOUCH: 0."""
     assert judge.flip_exponents(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
     assert Position.CONTACT not in judge.right_positions(Position.CONTACT, 0, "contact")
 

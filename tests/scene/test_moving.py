@@ -1,4 +1,4 @@
-"""[flight] and [walk]: how a scene's mover is to be moved."""
+"""[flight] and [walk]: the tables of a scene that say how its mover moves."""
 
 from __future__ import annotations
 

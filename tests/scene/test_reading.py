@@ -1,4 +1,4 @@
-"""A scene file: what it may hold, and one sentence, with key and line, about everything else."""
+"""Scene files: every key is read, and everything else is refused in one sentence with key and line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the nearest-point oracle is held to: the clearance in high precision by another route, and rows to ask it."""
+"""The reference of the nearest-point oracle: the clearance in high precision by another route, and rows to ask."""
 
 from __future__ import annotations
 

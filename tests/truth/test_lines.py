@@ -1,4 +1,4 @@
-"""Nothing that is not so is proved of bodies of one size, next to its border above all; most that is so is."""
+"""Lines for bodies of one size prove nothing wrong, above all next to the border, and prove most positions."""
 
 from __future__ import annotations
 

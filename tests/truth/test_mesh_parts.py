@@ -1,4 +1,4 @@
-"""What the mesh oracle stands on: cells that shut the arc in, a window that loses nothing, FCL on a ribbon."""
+"""The parts of the mesh oracle: cells that enclose the arc, a window that loses nothing, FCL's distance to a ribbon."""
 
 from __future__ import annotations
 

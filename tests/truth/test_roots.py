@@ -1,4 +1,4 @@
-"""The oracle by roots: what it says of witnesses worked out by hand, of prescribed roots, and when it is sabotaged."""
+"""The roots oracle on witnesses worked out by hand, on prescribed roots, and with faults put into it."""
 
 from __future__ import annotations
 

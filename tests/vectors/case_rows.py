@@ -1,4 +1,4 @@
-"""What tests of the casebook ask of rows, exactly."""
+"""Exact properties of rows, for the tests of families."""
 
 from __future__ import annotations
 

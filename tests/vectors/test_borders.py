@@ -1,4 +1,4 @@
-"""Borders of the regimes, planes of symmetry and vanishing coefficients are met exactly, and left by little."""
+"""Borders of the regimes, planes of symmetry and vanishing coefficients are met exactly, and by rows beside them."""
 
 from __future__ import annotations
 

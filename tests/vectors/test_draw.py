@@ -1,4 +1,4 @@
-"""The random primitives: what they promise of ranges and rounding, and that nothing irreproducible is used."""
+"""The random primitives: ranges, rounding, and no operation that differs between machines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""At the ends of the float formats: what overflows, underflows, is subnormal or a hair off."""
+"""Families at the ends of the float formats: overflow, underflow, subnormal lengths, tiny coordinates."""
 
 from __future__ import annotations
 

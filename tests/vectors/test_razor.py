@@ -1,4 +1,4 @@
-"""The last float before contact and the first in it, for sizes of any scale, found without a long search."""
+"""The family razor: the last float before contact and the first in it, for sizes of any scale, found in few steps."""
 
 from __future__ import annotations
 

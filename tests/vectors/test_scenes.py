@@ -1,4 +1,4 @@
-"""The paper's scenes have the paper's sizes, and what moves in them moves as it should."""
+"""Families of the paper's scenes have the paper's sizes and coherent movements."""
 
 from __future__ import annotations
 

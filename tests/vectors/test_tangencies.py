@@ -1,4 +1,4 @@
-"""Double roots: tangencies, crossings with a node, the ring, and what lies next to them."""
+"""Families with double roots: tangencies, crossings with a node, the ring, and rows next to them."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Emitted kernels: built with the compilers that the machine has, loaded, asked, and their worst errors.
-
-Emitted kernels, built with the compilers that the machine has, and loaded.
-
-How far off the answers of an emitted kernel are, over all families of its own sizes.
-"""
+"""Emitted kernels for tests: built with the compilers of this machine, loaded, asked, judged by their worst error."""
 
 from __future__ import annotations
 

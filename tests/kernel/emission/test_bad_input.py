@@ -1,4 +1,4 @@
-"""Scenes that no kernel is made for: one sentence that says what and where, exit 2, and nothing written."""
+"""`emit` refuses scenes that no kernel is made for: one sentence that says what and where, exit 2, nothing written."""
 
 from __future__ import annotations
 

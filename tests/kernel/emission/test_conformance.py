@@ -1,4 +1,4 @@
-"""Emitted kernels go to the gate as they are: `hypcheck emit`, a compiler, `hypcheck verify`."""
+"""Emitted kernels in conformance runs, as users run them: `hypcheck emit`, a compiler, `hypcheck verify`."""
 
 from __future__ import annotations
 

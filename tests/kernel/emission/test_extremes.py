@@ -1,4 +1,4 @@
-"""Where the maximum of the dual function is nearer to 0 than any scene of metres has it: the search goes there too."""
+"""Emitted kernels for extreme sizes, where the maximum of the dual function is very near to 0 or to a pole."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that others gave, in a kernel: readable in any script, and nothing in them does anything."""
+"""Names from a scene file in an emitted kernel: readable in any script, and without effect on the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Emitted kernels, built by real compilers, against exact positions: never farther off than they promise."""
+"""Emitted kernels, built by real compilers, against exact positions: the error never exceeds the promised bound."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an emitted kernel says where nothing is promised, and that no scene's numbers break its text."""
+"""Emitted kernels at the limits of their region and format, where nothing is promised."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The scenes that everybody asks for, and random ones, in all five languages: within 8 u of the truth.
+"""The shipped scenes and random ones, in all five languages: errors within 8 u of the truth.
 
 HYPCHECK_KERNELS=all (`make kernels`) takes every scene in every language and format, and 200 random and 200 extreme
-scenes; without it each scene and language comes once, and every twelfth random one.
+scenes; without it each scene and language is taken once, and every twelfth random scene.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The text of a kernel: its head counts what its functions do, and linters and type checkers find nothing in it."""
+"""The text of a kernel: its head counts the operations of its functions, and linters and type checkers find nothing."""
 
 from __future__ import annotations
 

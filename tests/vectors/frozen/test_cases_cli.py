@@ -1,4 +1,4 @@
-"""`hypcheck cases`: what it prints and writes, what it loads, and what it says to a slip of the hand."""
+"""`hypcheck cases`: what it prints, writes and loads, and its messages about wrong arguments."""
 
 from __future__ import annotations
 

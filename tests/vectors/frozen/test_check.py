@@ -1,4 +1,4 @@
-"""`hypcheck cases check` sees every wrong label: each is broken in turn, and the check must say so, with the id."""
+"""`hypcheck cases check` finds every wrong label: each is broken in turn, and the check names the case."""
 
 from __future__ import annotations
 

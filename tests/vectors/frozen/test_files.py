@@ -1,4 +1,4 @@
-"""The frozen files as a product: enough of them, small enough, fresh, fitting their schema, and usable without us."""
+"""The frozen files: enough cases, small, fresh, fitting their schema, and usable without this project."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of rows that must be refused: as strict as the others, and not to be taken for them."""
+"""Files of invalid rows are read as strictly as the others, and neither kind is taken for the other."""
 
 from __future__ import annotations
 

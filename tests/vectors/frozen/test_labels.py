@@ -1,4 +1,4 @@
-"""How cases are made: short proofs, flags with witnesses computed by hand, ids that are kept, searches that repeat."""
+"""Making cases: short proofs, flags of rows worked out by hand, ids that are kept, searches that repeat."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`hypcheck cases check` sees what a file says wrongly before its cases, of our flags and families and of no others."""
+"""`hypcheck cases check` finds wrong descriptions of known flags and families, and compares no others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Vector files that are not as they must be: each is refused, and the message names file, line and case."""
+"""Malformed vector files are refused, and the message names file, line and case."""
 
 from __future__ import annotations
 

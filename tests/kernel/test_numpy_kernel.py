@@ -1,4 +1,4 @@
-"""The fast path is exact: against proofs, along the borders, and where floats fail."""
+"""The numpy kernel is exact: against proofs, along the borders, and where floats cannot decide."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The compiled kernel behind the public functions: questions, threads, strides, and what it refuses."""
+"""The compiled kernel behind the public functions: questions, threads, strides, and refused arguments."""
 
 from __future__ import annotations
 
