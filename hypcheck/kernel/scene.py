@@ -3,13 +3,7 @@
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
 hyperboloid gives no answer for a centre beyond its modelled height, and where none gives one, the scene gives none.
 Parts of the mover are asked where the mover itself is in contact: an answer that all parts share is then the answer.
-Where something leans, scene_leaning.py gives the answer of each hyperboloid.
-
-A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
-(TwoSum): where it is 0 the difference is exact and the fast path answers. Elsewhere the difference lies between two
-neighbouring floats. The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when
-|x| and |y| fall and |z| grows: when the two extreme corners of that box have one position, it is the answer; else the
-exact difference is taken in integers. `positions_beside` does so for arrays, `position_beside` for one step of a walk.
+scene_pairs.py gives the answer of each hyperboloid.
 """
 
 from __future__ import annotations
@@ -17,23 +11,17 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from itertools import chain
-from math import cos, inf, isfinite, nextafter, radians, sin
-from sys import float_info
+from math import cos, isfinite, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, Lengths, to_integers, trouble_with, trouble_with_axis
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows, as_columns, as_numbers
-from hypcheck.kernel import integers
+from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
 from hypcheck.kernel.choice import POSITION_OF
-from hypcheck.kernel.classify import classify
-from hypcheck.kernel.scalar import position
 from hypcheck.kernel.scene_index import (
     Bodies,
     Levels,
@@ -44,75 +32,17 @@ from hypcheck.kernel.scene_index import (
     levels_of,
     reaches,
 )
-from hypcheck.kernel.scene_leaning import is_within_height, position_leaning, positions_leaning, within_height
+from hypcheck.kernel.scene_pairs import (
+    Body,
+    is_within_height,
+    position_beside,
+    position_leaning,
+    positions_beside,
+    positions_leaning,
+    within_height,
+)
 from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
-
-
-def positions_beside(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
-    """The exact position of each mover, int8 (n,): sizes (n, 4), and both centres (n, 3) in the scene's coordinates."""
-    with np.errstate(all="ignore"):
-        offset, error = two_sum(centres, -origins)
-    beyond = np.logical_not((np.abs(offset) < np.finfo(np.float64).max).all(axis=1))  # no float64, or none above it
-    result = classify(np.concatenate([sizes, np.where(beyond[:, None], 0.0, offset)], axis=1))
-    rounded = np.flatnonzero((error != 0).any(axis=1) & ~beyond)
-    if len(rounded):
-        result[rounded] = _between(sizes[rounded], offset[rounded], centres[rounded], origins[rounded])
-    for index in np.flatnonzero(beyond).tolist():
-        result[index] = position_of_exact_difference(
-            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
-        )
-    return result
-
-
-def _between(sizes: Rows, offset: Floats, centres: Rows, origins: Rows) -> Positions:
-    size = np.abs(offset)
-    less, more = np.nextafter(size, 0.0), np.nextafter(size, np.inf)
-    outermost = classify(np.concatenate([sizes, more[:, :2], less[:, 2:]], axis=1))
-    innermost = classify(np.concatenate([sizes, less[:, :2], more[:, 2:]], axis=1))
-    result = outermost.copy()
-    for index in np.flatnonzero(outermost != innermost).tolist():
-        result[index] = position_of_exact_difference(
-            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
-        )
-    return result
-
-
-def position_of_exact_difference(sizes: list[float], centre: list[float], origin: list[float]) -> int:
-    """The position about the exact difference of two centres, in integers."""
-    alpha, gamma, b, d = sizes
-    x, y, z = (Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True))
-    return int(integers.position(Lengths(*to_integers((alpha, b, x, y)), *to_integers((gamma, d, z)))))
-
-
-GREATEST = float_info.max
-"""A difference of centres from here on has no float64 above it."""
-
-Body = tuple[float, float, float, float, float, float, float]
-"""α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
-
-
-def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float) -> int:
-    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
-    alpha, gamma, there_x, there_y, there_z, _, _ = body
-    across, along, up = x - there_x, y - there_y, z - there_z
-    # TwoSum: what each difference has lost; 0 where it is exact.
-    back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
-    if (
-        (x - back_x) == (there_x - (back_x - across))
-        and (y - back_y) == (there_y - (back_y - along))
-        and (z - back_z) == (there_z - (back_z - up))
-    ):
-        return position(alpha, gamma, b, d, across, along, up)
-    across, along, up = abs(across), abs(along), abs(up)
-    if not (across < GREATEST and along < GREATEST and up < GREATEST):
-        return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
-    outermost = position(alpha, gamma, b, d, nextafter(across, inf), nextafter(along, inf), nextafter(up, 0.0))
-    innermost = position(alpha, gamma, b, d, nextafter(across, 0.0), nextafter(along, 0.0), nextafter(up, inf))
-    if outermost == innermost:
-        return outermost
-    return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
-
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 

@@ -26,7 +26,7 @@ from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask
-from hypcheck.kernel import scene as offsets
+from hypcheck.kernel import scene_pairs as offsets
 from hypcheck.paper.motion import MOST_CONTACTS, first_contact, stays_on_side
 from hypcheck.paper.quadcopter import any_angle, turned
 from hypcheck.scene.model import Region, SceneModel, Walk

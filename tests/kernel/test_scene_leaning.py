@@ -13,7 +13,7 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_index import bodies_of, reaches
-from hypcheck.kernel.scene_leaning import is_within_height, position_leaning, within_height
+from hypcheck.kernel.scene_pairs import is_within_height, position_leaning, within_height
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths

@@ -1,11 +1,18 @@
-"""A mover beside hyperboloids, where one of them leans or both do: exact positions from the scene's coordinates.
+"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions, upright or leaning.
 
-Beside a hyperboloid that stands upright the question is one of ten numbers. The difference of two centres is no float64
-as a rule; with its rounding error e a spheroid whose semi-axes are ε = |e|/min(b, d) longer contains the true one, and
-one with semi-axes that much shorter lies in it. The larger clear is clear, the smaller in contact is contact; what is
-left is decided in integers from the exact difference.
+A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
+(TwoSum): where it is 0 the difference is exact and the fast path answers.
 
-Beside a hyperboloid that leans, along w, nothing is rotated: squares and products of its axis, the spheroid's and the
+**Both upright.** Elsewhere the difference lies between two neighbouring floats. The exterior positions are an up-set
+when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall and |z| grows: when the two extreme corners
+of that box have one position, it is the answer; else the exact difference is taken in integers. `positions_beside` does
+so for arrays, `position_beside` for one step of a walk.
+
+**The mover alone leans.** With the error e of the difference a spheroid whose semi-axes are ε = |e|/min(b, d) longer
+contains the true one, and one with semi-axes that much shorter lies in it. The larger clear is clear, the smaller in
+contact is contact; what is left is decided in integers from the exact difference.
+
+**The hyperboloid leans**, along w, and nothing is rotated: squares and products of its axis, the spheroid's and the
 centre's difference are rational, and the position is decided from them (tilted_integers.squares_between_axes). Most
 movers are nowhere near: with h and ϱ, the centre's height along w and its distance from the axis, the spheroid lies in
 the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
@@ -17,16 +24,84 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import inf, sqrt
+from math import inf, nextafter, sqrt
+from sys import float_info
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import Position, to_integers
+from hypcheck.geometry.pair import Lengths, Position, to_integers
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
+from hypcheck.kernel import integers
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
+
+
+def positions_beside(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
+    """The exact position of each mover, int8 (n,): sizes (n, 4), and both centres (n, 3) in the scene's coordinates."""
+    with np.errstate(all="ignore"):
+        offset, error = two_sum(centres, -origins)
+    beyond = np.logical_not((np.abs(offset) < np.finfo(np.float64).max).all(axis=1))  # no float64, or none above it
+    result = classify(np.concatenate([sizes, np.where(beyond[:, None], 0.0, offset)], axis=1))
+    rounded = np.flatnonzero((error != 0).any(axis=1) & ~beyond)
+    if len(rounded):
+        result[rounded] = _between(sizes[rounded], offset[rounded], centres[rounded], origins[rounded])
+    for index in np.flatnonzero(beyond).tolist():
+        result[index] = position_of_exact_difference(
+            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
+        )
+    return result
+
+
+def _between(sizes: Rows, offset: Floats, centres: Rows, origins: Rows) -> Positions:
+    size = np.abs(offset)
+    less, more = np.nextafter(size, 0.0), np.nextafter(size, np.inf)
+    outermost = classify(np.concatenate([sizes, more[:, :2], less[:, 2:]], axis=1))
+    innermost = classify(np.concatenate([sizes, less[:, :2], more[:, 2:]], axis=1))
+    result = outermost.copy()
+    for index in np.flatnonzero(outermost != innermost).tolist():
+        result[index] = position_of_exact_difference(
+            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
+        )
+    return result
+
+
+def position_of_exact_difference(sizes: list[float], centre: list[float], origin: list[float]) -> int:
+    """The position about the exact difference of two centres, in integers."""
+    alpha, gamma, b, d = sizes
+    x, y, z = (Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True))
+    return int(integers.position(Lengths(*to_integers((alpha, b, x, y)), *to_integers((gamma, d, z)))))
+
+
+LARGEST_FLOAT = float_info.max
+"""A difference of centres from here on has no float64 above it."""
+
+Body = tuple[float, float, float, float, float, float, float]
+"""α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
+
+
+def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float) -> int:
+    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
+    alpha, gamma, there_x, there_y, there_z, _, _ = body
+    across, along, up = x - there_x, y - there_y, z - there_z
+    # TwoSum: what each difference has lost; 0 where it is exact.
+    back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
+    if (
+        (x - back_x) == (there_x - (back_x - across))
+        and (y - back_y) == (there_y - (back_y - along))
+        and (z - back_z) == (there_z - (back_z - up))
+    ):
+        return position(alpha, gamma, b, d, across, along, up)
+    across, along, up = abs(across), abs(along), abs(up)
+    if not (across < LARGEST_FLOAT and along < LARGEST_FLOAT and up < LARGEST_FLOAT):
+        return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
+    outermost = position(alpha, gamma, b, d, nextafter(across, inf), nextafter(along, inf), nextafter(up, 0.0))
+    innermost = position(alpha, gamma, b, d, nextafter(across, 0.0), nextafter(along, 0.0), nextafter(up, inf))
+    if outermost == innermost:
+        return outermost
+    return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
+
 
 ERROR = 64 * 2.0**-53
 """Of h and ϱ, in units of the sum of all coordinates."""
