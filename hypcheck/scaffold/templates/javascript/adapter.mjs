@@ -3,7 +3,9 @@
 //     @BUILD@
 //
 // docs/protocol.md of hypcheck says what is spoken. Nothing here changes when the predicate does.
-import { description, predicate, tilted } from "./predicate.mjs";
+import * as asked from "./predicate.mjs"; // whole: one that takes no tilt needs no function tilted
+
+const { description, predicate, tilted } = asked;
 
 const TILT = description.tilt === true;
 const COLUMNS = TILT ? 10 : 7;
