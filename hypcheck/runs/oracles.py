@@ -1,7 +1,8 @@
 """The four oracles behind one interface, and the cross-check that compares each with the exact decision.
 
 An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
-repaired coefficient rule in exact rationals.
+repaired coefficient rule in exact rationals. Rows of ten numbers go to the oracles for tilted spheroids, of which there
+are three; these are asked about frozen vectors, whose positions are proved.
 """
 
 from __future__ import annotations
@@ -24,6 +25,17 @@ from hypcheck.record.lines import DisagreementPart
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan
 from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
 from hypcheck.truth.mesh_meridian import MeshOutcome
+from hypcheck.truth.tilted import certificate as tilted_certificate
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted import nearest as tilted_nearest
+from hypcheck.truth.tilted import prove as tilted_prove
+from hypcheck.truth.tilted import roots as tilted_roots
+from hypcheck.truth.tilted.exact import Decision as TiltedDecision
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors import frozen
+from hypcheck.vectors.families import TILTED_FAMILIES
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.tilted.format import TiltedVector
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,11 +50,15 @@ class Opinion:
 
 @dataclass(frozen=True, slots=True)
 class Oracle:
-    """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None."""
+    """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None.
+
+    `ask_tilted` maps rows (n, 10) to n opinions, where the oracle knows tilted spheroids.
+    """
 
     name: str
     title: str
     ask: Callable[[Rows], Sequence[Opinion]]
+    ask_tilted: Callable[[Rows], Sequence[Opinion]] | None = None
     available: Callable[[], str | None] = lambda: None
 
 
@@ -99,13 +115,46 @@ def ask_mesh(rows: Rows) -> list[Opinion]:
     ]
 
 
+def ask_exact_tilted(rows: Rows) -> list[Opinion]:
+    """As ask_exact, of tilted spheroids."""
+    opinions = []
+    for row in rows.tolist():
+        pair = TiltedPair.from_row(row)
+        decision = tilted_exact.decide(pair.lengths)
+        found = tilted_prove.prove(pair, decision)
+        proved = found.position is decision.position and tilted_certificate.check_certificate(pair, found)
+        opinions.append(
+            Opinion(decision.position, decision.tangent, None, "proved")
+            if proved
+            else Opinion(None, stage="certificate refused")
+        )
+    return opinions
+
+
+def ask_nearest_tilted(rows: Rows) -> list[Opinion]:
+    """The sign of the clearance to the nearest point, in intervals of more and more bits until they decide."""
+    found = [tilted_nearest.nearest(TiltedPair.from_row(row)) for row in rows.tolist()]
+    return [Opinion(each.position, each.tangent, None, f"{each.bits} bits") for each in found]
+
+
+def ask_roots_tilted(rows: Rows) -> list[Opinion]:
+    """The pattern of the roots of the quartic det(S + λH) beside its poles."""
+    reports = [tilted_roots.classify_tilted_by_roots(TiltedPair.from_row(row)) for row in rows.tolist()]
+    return [Opinion(report.position, report.tangent, None, "root pattern") for report in reports]
+
+
 ORACLES = {
     oracle.name: oracle
     for oracle in (
-        Oracle("exact", "exact decision in integers, with a checked certificate", ask_exact),
-        Oracle("nearest", "nearest point of the hyperboloid", ask_nearest),
-        Oracle("roots", "root patterns after [10], re-derived; its text was not consulted", ask_roots),
-        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, mesh.availability),
+        Oracle("exact", "exact decision in integers, with a checked certificate", ask_exact, ask_exact_tilted),
+        Oracle("nearest", "nearest point of the hyperboloid", ask_nearest, ask_nearest_tilted),
+        Oracle(
+            "roots",
+            "root patterns after [10], re-derived; its text was not consulted",
+            ask_roots,
+            ask_roots_tilted,
+        ),
+        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, available=mesh.availability),
     )
 }
 
@@ -137,7 +186,46 @@ class OracleTally:
     disagreements: tuple[DisagreementPart, ...]
 
 
-def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[FamilyBatch]) -> list[OracleTask]:
+@dataclass(frozen=True)
+class TiltedBatch:
+    """Frozen vectors of one family of tilted spheroids: rows (n, 10), ids, and their proved labels."""
+
+    family: Family
+    rows: Rows
+    decisions: tuple[TiltedDecision, ...]
+    ids: tuple[str, ...]
+
+    def name(self, index: int) -> str:
+        """The id of a case."""
+        return self.ids[index]
+
+
+Batch = FamilyBatch | TiltedBatch
+
+
+def tilted_batches(plan: SelfCheckPlan) -> tuple[TiltedBatch, ...]:
+    """The frozen vectors of all families of tilted spheroids but the extreme one; none where families were chosen."""
+    families = () if plan.families else tuple(each for each in TILTED_FAMILIES.values() if not each.extreme)
+    return tuple(_tilted_batch(family, plan.count) for family in families)
+
+
+def _tilted_batch(family: Family, count: int) -> TiltedBatch:
+    cases = frozen.load_tilted(family.name).cases[:count]
+    return TiltedBatch(
+        family,
+        np.asarray([case.row for case in cases]),
+        tuple(TiltedDecision(case.position, _limit_of(case)) for case in cases),
+        tuple(case.id for case in cases),
+    )
+
+
+def _limit_of(case: TiltedVector) -> Position | None:
+    """The clear position that a tangency touches from, by the sign of its double root."""
+    root = case.witness.double_root
+    return None if root is None else Position.EXTERIOR if root > 0 else Position.INTERIOR
+
+
+def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[OracleTask]:
     """All tasks, those of slow oracles first, so that no long task is left for the end."""
     families = max(1, len(all_batches))
     shares = {
@@ -151,6 +239,7 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[FamilyBatch]) -> lis
         OracleTask(oracle, place, start, batch.rows[start : min(start + CHUNK, shares[oracle])])
         for oracle in order
         for place, batch in enumerate(all_batches)
+        if isinstance(batch, FamilyBatch) or ORACLES[oracle].ask_tilted is not None
         for start in range(0, min(len(batch.rows), shares[oracle]), CHUNK)
     ]
 
@@ -158,7 +247,10 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[FamilyBatch]) -> lis
 def ask_oracle(task: OracleTask) -> tuple[list[Opinion], float]:
     """The oracle's opinions about a task's rows, and the seconds they took."""
     started = time.perf_counter()
-    opinions = list(ORACLES[task.oracle].ask(task.rows))
+    oracle, tilted = ORACLES[task.oracle], task.rows.shape[1] > len(COLUMNS)
+    if tilted and oracle.ask_tilted is not None:
+        return list(oracle.ask_tilted(task.rows)), time.perf_counter() - started
+    opinions = list(oracle.ask(task.rows))
     if task.oracle == "roots":
         opinions = [
             _unless_rule_differs(row, opinion) for row, opinion in zip(task.rows.tolist(), opinions, strict=True)
@@ -182,9 +274,7 @@ def perform_tasks(
         yield task, opinions, seconds
 
 
-def compare_with_exact(
-    task: OracleTask, opinions: Sequence[Opinion], batch: FamilyBatch, seconds: float
-) -> OracleTally:
+def compare_with_exact(task: OracleTask, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> OracleTally:
     """The tally of a task's opinions against the exact decisions."""
     disagreements = tuple(
         DisagreementPart(
@@ -202,17 +292,18 @@ def compare_with_exact(
     return OracleTally(task.oracle, batch.family.name, len(opinions), undecided, stages, seconds, disagreements)
 
 
-def _difference(batch: FamilyBatch, index: int, opinion: Opinion) -> tuple[str, str] | None:
+def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
     """The exact decision and the opinion in words if they contradict each other, else None."""
     decision = batch.decisions[index]
-    exact = f"{decision.position.label}, tangent: {decision.tangent}, {decision.kind.value}"
+    kind = decision.kind.value if isinstance(decision, exact.Decision) else None
+    said = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"
     if opinion.stage.startswith("coefficient rule") or opinion.stage == "certificate refused":
-        return exact, opinion.stage
+        return said, opinion.stage
     if opinion.position is None:
         return None
     same = opinion.position is decision.position
-    same &= opinion.tangent in (None, decision.tangent) and opinion.kind in (None, decision.kind.value)
-    return None if same else (exact, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")
+    same &= opinion.tangent in (None, decision.tangent) and opinion.kind in (None, kind)
+    return None if same else (said, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")
 
 
 def merged_tallies(tallies: Sequence[OracleTally]) -> list[OracleTally]:

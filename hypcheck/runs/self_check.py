@@ -141,11 +141,12 @@ class _SelfCheck:
         """The stages of the run in order; the record says which oracles are not available."""
         available = builtin_methods() if MESH in self.plan.oracles else methods_without_meshes()
         methods = tuple(method for method in available.values() if not method.measured)
-        tasks = oracles.oracle_tasks(self._with_available_oracles(), self.batches)
+        asked: tuple[oracles.Batch, ...] = (*self.batches, *oracles.tilted_batches(self.plan))
+        tasks = oracles.oracle_tasks(self._with_available_oracles(), asked)
         formulas = findings.exact_formulas()
         return (
             Stage("derivation", 2, self._derive),
-            Stage("oracles", len(tasks), lambda advance: self._cross_check(tasks, advance)),
+            Stage("oracles", len(tasks), lambda advance: self._cross_check(tasks, asked, advance)),
             Stage("mathematics of the formulas", len(self.batches) * len(formulas), self._find_exact_errors),
             Stage(
                 "methods in floats",
@@ -173,11 +174,13 @@ class _SelfCheck:
                 self.outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
         advance(1)
 
-    def _cross_check(self, tasks: Sequence[oracles.OracleTask], advance: Advance) -> None:
+    def _cross_check(
+        self, tasks: Sequence[oracles.OracleTask], asked: Sequence[oracles.Batch], advance: Advance
+    ) -> None:
         tallies: list[OracleTally] = []
         with processes(self.plan.workers) as executor:
             for task, opinions, seconds in oracles.perform_tasks(tasks, executor):
-                tallies.append(oracles.compare_with_exact(task, opinions, self.batches[task.batch], seconds))
+                tallies.append(oracles.compare_with_exact(task, opinions, asked[task.batch], seconds))
                 advance(1)
         for tally in oracles.merged_tallies(tallies):
             disagreeing = self.outcome.because[Exit.ORACLES_DISAGREE]

@@ -88,7 +88,7 @@ def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
     return sum(left != right for left, right in itertools.pairwise(signs))
 
 
-def isolate(f: Polynomial, cuts: Sequence[Fraction]) -> list[Interval]:
+def isolate(f: Polynomial, cuts: Sequence[Fraction], *, narrow: bool = True) -> list[Interval]:
     """Open intervals with one root of f each, in order, all real roots covered; no cut and no 0 inside any.
 
     f is squarefree and is not 0 at 0 nor at a cut. A root met exactly is given as an interval of width 0.
@@ -103,7 +103,7 @@ def isolate(f: Polynomial, cuts: Sequence[Fraction]) -> list[Interval]:
     while pending:
         lower, left, upper, right = pending.pop()
         if left - right == 1:
-            found.append(_narrowed(f, lower, upper))
+            found.append(_narrowed(f, lower, upper) if narrow else (lower, upper))
         elif left > right:
             # Eight candidates, seven roots at most: one of them is no root.
             middle = next(x for x in _between(lower, upper) if value(f, x))

@@ -183,7 +183,7 @@ def _sides(f: Polynomial, g: Polynomial) -> tuple[str, str]:
     both = squarefree(primitive(polynomial_product(f, g)))
     below: list[tuple[bool, int]] = []
     above: list[tuple[bool, int]] = []
-    for interval in isolate(both, ()):
+    for interval in isolate(both, (), narrow=False):
         multiplicity = sum(_has_root(layer, interval) for layer in layers)
         (above if interval[1] > 0 else below).append((_has_root(g, interval), multiplicity))
     return _side(below[::-1]), _side(above)

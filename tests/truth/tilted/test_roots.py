@@ -1,0 +1,65 @@
+"""The roots oracle for tilted spheroids: its table is complete, and its answers are those of the matrices."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.truth.tilted import roots
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.truth.tilted.roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
+from hypcheck.vectors import frozen
+from tests.tilted_fractions import exact_position, interpolated, matrices, value
+from tests.tools.tilted_agreement import rows
+from tests.truth.tilted.cases import SYMMETRIC
+
+EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
+
+
+def test_the_table_lists_every_pattern_that_the_signs_allow_once_and_no_other():
+    listed = [word for words in PATTERNS.values() for word in words]
+    assert len(set(listed)) == len(listed)
+    assert set(listed) == admissible() == set(MEANING)
+
+
+def test_the_quartic_is_the_determinant_of_the_pencil():
+    for _, row in rows(["uniform", "grid"], 10, seed=2):
+        pair = TiltedPair.from_row(row)
+        if pair.upright is not None:
+            continue
+        ours, lengths = roots.characteristic(pair.lengths), pair.lengths
+        # The oracle counts λ in units of α² γ²/(b² d² v·v).
+        square = sum(each * each for each in lengths.axis)
+        unit = Fraction((lengths.alpha * lengths.gamma) ** 2, lengths.b**2 * lengths.d**2 * square)
+        theirs = interpolated(*matrices(row))
+        for at in (1, -2, 3):
+            one, other = value(ours[::-1], at), value(theirs, at * unit)
+            assert (one > 0) == (other > 0)
+
+
+@pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
+def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_pole(row, position, limit_of):
+    found = classify_tilted_by_roots(TiltedPair.from_row(row))
+    assert (found.position, found.tangent) == (position, limit_of is not None)
+    side = found.above if EXTERIOR in (position, limit_of) else found.below
+    assert side in ("(0,R) R²", "R² >R", "R³", "(0,R) R >R")
+
+
+def test_positions_are_those_of_the_matrices():
+    for family, row in rows(["uniform", "near", "stiff", "slight", "symmetric", "grid"], 60, seed=8):
+        assert roots.position(TiltedPair.from_row(row)) == exact_position(row), (family, row)
+
+
+@pytest.mark.parametrize("name", ["tilted-tangent", "tilted-crossing", "tilted-ring", "tilted-twins"])
+def test_frozen_coincidences_have_their_proved_labels(name):
+    for case in frozen.load_tilted(name).cases[::12]:
+        found = classify_tilted_by_roots(case.pair)
+        assert (found.position, found.tangent) == (case.position, case.tangent), case.id
+
+
+def test_a_pattern_that_is_not_in_the_table_is_an_error(monkeypatch):
+    monkeypatch.setattr(roots, "MEANING", {})
+    with pytest.raises(AssertionError, match="a pattern that is not possible"):
+        classify_tilted_by_roots(TiltedPair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]))
