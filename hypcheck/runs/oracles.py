@@ -30,7 +30,7 @@ from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted import nearest as tilted_nearest
 from hypcheck.truth.tilted import prove as tilted_prove
 from hypcheck.truth.tilted import roots as tilted_roots
-from hypcheck.truth.tilted.exact import Decision as TiltedDecision
+from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import TILTED_FAMILIES
