@@ -66,6 +66,6 @@ def parsed(text: str, name: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{name}: is no TOML: {error}") from None
     except RecursionError:
-        raise InputError(f"{name}: is no TOML that can be read: it is nested too deeply") from None
+        raise InputError(f"{name}: cannot be read as TOML: it is nested too deeply") from None
     except ValueError:  # an integer of more than 4300 digits
         raise InputError(f"{name}: {_TOO_LONG}") from None

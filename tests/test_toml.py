@@ -21,7 +21,7 @@ def test_a_byte_order_mark_is_ignored(tmp_path):
     ("text", "message"),
     [
         ("a = ", "a.toml: is no TOML: Invalid value"),
-        ("a = " + "[" * 5000, "a.toml: is no TOML that can be read: it is nested too deeply"),
+        ("a = " + "[" * 5000, "a.toml: cannot be read as TOML: it is nested too deeply"),
         ("a = " + "9" * 5000, "a.toml: has an integer with too many digits"),
         ("a = 0x" + "f" * 5000, "a.toml: has an integer with too many digits"),
         ("\n\na" + ".a" * 5000 + " = 1", "a.toml, line 3: has more than 100 dots"),

@@ -168,7 +168,9 @@ class Procedures:
 def craft_of(scene: SceneModel) -> Craft:
     """The quadcopter of a scene. Raises InputError where Procedures 2.a and 2.b are not about such a scene."""
     if len(scene.hyperboloids) != 1:
-        raise InputError(f"the scene {scene.name!r} has {len(scene.hyperboloids)} hyperboloids; a tower is one alone")
+        raise InputError(
+            f"the scene {scene.name!r} has {len(scene.hyperboloids)} hyperboloids; it must have one, the tower"
+        )
     (tower,) = scene.hyperboloids
     require_ordinary(scene)
     _require_regime(scene, tower)
@@ -204,7 +206,7 @@ def require_ordinary(scene: SceneModel) -> None:
     for what, value in _places(scene):
         if abs(value) > FARTHEST:
             raise InputError(
-                f"the scene {scene.name!r}: {what} is at {value!r}; a simulation takes places as far as {FARTHEST:g}"
+                f"the scene {scene.name!r}: {what} is at {value!r}; a simulation takes coordinates up to {FARTHEST:g}"
             )
 
 

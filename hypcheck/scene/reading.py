@@ -121,7 +121,7 @@ def parse_scene(text: str, source: str = "the scene") -> SceneModel:
     try:
         return _scene(TomlTable(TomlSource(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
     except RecursionError:
-        raise InputError(f"{source}: is no TOML that can be read: it is nested too deeply") from None
+        raise InputError(f"{source}: cannot be read as TOML: it is nested too deeply") from None
 
 
 def _scene(top: TomlTable) -> SceneModel:

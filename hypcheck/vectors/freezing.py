@@ -248,7 +248,7 @@ def _require_no_faults(faults: list[LabelFault]) -> None:
     if faults:
         worst = faults[0]
         raise DisagreementError(
-            f"the label made for {worst.case} does not stand its check: {worst.sentence}; please report this, it is a "
+            f"the label made for {worst.case} fails its check: {worst.sentence}; please report this, it is a "
             "fault of hypcheck"
         )
 

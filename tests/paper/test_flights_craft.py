@@ -72,7 +72,7 @@ def test_scenes_that_the_procedures_are_not_about_are_refused(change, message):
 
 def test_two_towers_are_refused():
     scene = SCENES["tower"]
-    with pytest.raises(InputError, match="has 2 hyperboloids; a tower is one alone"):
+    with pytest.raises(InputError, match="has 2 hyperboloids; it must have one, the tower"):
         craft_of(replace(scene, hyperboloids=scene.hyperboloids * 2))
 
 

@@ -159,7 +159,7 @@ def test_without_matplotlib_simulate_writes_all_but_the_pictures(capsys, tmp_pat
         (("tower", "--table", "5", "--runs", 0), "'0' must be a whole number, at least 1"),
         (("tower", "--speed", "nan"), "'--speed': 'nan' must be a number, at least 1e-06 and at most 1e+06"),
         (("tower", "--time", "-1"), "'--time': '-1' must be a number, at least 1e-06"),
-        (("tower", "--scene", "forest"), "has 64 hyperboloids; a tower is one alone"),
+        (("tower", "--scene", "forest"), "has 64 hyperboloids; it must have one, the tower"),
         (("forest", "--scene", "tower"), "has no [walk]"),
         (("forest", "--scene", "nowhere.toml"), "there is no such file"),
         (("forest", "--steps", -1), "'-1' must be a whole number, at least 0"),

@@ -64,7 +64,7 @@ def proof_of(plan: ScenePlan) -> str:
         for part in _setting(number, plan, stages.setting.sizes, stages.discriminant)
     ]
     if not parts:
-        raise InputError("--proof: this kernel decides without a discriminant, so that no bound is to be proved")
+        raise InputError("--proof: this kernel decides without a discriminant, so there is no bound to prove")
     head = _HEAD.format(scene=plan.scene.name, format=plan.format.name, bits=plan.format.bits)
     return "\n".join((head, *parts, ""))
 

@@ -232,7 +232,7 @@ def search(scaled: ScaledSetting, form: FloatFormat, corner: tuple[Fraction, Fra
     """
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     if min(A, B) < _least_square(form):
-        raise OverflowError(f"a spheroid so much larger than the hyperboloid loses its terms in {form.name}")
+        raise OverflowError(f"the spheroid is so much larger than the hyperboloid that terms are lost in {form.name}")
     widest, highest = _farthest(scaled, form)
     if 2 * (corner[0] * scaled.radial) ** 2 > widest or (corner[1] * scaled.axial) ** 2 > highest:
         raise OverflowError(f"products of the lengths in the region leave {form.name}")
