@@ -10,6 +10,11 @@ from typing import Any
 
 from hypcheck.errors import InputError, system_reason
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
 LARGEST = 1 << 20
 """Bytes of a file, at most: enough for ten thousand trees of a scene. A larger file that is slow to read would take
 minutes and gigabytes."""
@@ -57,10 +62,6 @@ def parsed(text: str, name: str) -> dict[str, Any]:
     for number, line in enumerate(text.split("\n"), start=1):
         if line.count(".") > MOST_DOTS and _NO_KEY.sub("", line).count(".") > MOST_DOTS:
             raise InputError(f"{name}, line {number}: has more than {MOST_DOTS} dots; a key or text must be shorter")
-    if sys.version_info >= (3, 11):
-        import tomllib  # noqa: PLC0415 - not loaded without a file
-    else:
-        import tomli as tomllib  # noqa: PLC0415
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -136,8 +136,8 @@ def numbers_of(case: _CasePart) -> tuple[str, ...]:
 
 def row_fields(row: Sequence[float]) -> dict[str, Any]:
     """The fields row and axis of a row of seven or ten numbers."""
-    told = tuple(value.hex() for value in row)
-    return {"row": told[:7], "axis": told[7:] or UNSET}
+    digits = tuple(value.hex() for value in row)
+    return {"row": digits[:7], "axis": digits[7:] or UNSET}
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):

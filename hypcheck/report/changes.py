@@ -242,8 +242,7 @@ def _counts(counts: Mapping[str, int]) -> str:
 
 def _accuracy_table(changes: list[AccuracyChange]) -> TableBlock:
     numbers = map(number, ("wrong before", "wrong after", "reliable above, before", "reliable above, after"))
-    columns: tuple[Column | str, ...] = ("method", "workload", *numbers)
-    return table("changed errors", columns, [_accuracy_row(change) for change in changes])
+    return table("changed errors", ("method", "workload", *numbers), [_accuracy_row(change) for change in changes])
 
 
 def _accuracy_row(change: AccuracyChange) -> tuple[TableCell, ...]:

@@ -65,7 +65,7 @@ def from_hex(row: Sequence[str]) -> tuple[float, ...]:
 def short_row(row: Sequence[float]) -> str:
     """A row to six digits: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
 
-    The axis of a tilted spheroid stands behind.
+    The axis of a tilted spheroid follows.
     """
     sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(SIZES, row[:4], strict=True))
     vectors = (("centre", row[4:7]), ("axis", row[7:]))

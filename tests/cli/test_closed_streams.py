@@ -1,4 +1,4 @@
-"""Standard streams that whoever started us has closed."""
+"""Standard streams that are closed before the program starts."""
 
 from __future__ import annotations
 

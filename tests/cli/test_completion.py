@@ -1,4 +1,4 @@
-"""Completion by bash, zsh and fish: the scripts, and what each shell is answered."""
+"""Completion by bash, zsh and fish: the scripts, and the answers to each shell."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run that is not to end with its terminal goes on when that is closed, and one that is to ends in good order."""
+"""A run under nohup continues when its terminal closes; another run ends in good order."""
 
 from __future__ import annotations
 

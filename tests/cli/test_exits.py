@@ -115,7 +115,7 @@ def _commands(arguments):
 
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
 def test_verify_ends_with_its_code_even_if_a_standard_stream_is_closed(stream, monkeypatch, tmp_path):
-    monkeypatch.setattr(sys, stream, None)  # as Python has it where the descriptor is closed
+    monkeypatch.setattr(sys, stream, None)  # Python does this if the descriptor is closed
     arguments = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "0", "--out", str(tmp_path)]
     assert main(arguments) == Exit.WRONG
     assert (tmp_path / "report.md").is_file()
@@ -187,7 +187,7 @@ def test_main_restores_the_handler_of_sigterm():
 
 
 def test_a_closed_terminal_does_not_end_a_run_that_ignores_sighup():
-    """As nohup has it."""
+    """nohup starts programs in this way."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with cli_main._terminable():

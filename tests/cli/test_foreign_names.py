@@ -13,7 +13,7 @@ from tests.report.test_hostile import UNSEEN
 from tests.support.records import resealed
 
 ACTS = "\x1b]0;title\x07\x1b[2J\x9b31m\u202e\r"
-"""Sets a terminal's title, clears it, turns colours and directions, and writes over what stood in the line."""
+"""Sets a terminal's title, clears it, changes colours and directions, and overwrites the line."""
 
 
 def said(capsys, *words, codes=(0,)):

@@ -1,4 +1,4 @@
-"""A signal that comes while a module is half imported ends the program as any other does."""
+"""A signal that comes while a module is half imported ends the program like any other signal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`hypcheck info`: what is here, for people and for programs, and one sentence where the environment asks for more."""
+"""`hypcheck info`: this installation as text and as JSON, and invalid environment variables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whole numbers of the command line: large ones as people write them, others refused in a sentence."""
+"""Whole numbers of the command line: large ones with an exponent, others refused in one sentence."""
 
 from __future__ import annotations
 

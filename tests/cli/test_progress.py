@@ -1,4 +1,4 @@
-"""The bar of long work: its rate and the time left, also of a run that is gone on with; nothing in a pipe."""
+"""The bar of long work: its rate and the time left, also of a resumed run; nothing in a pipe."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Screen(io.StringIO):
 
     @property
     def shown(self):
-        """What stands there after each change."""
+        """The text of the line after each change."""
         return [line.strip() for line in re.split(r"\r|\x1b\[\?25[lh]", self.getvalue()) if line.strip()]
 
 

@@ -1,4 +1,4 @@
-"""hypcheck.toml: what may stand in it, what it changes, and what goes before it."""
+"""hypcheck.toml: valid and invalid settings, their effect, and the precedence of the command line."""
 
 from __future__ import annotations
 

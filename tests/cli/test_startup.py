@@ -13,7 +13,7 @@ from hypcheck.cli.main import main
 LIBRARIES = ("msgspec", "numpy", "sympy", "mpmath", "fcl")
 HEAVY = (*LIBRARIES, "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
 UNDRAWN = "sys.modules.update(matplotlib=None, jinja2=None)"
-"""For runs whose reports are not looked at: to draw them takes longer than the run."""
+"""For runs whose reports are not tested: drawing them takes longer than the run."""
 
 PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
 

@@ -1,4 +1,4 @@
-"""What the system has not is told of the system, in one sentence with exit code 2, and of nothing that is tested."""
+"""Limits of the system are reported in one sentence with exit code 2, not blamed on the implementation under test."""
 
 from __future__ import annotations
 

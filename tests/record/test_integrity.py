@@ -1,4 +1,4 @@
-"""Whatever happens to the bytes of a record is seen: no change is taken for what was written, and no cut for an end."""
+"""Every damage to the bytes of a record is detected, and a cut is never taken for an end."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def data():
 
 
 def outcome(data):
-    """What becomes of it (refused, truncated, whole), and the lines that are read."""
+    """The result of reading it (refused, truncated, whole), and the lines that were read."""
     scan = RecordScan(Reader(io.BytesIO(data), "it"))
     try:
         lines = list(scan)

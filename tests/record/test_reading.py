@@ -1,4 +1,4 @@
-"""A record is read back as it was written, also one of an older or a newer version; what is none is refused."""
+"""A record is read back as it was written, also in an older or newer version; other files are refused."""
 
 from __future__ import annotations
 

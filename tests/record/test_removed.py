@@ -67,7 +67,7 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
 
 
 def test_links_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
-    """Nor is a pipe waited for, in which nobody reads."""
+    """A pipe without a reader is replaced as well, and not waited for."""
     out, precious = tmp_path / "out", tmp_path / "precious"
     out.mkdir()
     precious.write_text("precious")

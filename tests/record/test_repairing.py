@@ -1,4 +1,4 @@
-"""`hypcheck record`: the condition of a file is told, and what is good of it is saved."""
+"""`hypcheck record`: check reports the condition of a file, and repair saves its good lines."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def method(name, tier, kind, precision, exact, amortised, accuracy_only):
 
 
 def accuracy(name, workload, border):
-    """Half the answers of every octave below `border` are wrong, and none above; never any where it is None."""
+    """Half the answers of every octave below `border` are wrong, and none above; none at all for None."""
     octaves = [[exponent, 100, 50 if border is not None and exponent < border else 0] for exponent in range(-50, 0, 2)]
     if workload == "near-contact":
         octaves.insert(0, ["-inf", 20, 10 if border is not None else 0])

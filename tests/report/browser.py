@@ -21,7 +21,7 @@ FLAGS = (
 
 
 def program():
-    """The browser's path; skips the test where there is none, or nothing to drive it with."""
+    """The path of the browser; skips the test if there is none, or no driver for it."""
     pytest.importorskip("playwright", reason="playwright drives the browser; pip install -e '.[dev]' brings it")
     found = next((path for name in NAMES if (path := shutil.which(name))), None)
     if found is None:

@@ -1,4 +1,4 @@
-"""Records in which every name and every sentence is what an attacker, or a program gone mad, would write."""
+"""Records in which every name and sentence is text that an attacker or a broken program could write."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FIELDS = (
 
 
 def spoilt(line, number):
-    """The line with its names and sentences made hostile; what must be one of a few words stays what it is."""
+    """The line with hostile names and sentences; fields that must be one of a few words stay."""
     copy = json.loads(json.dumps(line))
     _spoil(copy, number)
     return copy

@@ -1,4 +1,4 @@
-"""What must hold of a report's page in a browser; each check says what is wrong, in a list of sentences."""
+"""Checks of a report's page in a browser; each returns a list of sentences about faults."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def overlapping(visit):
 
 
 def faint(visit):
-    """All text stands out from its ground."""
+    """All text has enough contrast."""
     visit.unfold()
     return run(visit, "faint", LEAST_CONTRAST)
 
@@ -102,7 +102,7 @@ def unfiltered(visit):
 
 
 def unreachable(visit):
-    """The first tab stop leads to the report, what has focus shows it, and a fold opens by a key."""
+    """The first tab stop leads to the report, focus is visible, and a key opens a fold."""
     visit.page.keyboard.press("Tab")
     first = visit.page.evaluate("document.activeElement.className")
     found = [] if first == "skip" else [f"the first tab stop is {first!r}"]
@@ -145,7 +145,7 @@ def folded_on_paper(visit):
 
 
 def untold(visit):
-    """Every plot has a title and a description; hovering over a mark tells what it is below the plot."""
+    """Every plot has a title and a description; hovering over a mark shows its text below the plot."""
     visit.unfold()
     found = []
     for plot in visit.page.locator("svg.plot").all():

@@ -19,7 +19,7 @@ FOREIGN = st.lists(
     min_size=1,
     max_size=12,
 ).map(lambda characters: json.loads(json.dumps("".join(characters))))
-"""Names and sentences as strangers write them, and what terminals and parsers stumble over, as JSON gives them back."""
+"""Foreign names and sentences, with characters that terminals and parsers mishandle, as JSON gives them back."""
 
 HELD = (
     "HELD: no disagreement in the cases asked of exact (40), nearest (40) and roots (5), 2 undecided; 2 proofs hold; "

@@ -1,4 +1,4 @@
-"""What a benchmark's reports say of how it ended: what fails it, what does not, and what was shown."""
+"""Reports of a benchmark: what fails it, what does not, and how it ended."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def without(pattern, replacement=""):
 
 
 def loosened(page):
-    """The page with a policy that lets a changed style or script run, so that the fault itself is what is found."""
+    """The page with a policy that allows a changed style or script, so that a check can find the fault itself."""
     return re.sub(r"'sha256-[^']+'", "'unsafe-inline'", page)
 
 

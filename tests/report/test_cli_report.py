@@ -1,4 +1,4 @@
-"""`hypcheck report`: which report goes where, and what is refused before anything is written."""
+"""`hypcheck report`: the report that each option writes, and options that are refused before anything is written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What GitHub Actions is told: annotations that cannot be broken out of, and a summary that is never too large."""
+"""Output for GitHub Actions: annotations that foreign text cannot end, and a step summary that is never too large."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names of a program gone mad, or of an attacker, are text in every report, seen as what they are and never endless."""
+"""Hostile names are harmless text in every report, with escapes, and never endless."""
 
 from __future__ import annotations
 

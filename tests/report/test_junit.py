@@ -1,4 +1,4 @@
-"""junit.xml is XML whatever names are in it, its numbers add up, and a failure is what fails the run."""
+"""junit.xml is valid with any names, its numbers add up, and its failures are those of the run."""
 
 from __future__ import annotations
 

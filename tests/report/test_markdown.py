@@ -1,4 +1,4 @@
-"""report.md says what failed first, shows the record's numbers, and lets no foreign text break out of its place."""
+"""report.md shows failures first and the record's numbers, and foreign text cannot change its structure."""
 
 from __future__ import annotations
 

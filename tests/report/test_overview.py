@@ -1,4 +1,4 @@
-"""overview.md: a page for whoever reads no other, from the record alone, with the pictures that stand beside it."""
+"""overview.md: one page about a run, made from the record alone, with the pictures beside it."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class Elements(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data):
-        """Text, kept where it is that of a script, a style or code."""
+        """Collects the text of scripts, styles and code."""
         if self.open and self.open[-1] in self.texts:
             self.texts[self.open[-1]].append(data)
 

@@ -1,4 +1,4 @@
-"""Plots show the record's numbers at their places, each with a tooltip, in looks that can be told apart."""
+"""Plots show the record's numbers at their places, each with a tooltip, in looks that differ."""
 
 from __future__ import annotations
 

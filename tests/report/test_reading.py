@@ -1,4 +1,4 @@
-"""A record that somebody brings is held to the schema; what is wrong with it is named, and never a traceback."""
+"""Foreign records are validated against the schema; an error is one sentence that names the fault."""
 
 from __future__ import annotations
 

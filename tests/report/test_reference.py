@@ -1,4 +1,4 @@
-"""The committed reference run is whole, large, of these families, and its reports are what its record says."""
+"""The committed reference run is complete and large, and its reports equal those made from its record."""
 
 from __future__ import annotations
 

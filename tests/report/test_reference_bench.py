@@ -1,4 +1,4 @@
-"""The committed benchmark is whole, of these methods, and its reports and pictures are what its record says."""
+"""The committed benchmark is complete, has all methods, and its reports and pictures match its record."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_the_reference_pages_equal_those_made_from_the_record(record):
 
 @pytest.mark.parametrize("name", PICTURES)
 def test_the_reference_pictures_show_the_texts_and_points_of_the_record(record, name):
-    """Their words, tooltips and labels among them; where these stand is for each version of matplotlib to say."""
+    """Compares texts, tooltips and labels, but not their places, which depend on the version of matplotlib."""
     fresh, committed = render(name, record), (FOLDER / REPORTS[name].file).read_bytes()
     assert said(fresh) == said(committed)
     methods = {line.method for line in record.of(MethodLine)}

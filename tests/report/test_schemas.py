@@ -1,4 +1,4 @@
-"""The published schemas say what is written: of the sample, of what a run really records, and of nothing else."""
+"""The published schemas fit the lines of samples and of real runs, and refuse damaged ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures of simulations: axes with units, nothing that overlaps, the same file again, and what they show."""
+"""Pictures of simulations: axes with units, no overlaps, the same file each time, and the drawn data."""
 
 from __future__ import annotations
 

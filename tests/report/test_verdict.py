@@ -1,4 +1,4 @@
-"""The verdict says what the record's lines say: no more, and nothing that fails is lost."""
+"""The verdict follows from the lines of a record, and names every failure."""
 
 from __future__ import annotations
 

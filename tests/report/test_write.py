@@ -1,4 +1,4 @@
-"""Reports are written whole or not at all, each on its own, and what cannot be made is said."""
+"""Reports are written whole or not at all, each on its own, and missing ones have a reason."""
 
 from __future__ import annotations
 

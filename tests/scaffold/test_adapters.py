@@ -1,4 +1,4 @@
-"""The adapters that `hypcheck init` writes: each is built as the user is told to, asked, and gated."""
+"""The adapters that `hypcheck init` writes: each is built by the printed command, asked, and gated."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ TOOLS = {
 }
 COMMANDS = [name for name, language in LANGUAGES.items() if language.spec.startswith("command:")]
 ASKED = [*FAMILIES]
-"""Families whose rows are asked: hard ones, where a last bit decides, and the extreme ones, where squares overflow."""
+"""Families to ask: hard ones, where the last bit decides, and extreme ones, where squares overflow."""
 
 PROTOCOL = Path(__file__).parents[2] / "docs" / "protocol.md"
 
@@ -46,7 +46,7 @@ ANSWERS = {
     "javascript": ("? 1 : 0", "? 1 : -1"),
     "python": ("return np.asarray(", "return -1 + 2 * np.asarray("),
 }
-"""What to change for a predicate that answers +1 and −1 where the stub answers 1 and 0."""
+"""The changes for a predicate that answers +1 and −1 in place of 1 and 0."""
 
 
 _ESCAPED = (r"\"binary\":true", r"\"tilt\":true,\"binary\":true")
@@ -85,7 +85,7 @@ def asked(spec):
 
 @dataclass(frozen=True)
 class Built:
-    """A project that was written and built; `typed` are the commands that init told its user to type next."""
+    """A project that was written and built; `typed` are the commands that init printed."""
 
     language: Language
     folder: Path

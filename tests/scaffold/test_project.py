@@ -1,4 +1,4 @@
-"""`hypcheck init`: which files, what stands in them, and what it leaves alone."""
+"""`hypcheck init`: the files that it writes, their content, and the files that it keeps."""
 
 from __future__ import annotations
 

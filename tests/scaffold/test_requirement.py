@@ -1,4 +1,4 @@
-"""`hypcheck init --from`: what pip is told to install, pinned, and what is refused."""
+"""`hypcheck init --from`: the requirement that the workflow installs, pinned, and sources that are refused."""
 
 from __future__ import annotations
 

@@ -36,6 +36,7 @@ from hypcheck.report.plots.style import (
     CurveStyle,
     colour,
     curve_style,
+    legend_handles,
     log_axis,
     new_figure,
     power_of_ten,
@@ -44,16 +45,13 @@ from hypcheck.report.plots.svg import Plot
 
 TANGENT = -math.inf
 AT_MOST = 8
-"""Curves in one plot; there are as many looks that differ in colour, marker and dashes."""
+"""Curves in one plot, at most: there are so many looks that differ in colour, marker and dashes."""
 
 STEP, MANY = 3, 16
-"""Octaves in one point of a curve, where it would have more than so many points."""
+"""Octaves in one point of a curve that would have more than so many points."""
 
 _LABEL = 24
-"""Characters of a name that stand beside another name in a legend of two columns."""
-
-_LONGEST = 48
-"""Characters of a name that a legend shows."""
+"""Characters of a name, at most, in a legend of two columns."""
 
 _DOTS = (0, (1, 2.5))
 """The dashes of a line that is an upper limit."""
@@ -77,7 +75,7 @@ class Octave:
 
     @property
     def share(self) -> float:
-        """The share that is drawn: what was measured, or its upper limit where none was wrong."""
+        """The share that is drawn: the measured one, or its upper limit if none was wrong."""
         return self.wrong / self.asked if self.wrong else min(1.0, 3 / self.asked)
 
 
@@ -109,7 +107,7 @@ def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for exponent, (cases, errors) in octaves.items():
-        if exponent == math.inf:  # no change of the inputs alters the answer: on no scale is there a place for it
+        if exponent == math.inf:  # no change of the inputs changes the answer, so it has no place on the axis
             continue
         start = exponent if exponent == TANGENT else exponent // width * width
         asked[start] += cases
@@ -140,13 +138,13 @@ def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
 
 
 def _description(curves: Sequence[Curve]) -> str:
-    """What can be seen, in words."""
+    """The plot in words."""
     said = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
     return f"Share of wrong answers against flip distance, both logarithmic. {'; '.join(said)}."
 
 
 def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
-    """Name the axes and their powers of ten; where exact tangencies stand on the axis of distances."""
+    """Name the axes and their powers of ten; returns the place of exact tangencies on the axis of distances."""
     octaves = [octave for curve in curves for octave in curve.octaves]
     finite = [octave.exponent for octave in octaves if octave.exponent != TANGENT] or [-1.0]
     low, high = min(finite), max(max(finite) + 1, 0)
@@ -167,7 +165,7 @@ def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
 def _draw_curve(
     axes: Axes, curve: Curve, gid: str, how: CurveStyle, turn: tuple[int, int], left: float
 ) -> dict[str, list[str]]:
-    """Draw one; the marks of its wrong octaves, and of those of the others that are its turn, have tooltips."""
+    """Draw a curve. Marks with tooltips: its octaves with wrong answers, and in turn with other curves some without."""
     at = [(left if octave.exponent == TANGENT else octave.middle, octave) for octave in curve.octaves]
     finite = [pair for pair in at if pair[1].exponent != TANGENT]
     for measured, dashes, width in ((True, how.dashes, 1.4), (False, _DOTS, 0.9)):
@@ -195,7 +193,7 @@ def _tip(name: str, octave: Octave) -> str:
 
 
 def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tuple[list[float], list[float]]:
-    """The lines between neighbours one of which has wrong answers, or neither; broken by nan."""
+    """The lines between neighbours of which one (`measured`) or none has wrong answers; separated by nan."""
     xs, ys = [], []
     for (x0, before), (x1, after) in pairwise(finite):
         if bool(before.wrong or after.wrong) == measured:
@@ -208,11 +206,7 @@ def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
     soft = colour("soft")
     limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=NONE_WRONG, **LIMIT)
     drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)
-    handles = []
-    for place, curve in enumerate(curves):
-        how, label = curve_style(place), escaped(curve.name, _LONGEST)
-        handles.append(Line2D([], [], color=how.colour, linestyle=how.dashes, marker=how.marker, label=label))
-    drawn.legend(handles=handles, loc="outside lower left", ncols=columns)
+    drawn.legend(handles=legend_handles([curve.name for curve in curves]), loc="outside lower left", ncols=columns)
 
 
 NOT_WRONG = ("right", "skipped", "abstained", "refused")
@@ -230,7 +224,7 @@ def octave_plots(record: Record) -> Iterator[Plot]:
 
 
 def _octave_curve(each: ImplementationTotal) -> Curve:
-    """The octaves of all families together; exact ones promise nothing less, and are shown alike."""
+    """The octaves of all families together."""
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for group in each.groups:

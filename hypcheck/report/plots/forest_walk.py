@@ -15,21 +15,21 @@ from hypcheck.report.plots.style import colour, in_space, mark_contacts, new_fig
 from hypcheck.report.plots.svg import Plot
 
 TRUNKS = {1: ("trunk wider than the walker", "series-3"), 2: ("trunk narrower than the walker", "share-1")}
-"""What the two types of trees are called and their colours, which differ in lightness too."""
+"""The labels of the two types of trees, and their colours, which differ in lightness too."""
 
 _MARKED = "A"
-"""The letter of the place that is shown closely."""
+"""The letter of the place that is enlarged."""
 
 _MARKS = {
     "contact": ("rightly refused", "x", 11, "ink"),
     "phantom": ("stopped by a phantom", "*", 100, "clear"),
 }
-"""By the kind of a stop: what it is called, its marker, the marker's size and its colour."""
+"""The label, the marker, its size and its colour for each kind of stop."""
 
 _RING: dict[str, Any] = {"color": colour("series-1"), "linewidth": 0.9, "linestyle": (0, (5, 2))}
-_TOLD_RING = "ring of a tree that stopped her"
+_RING_LABEL = "ring of a tree that stopped her"
 _ELEVATION, _AZIMUTH = 34, -58
-"""From where the forest in space is looked at, in degrees."""
+"""The direction from which the forest in space is seen, in degrees."""
 
 _AROUND = [2 * math.pi * step / 48 for step in range(49)]
 _FACETS = 14
@@ -61,7 +61,7 @@ def _walk(result: dict[str, Any]) -> Plot:
 
 def _above(axes: Axes, result: dict[str, Any]) -> None:
     level = result["path"][0][2]
-    for kind, (told, name) in TRUNKS.items():
+    for kind, (label, name) in TRUNKS.items():
         some = [tree for tree in result["trees"] if tree["type"] == kind]
         for place, tree in enumerate(some):
             x, y, z = tree["center"]
@@ -69,7 +69,7 @@ def _above(axes: Axes, result: dict[str, Any]) -> None:
             outline = [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in _AROUND]
             xs, ys = zip(*outline, strict=True)
             paint = {"facecolor": colour(name), "edgecolor": colour("ink"), "linewidth": 0.5}
-            axes.fill(xs, ys, label="" if place else told, **paint)
+            axes.fill(xs, ys, label="" if place else label, **paint)
     x, y, _ = zip(*result["path"], strict=True)
     axes.plot(x, y, color=colour("soft"), linewidth=0.45, label="walk", zorder=1.5)
     _rings(axes, result["trees"])
@@ -85,7 +85,7 @@ def _rings(axes: Axes, trees: list[dict[str, Any]]) -> None:
     """The rings of trees that stopped the walker; each is as thin as a few millimetres."""
     limits = axes.get_xlim(), axes.get_ylim()
     for place, ring in enumerate(_guilty_rings(trees)):
-        axes.plot(*ring, **_RING, label="" if place else _TOLD_RING)
+        axes.plot(*ring, **_RING, label="" if place else _RING_LABEL)
     axes.set(xlim=limits[0], ylim=limits[1])
 
 
@@ -101,15 +101,15 @@ def _guilty_rings(trees: list[dict[str, Any]]) -> Iterator[tuple[list[float], li
 
 
 def _stops(axes: Axes, stops: list[dict[str, Any]]) -> None:
-    for kind, (told, marker, size, paint) in _MARKS.items():
+    for kind, (label, marker, size, paint) in _MARKS.items():
         tried = [stop["tried"][:2] for stop in stops if stop["kind"] == kind]
         if tried:
             x, y = zip(*tried, strict=True)
-            axes.scatter(x, y, label=told, marker=marker, s=size, color=colour(paint), linewidths=0.7, zorder=3)
+            axes.scatter(x, y, label=label, marker=marker, s=size, color=colour(paint), linewidths=0.7, zorder=3)
 
 
 def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
-    """The window about a phantom, in millimetres from it, and where it is in the whole."""
+    """The surroundings of a phantom, in millimetres from it, and its place in the whole picture."""
     millimetres = 1000 * wall["half"]
     span = (-millimetres, millimetres)
     colours = {"e": half_plane.FAINT, "E": colour("clear"), "c": colour("ink"), "C": colour("contact")}
@@ -122,7 +122,7 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
         "E": (colour("clear"), "free, but float32 says contact"),
     }
     seen = {letter for line in wall["lines"] for letter in line}
-    handles = [Patch(facecolor=paint, label=told) for letter, (paint, told) in paints.items() if letter in seen]
+    handles = [Patch(facecolor=paint, label=label) for letter, (paint, label) in paints.items() if letter in seen]
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.24), fontsize=9)
     x, y, _ = wall["center"]
     whole.annotate(
@@ -148,18 +148,18 @@ def _space(result: dict[str, Any]) -> Plot:
     foot = result["path"][0][2] - result["walker"]["d"]
     x, y, _ = zip(*result["path"], strict=True)
     axes.plot(x, y, [foot] * len(x), color=colour("soft"), linewidth=0.45, label="walk, on the ground")
-    for kind, (told, marker, size, paint) in _MARKS.items():
+    for kind, (label, marker, size, paint) in _MARKS.items():
         tried = [stop["tried"] for stop in result["stops"] if stop["kind"] == kind]
         if tried:
             columns = zip(*tried, strict=True)
-            axes.scatter(*columns, marker=marker, s=size, color=colour(paint), depthshade=False, label=told, zorder=5)
+            axes.scatter(*columns, marker=marker, s=size, color=colour(paint), depthshade=False, label=label, zorder=5)
     for place, ring in enumerate(_guilty_rings(result["trees"])):
-        axes.plot(*ring, result["path"][0][2], **_RING, label="" if place else _TOLD_RING)
+        axes.plot(*ring, result["path"][0][2], **_RING, label="" if place else _RING_LABEL)
     mark_contacts([axes], result["ways"])
     axes.set_box_aspect((1, 1, 0.32), zoom=0.84)
     axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
     in_space(axes)
-    trunks = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=told) for told, paint in TRUNKS.values()]
+    trunks = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=label) for label, paint in TRUNKS.values()]
     handles, _ = axes.get_legend_handles_labels()
     figure.legend(handles=[*trunks, *handles], loc="outside lower center", ncols=3)
     said = f"{len(result['trees'])} trunks as hyperboloids of one sheet, the walk on the ground, and where it stopped."
@@ -167,7 +167,7 @@ def _space(result: dict[str, Any]) -> Plot:
 
 
 def _nearness(tree: dict[str, Any]) -> float:
-    """How far a tree is toward who looks at the forest in space; what is drawn later hides what was drawn before."""
+    """How near a tree is to the viewer of the forest in space; trees that are drawn later hide earlier ones."""
     angle = math.radians(_AZIMUTH)
     return float(tree["center"][0]) * math.cos(angle) + float(tree["center"][1]) * math.sin(angle)
 

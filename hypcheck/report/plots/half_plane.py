@@ -32,11 +32,11 @@ from hypcheck.report.plots.svg import Plot
 Interval = tuple[float, float]
 
 FAINT = "#8a94a066"
-"""Where nothing is wrong: seen on light ground and on dark."""
+"""The colour where nothing is wrong; it shows on light and on dark ground."""
 
 
 def paint_letters(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
-    """Paint the letters, the first text lowest. A grid point is a cell's middle; a letter without a colour is empty."""
+    """Paint the letters, the first text lowest. A grid point is the middle of a cell; other letters stay empty."""
     grid = np.array([list(text) for text in letters])
     image = np.zeros((*grid.shape, 4))
     for letter, name in colours.items():
@@ -56,7 +56,7 @@ def picture_limits(r: Interval, z: Interval, shape: tuple[int, ...]) -> Any:  # 
 
 
 def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
-    """Draw the grid points of these letters again as dots, which are seen where a cell is too small."""
+    """Draw the grid points of these letters as dots, too, for cells that are too small to be seen."""
     grid = np.array([list(text) for text in letters])
     rs, zs = np.linspace(*r, grid.shape[1]), np.linspace(*z, grid.shape[0])
     for letter, name in colours.items():
@@ -66,7 +66,7 @@ def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, s
 
 
 def draw_surface(axes: Axes, sizes: tuple[float, float], r: Interval, z: Interval, line: str) -> None:
-    """The hyperboloid's meridian r = α √(1 + z²/γ²), where the picture shows it, in a colour."""
+    """Draw the hyperboloid's meridian r = α √(1 + z²/γ²), if it is within the picture."""
     alpha, gamma = sizes
     heights = [z[0] + (z[1] - z[0]) * step / 200 for step in range(201)]
     radii = [alpha * math.hypot(1, height / gamma) for height in heights]
@@ -135,14 +135,14 @@ def _place_plot(name: str, line: PlacesLine) -> Plot:
 
 
 REGIONS = {"e": ("exterior", "#d7e9f7"), "c": ("contact", "#737373"), "i": ("interior", "#ecc767")}
-"""The letters of a map line, their names and colours: told apart by lightness alone, so also without colour."""
+"""The letters of a map line, their names and colours: they differ in lightness, so also without colour."""
 
 WRONG = "#b3001b"
 _LONGEST_NAME = 24
 """Characters of a name that a legend shows, and half of those that a title does."""
 
 ON_MAP = "#1a1a1a"
-"""Lines and words on the map itself, whose ground is light in both schemes."""
+"""The colour of lines and words on the map, whose ground is light in both schemes."""
 
 
 def map_plots(record: Record) -> Iterator[Plot]:
@@ -153,7 +153,7 @@ def map_plots(record: Record) -> Iterator[Plot]:
 
 
 def maps_together(record: Record) -> Plot:
-    """The maps side by side, with what a reader needs who sees no more than the picture."""
+    """The maps side by side, with a title that explains the picture without a report."""
     lines = record.of(MapLine)
     drawn = draw_maps(lines, 390 * len(lines), 470)
     drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
@@ -199,7 +199,7 @@ def _scene(line: MapLine) -> str:
 
 
 def _point_out(panels: Sequence[Axes], lines: Sequence[MapLine]) -> None:
-    """Show in a large panel where a small one that lies inside it is."""
+    """Mark in a large panel the place of a small one that lies inside it."""
     for axes, line in zip(panels, lines, strict=True):
         for small in lines:
             if small is not line and _within(small, line):

@@ -50,7 +50,7 @@ def _walker(forest: dict[str, Any]) -> Plot:
     axes.set_box_aspect((8, 8, high - low), zoom=1.08)
     axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
     in_space(axes)
-    handles = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=told) for told, paint in TRUNKS.values()]
+    handles = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=label) for label, paint in TRUNKS.values()]
     handles.append(Patch(facecolor="none", edgecolor=colour("contact"), label="her spheroid"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     kinds = sorted({tree["type"] for tree in near})
@@ -72,11 +72,11 @@ def _busiest(forest: dict[str, Any]) -> list[float]:
     return max(forest["path"], key=seen)
 
 
-def _towers(told: dict[str, Any]) -> Plot:
+def _towers(assumptions: dict[str, Any]) -> Plot:
     figure = new_figure(600, 420)
     whole: Any = figure.subfigures()
-    low, high = told["height"] or (-told["gamma"], told["gamma"])
-    cooling = {"alpha": told["alpha"], "gamma": told["gamma"], "center": (0, 0, 0)}
+    low, high = assumptions["height"] or (-assumptions["gamma"], assumptions["gamma"])
+    cooling = {"alpha": assumptions["alpha"], "gamma": assumptions["gamma"], "center": (0, 0, 0)}
     touristic = {**TOURISTIC, "center": (0, 0, 0)}
     for place, (title, tower, span, scale) in enumerate(
         (
@@ -99,20 +99,20 @@ def _towers(told: dict[str, Any]) -> Plot:
         axes.set_yticks([-int(widest), 0, int(widest)])
         figure.text(0.25 + 0.5 * place, 0.975, title, ha="center", va="top")
     said = (
-        f"Two towers in their bounding hyperboloids of one sheet. Left: α = {told['alpha']:g} m, γ = "
-        f"{told['gamma']:g} m as in section 4, z drawn shorter. Right: a touristic tower, to scale; the paper gives no "
-        f"sizes of it, and these are ours: α = {TOURISTIC['alpha']:g} m, γ = {TOURISTIC['gamma']:g} m."
+        f"Two towers in their bounding hyperboloids of one sheet. Left: α = {assumptions['alpha']:g} m, γ = "
+        f"{assumptions['gamma']:g} m as in section 4, z drawn shorter. Right: a touristic tower, to scale; the paper "
+        f"gives no sizes of it, and these are ours: α = {TOURISTIC['alpha']:g} m, γ = {TOURISTIC['gamma']:g} m."
     )
     return Plot("figure-2", "The paper's Figure 2: hyperboloid structures", said, figure)
 
 
-def _quadcopter(told: dict[str, Any]) -> Plot:
+def _quadcopter(assumptions: dict[str, Any]) -> Plot:
     figure = new_figure(760, 400)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.15])
     axes: Any = halves[0].add_axes((0.0, 0.06, 0.86, 0.92), projection="3d")
     axes.patch.set_visible(False)
     axes.view_init(elev=24, azim=-50)
-    b, d, small_b, small_d, arm = (told[name] for name in ("b", "d", "b_s", "d_s", "l"))
+    b, d, small_b, small_d, arm = (assumptions[name] for name in ("b", "d", "b_s", "d_s", "l"))
     for x, y in _rotors(arm):
         _spheroid(axes, (x, y, 0.0), small_b, small_d, colour("series-3"), solid=True)
         axes.plot([0, x], [0, y], [0, 0], color=colour("ink"), linewidth=1.6)
@@ -125,7 +125,7 @@ def _quadcopter(told: dict[str, Any]) -> Plot:
     halves[0].text(0.44, 0.9, f"in space, to scale, l = {arm:g} m", ha="center", va="top")
     panels = halves[1].subplots(1, 2, sharey=True)
     for panel, length in zip(panels, (arm, APART), strict=True):
-        _from_above(panel, told, length)
+        _from_above(panel, assumptions, length)
     panels[0].set_ylabel("y (m)")
     handles = [
         Patch(facecolor="none", edgecolor=colour("contact"), label="the body's spheroid"),
@@ -146,9 +146,9 @@ def _rotors(arm: float) -> list[tuple[float, float]]:
     return [(arm * math.cos(turn * math.pi / 2), arm * math.sin(turn * math.pi / 2)) for turn in range(4)]
 
 
-def _from_above(axes: Axes, told: dict[str, Any], arm: float) -> None:
-    small = told["b_s"]
-    axes.add_patch(Circle((0, 0), told["b"], facecolor="none", edgecolor=colour("contact"), linewidth=1.4))
+def _from_above(axes: Axes, assumptions: dict[str, Any], arm: float) -> None:
+    small = assumptions["b_s"]
+    axes.add_patch(Circle((0, 0), assumptions["b"], facecolor="none", edgecolor=colour("contact"), linewidth=1.4))
     rotors = _rotors(arm)
     for place, centre in enumerate(rotors):
         axes.add_patch(Circle(centre, small, facecolor=colour("series-3"), alpha=0.35))

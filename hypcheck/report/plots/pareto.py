@@ -42,10 +42,10 @@ _PLACES = (
     (8, 30, "left", "bottom"),
     (8, -30, "left", "top"),
 )
-"""Where a name may stand: points to the right and up, and which part of it stands there. The first that is free."""
+"""The places of a name, the first free one is taken: points to the right and up, and the alignment there."""
 
 _NEAR = 8
-"""The first so many of them, of which nobody doubts whose name it is."""
+"""The first so many places are so near that the name clearly belongs to the point."""
 
 _MARK = 4.0
 """Half the size of a point's mark, in points."""
@@ -61,13 +61,13 @@ def place_labels(
     lines: Sequence[tuple[tuple[float, float], tuple[float, float]]] = (),
     important: int | None = None,
 ) -> None:
-    """Write each point's name, those of None left out, in that order of importance. The limits must be set before.
+    """Write the name of each point (None: no name), the most important first. The axes' limits must be set before.
 
-    `lines` are level or upright and are kept free too. Behind the `important` first a name stands next to its point or
-    nowhere.
+    `lines` are level or upright and are kept free, too. After the first `important` names, a name stands next to its
+    point or is left out.
     """
     figure: Any = axes.figure
-    figure.canvas.draw()  # the layout decides where things are, and stays as it is from here on
+    figure.canvas.draw()  # this computes the layout, which must not change later
     figure.set_layout_engine("none")
     renderer = figure.canvas.get_renderer()
     scale = figure.dpi / 72
@@ -115,7 +115,7 @@ Coordinates = tuple[float, float]
 
 
 ENOUGH = 3000
-"""Answers of which none is wrong that show, at 95 %, that at most 1 in 1000 is."""
+"""So many right answers show, at 95 %, that at most 1 in 1000 is wrong."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +131,7 @@ class ParetoPoint:
 
     @property
     def shown(self) -> bool:
-        """Whether so many answers were judged that 1 wrong in 1000 would have shown (3/n ≤ 1/1000)."""
+        """Whether enough answers were judged to show 1 wrong in 1000 (3/n ≤ 1/1000)."""
         return self.asked >= ENOUGH
 
 
@@ -145,7 +145,7 @@ def points(record: Record, workload: str) -> list[ParetoPoint]:
 
 
 def worst_points(record: Record, workload: str) -> list[ParetoPoint]:
-    """The same with the errors of all workloads; the times are of the one."""
+    """The same methods with the errors of all workloads; the times are those of this one."""
     return [
         ParetoPoint(each.name, each.tier, time, each.reliable_above, each.asked, each.exact)
         for each, time in _timed(record, workload)
@@ -161,7 +161,7 @@ def _timed(record: Record, workload: str) -> Iterator[tuple[MeasuredMethod, floa
 
 
 def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
-    """Those that no other beats: from the fastest on, each more reliable than all that are faster."""
+    """The points that no other beats: from the fastest on, each more reliable than all faster ones."""
     best, kept = math.inf, []
     for point in sorted(found, key=lambda point: (point.time_ns, point.reliable_above)):
         if point.reliable_above < best:
@@ -171,7 +171,7 @@ def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
 
 
 def pareto_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each workload on which methods were timed, but the one that stands in `pair` if there are others."""
+    """A plot for each timed workload, but not the one in `front_plots` if there are others."""
     found_on = {name: found for name in workloads(record) if (found := points(record, name))}
     for place, (name, line) in enumerate(workloads(record).items()):
         found = found_on.get(name, [])
@@ -180,7 +180,7 @@ def pareto_plots(record: Record) -> Iterator[Plot]:
 
 
 def front_plots(record: Record) -> Iterator[Plot]:
-    """Two plots with names wherever there is room: of the workload near contact, and of the worst of all workloads."""
+    """Two plots with names where there is room: the workload near contact, and the worst of all workloads."""
     known, name = workloads(record), principal(record)
     near, everywhere = points(record, name), worst_points(record, name)
     if near:
@@ -190,7 +190,7 @@ def front_plots(record: Record) -> Iterator[Plot]:
 
 
 def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
-    """What was found, with names along the front; where the title may not say on which workload it was `timed`, all."""
+    """A plot with names along the front, or, if `timed` names the workload of the times, with all names."""
     drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
     best = front(found)

@@ -15,7 +15,9 @@ import matplotlib.style
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from hypcheck.messages import escaped
 from hypcheck.report.plots.colours import ROLES
 
 WIDTH = 380.0
@@ -38,7 +40,7 @@ LIMIT: dict[str, Any] = {"marker": "v", "markerfacecolor": "none", "markersize":
 """The mark of an upper limit: none of n was wrong."""
 
 NONE_WRONG = "none of n wrong: at most 3/n (95 %)"
-"""What a legend says of it."""
+"""Its text in a legend."""
 
 SETTINGS = {
     "font.family": "DejaVu Sans",  # wider than what a page uses in its place, so that what fits here fits there
@@ -72,11 +74,11 @@ SETTINGS = {
     "svg.hashsalt": "hypcheck",  # element ids: the same picture is the same file
     "text.parse_math": False,  # a name with dollars in it is no formula
 }
-"""What differs from matplotlib's defaults; nobody's own settings are used."""
+"""The differences from matplotlib's defaults; settings of users are not read."""
 
 
 class CurveStyle(NamedTuple):
-    """How one curve of several is told from the others."""
+    """The look of one curve of several."""
 
     colour: str
     marker: str
@@ -89,12 +91,21 @@ def colour(role: str) -> str:
 
 
 def curve_style(place: int) -> CurveStyle:
-    """The look of the curve at a place; after eight, markers and dashes are combined anew."""
+    """The look of the curve at a place; after eight, markers and dashes are combined differently."""
     number = len(MARKERS)
     turn = place // number
     return CurveStyle(
         colour(f"series-{place % number + 1}"), MARKERS[(place + turn) % number], DASHES[(place + turn) % number]
     )
+
+
+def legend_handles(names: Iterable[str], longest: int = 48) -> list[Line2D]:
+    """The entries of a legend for curves with these names, in order."""
+    looks = [(curve_style(place), escaped(name, longest)) for place, name in enumerate(names)]
+    return [
+        Line2D([], [], color=look.colour, linestyle=look.dashes, marker=look.marker, label=label)
+        for look, label in looks
+    ]
 
 
 @contextmanager
@@ -105,9 +116,9 @@ def styled() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """A figure of these many points, which finds room for its labels by itself."""
+    """A figure of so many points, with a layout that makes room for labels."""
     made = Figure(figsize=(width / 72, height / 72), layout="constrained")
-    FigureCanvasAgg(made)  # which can say how large a text is
+    FigureCanvasAgg(made)  # it measures texts
     return made
 
 
@@ -131,7 +142,7 @@ def _axis_number(value: float) -> str:
 
 
 def ticks(low: float, high: float, most: int = 7) -> list[tuple[float, str]]:
-    """Places and names on a logarithmic axis: powers of ten, and twos and fives between where those are few."""
+    """Places and names on a logarithmic axis: powers of ten, with twos and fives if those are few."""
     powers = [10.0**exponent for exponent in decades(low, high, most)]
     if len(powers) < 2:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -161,7 +172,7 @@ def log_axis(axes: Axes, name: str, low: float, high: float, most: int = 7) -> N
 
 
 def in_space(axes: Any) -> None:  # noqa: ANN401 - axes in space, of a class that matplotlib does not type
-    """Walls that are not painted, for light and dark ground alike, and numbers that keep off the axes."""
+    """Make walls transparent, for light and dark ground, and move numbers away from the axes."""
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
     axes.tick_params(labelsize=9, pad=1)
@@ -170,7 +181,7 @@ def in_space(axes: Any) -> None:  # noqa: ANN401 - axes in space, of a class tha
 
 
 def mark_contacts(axes: Iterable[Any], ways: dict[str, Any] | None) -> None:
-    """Where the mover's centre is at first contacts on the way, in axes of the plane or in space; none if not asked."""
+    """Mark the mover's centre at first contacts on the way, in axes of the plane or in space; none if not asked."""
     points = [
         [here + contact["first_upper"] * (there - here) for here, there in zip(*_ends(contact), strict=True)]
         for contact in (ways["contacts"] if ways else [])

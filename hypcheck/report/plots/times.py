@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
@@ -14,7 +13,17 @@ from hypcheck.record import Record
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, ForestLine, SpeedLine
 from hypcheck.report.messages import figure
 from hypcheck.report.model import TIERS, lost, measured_methods, noise_floor, reference, workloads
-from hypcheck.report.plots.style import LIMIT, MARKERS, NONE_WRONG, WIDTH, colour, curve_style, log_axis, new_figure
+from hypcheck.report.plots.style import (
+    LIMIT,
+    MARKERS,
+    NONE_WRONG,
+    WIDTH,
+    colour,
+    curve_style,
+    legend_handles,
+    log_axis,
+    new_figure,
+)
 from hypcheck.report.plots.svg import Plot
 
 _MODES = {"batch": "in a batch", "single": "one query a call", "build": "building a mesh"}
@@ -127,7 +136,10 @@ def _convergence_plot(what: str, label: str, methods: dict[str, list[Convergence
                 marks: dict[str, Any] = dict(LIMIT) if none else {"marker": how.marker}
                 axes.plot(*_xy(mine, what), gid=gid, linestyle="none", color=how.colour, **marks)
                 tips[gid] = [_convergence_tip(name, line) for line in mine]
-    _convergence_legend(drawn, list(methods), limit=what == "wrong")
+    handles = legend_handles(methods)
+    if what == "wrong":
+        handles.append(Line2D([], [], label=NONE_WRONG, color=colour("soft"), linestyle="none", **LIMIT))
+    drawn.legend(handles=handles, loc="outside lower left")
     said = "; ".join(_convergence_tip(name, lines[-1]) for name, lines in methods.items())
     return Plot(
         f"convergence-{what}", label, f"{label} against the number of triangles. At the most: {said}.", drawn, tips
@@ -136,17 +148,6 @@ def _convergence_plot(what: str, label: str, methods: dict[str, list[Convergence
 
 def _xy(lines: Sequence[ConvergenceLine], what: str) -> tuple[list[int], list[float]]:
     return [line.triangles for line in lines], [_value(line, what) for line in lines]
-
-
-def _convergence_legend(drawn: Figure, names: Sequence[str], *, limit: bool) -> None:
-    handles = []
-    for place, name in enumerate(names):
-        how = curve_style(place)
-        label = escaped(name, 48)
-        handles.append(Line2D([], [], color=how.colour, linestyle=how.dashes, marker=how.marker, label=label))
-    if limit:
-        handles.append(Line2D([], [], label=NONE_WRONG, color=colour("soft"), linestyle="none", **LIMIT))
-    drawn.legend(handles=handles, loc="outside lower left")
 
 
 def _convergence_tip(name: str, line: ConvergenceLine) -> str:
@@ -192,18 +193,17 @@ def _bounding_plot(what: str, label: str, shapes: dict[str, BoundingLine]) -> Pl
     log_axis(axes, "x", min(*ratios, 0.5) / 1.3, max(*ratios, 2.0) * 1.3)
     axes.axvline(1, color=colour("soft"), linewidth=0.8)
     axes.set(xlabel="d/b, half height by radius of the spheroid (1: a sphere)", ylabel=label)
-    tips, handles = {}, []
-    for place, (name, points) in enumerate(curves.items()):
+    tips = {}
+    for place, points in enumerate(curves.values()):
         how = curve_style(place)
         style = {"color": how.colour, "linestyle": how.dashes}
-        handles.append(Line2D([], [], marker=how.marker, label=escaped(name, 48), **style))
         if points:
             xs, ys = [ratio for ratio, _, _ in points], [value for _, value, _ in points]
             axes.plot(xs, ys, **style)
             axes.plot(xs, ys, gid=f"bounding-{what}-{place}", color=how.colour, marker=how.marker, linestyle="none")
             tips[f"bounding-{what}-{place}"] = [tip for _, _, tip in points]
     axes.set_ylim(bottom=min(0.0, *(value for points in curves.values() for _, value, _ in points)))
-    drawn.legend(handles=handles, loc="outside lower left")
+    drawn.legend(handles=legend_handles(curves), loc="outside lower left")
     said = f"{label} against d/b. {'; '.join(points[-1][2] for points in curves.values() if points)}."
     return Plot(f"bounding-{what}", label, said, drawn, tips)
 
@@ -229,18 +229,10 @@ def forest_plots(record: Record) -> Iterator[Plot]:
         axes.plot(xs, ys, color=how.colour, linestyle=how.dashes)
         axes.plot(xs, ys, gid=gid, color=how.colour, linestyle="none", marker=how.marker)
         tips[gid] = [_forest_tip(name, line) for line in lines]
-    _forest_legend(drawn, list(methods))
+    drawn.legend(handles=legend_handles(methods), loc="outside lower left")
     said = "; ".join(_forest_tip(name, lines[-1]) for name, lines in methods.items())
     title = "time of a step against the number of trees"
     yield Plot("forest", title, f"{title.capitalize()}. In the largest forest: {said}.", drawn, tips)
-
-
-def _forest_legend(drawn: Figure, names: Sequence[str]) -> None:
-    handles = []
-    for place, name in enumerate(names):
-        how, label = curve_style(place), escaped(name, 48)
-        handles.append(Line2D([], [], color=how.colour, linestyle=how.dashes, marker=how.marker, label=label))
-    drawn.legend(handles=handles, loc="outside lower left")
 
 
 def _forest_tip(name: str, line: ForestLine) -> str:

@@ -36,32 +36,32 @@ _ROUND = [2 * math.pi * step / 96 for step in range(97)]
 
 def flights(result: dict[str, Any]) -> Plot:
     """The flights of a result."""
-    told, flown = result["assumptions"], result["flights"]
+    assumptions, flown = result["assumptions"], result["flights"]
     figure = new_figure(760, 580)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.1])
     left, right = halves
     above, along = right.subplots(2, 1, height_ratios=[1.35, 1], gridspec_kw={"hspace": 0.08})
-    solid = _solid(left, told, flown["paths"])
-    _above(above, told, flown["paths"])
+    solid = _solid(left, assumptions, flown["paths"])
+    _above(above, assumptions, flown["paths"])
     _discriminants(along, flown["paths"])
     mark_contacts([solid, above], flown["ways"])
     handles = [handle for axes in (above, along) for handle in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     said = (
-        f"Inside a hyperboloid with α = {told['alpha']:g} m and γ = {told['gamma']:g} m, {len(flown['paths'])} "
-        f"random flights with steps of {flown['step']:g} m, from the side and from above, and the discriminant Δ "
-        "of the body's cubic at each position: at one height it falls towards the wall, across heights it does not "
-        "tell how near the wall is, and where it is not above 0 the rotors are asked."
+        f"Inside a hyperboloid with α = {assumptions['alpha']:g} m and γ = {assumptions['gamma']:g} m, "
+        f"{len(flown['paths'])} random flights with steps of {flown['step']:g} m, from the side and from above, and "
+        "the discriminant Δ of the body's cubic at each position: at one height it falls towards the wall, across "
+        "heights it does not tell how near the wall is, and where it is not above 0 the rotors are asked."
     )
     return Plot("tower-flights", "Flights inside a cooling tower, and Δ along them", said, figure)
 
 
-def _solid(figure: SubFigure, told: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
+def _solid(figure: SubFigure, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
     axes: Any = figure.add_axes((-0.33, 0.0, 1.6, 1.0), projection="3d")  # a square, wider than what is drawn in it
     axes.patch.set_visible(False)
-    low, high = _heights(told, paths)
+    low, high = _heights(assumptions, paths)
     height, angle = np.meshgrid(np.linspace(low, high, 15), np.linspace(0, 2 * np.pi, 25), indexing="ij")
-    radius = told["alpha"] * np.hypot(1, height / told["gamma"])
+    radius = assumptions["alpha"] * np.hypot(1, height / assumptions["gamma"])
     axes.plot_wireframe(
         radius * np.cos(angle), radius * np.sin(angle), height, color=colour("soft"), linewidth=0.4, alpha=0.55
     )
@@ -80,10 +80,10 @@ def _solid(figure: SubFigure, told: dict[str, Any], paths: list[dict[str, Any]])
     return axes
 
 
-def _heights(told: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[float, float]:
+def _heights(assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[float, float]:
     """The part of the tower that is drawn: what is modelled, or what the flights use of it."""
-    if told["height"] is not None:
-        return float(told["height"][0]), float(told["height"][1])
+    if assumptions["height"] is not None:
+        return float(assumptions["height"][0]), float(assumptions["height"][1])
     heights = [position[2] for path in paths for position in path["positions"]]
     return min(heights) - 1, max(heights) + 1
 
@@ -98,12 +98,12 @@ def _columns(points: list[list[float]], number: int) -> list[list[float]]:
     return [[point[place] for point in points] for place in range(number)]
 
 
-def _above(axes: Axes, told: dict[str, Any], paths: list[dict[str, Any]]) -> None:
-    widest = max(math.hypot(1, height / told["gamma"]) for height in _heights(told, paths))
-    end = "end of what is drawn" if told["height"] is None else "the tower's end"
+def _above(axes: Axes, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> None:
+    widest = max(math.hypot(1, height / assumptions["gamma"]) for height in _heights(assumptions, paths))
+    end = "end of what is drawn" if assumptions["height"] is None else "the tower's end"
     circles: tuple[tuple[float, Any, str], ...] = ((1.0, "-", "waist"), (widest, (0, (1, 1.2)), end))
     for factor, dashes, label in circles:
-        radius = told["alpha"] * factor
+        radius = assumptions["alpha"] * factor
         circle = [(radius * math.cos(angle), radius * math.sin(angle)) for angle in _ROUND]
         across, along = zip(*circle, strict=True)
         axes.plot(across, along, color=colour("soft"), linestyle=dashes, linewidth=1, label=label)
@@ -157,7 +157,7 @@ def _table(table: dict[str, Any]) -> Plot:
     figure = new_figure(620, 400)
     axes = figure.subplots()
     other = table["second_row_read_as_0.25"]
-    ours = [
+    simulated = [
         (time * speed, percent, error or 0.0)
         for time, percents, errors in (
             *zip(table["t"], table["percent"], table["standard_error"], strict=True),
@@ -165,7 +165,7 @@ def _table(table: dict[str, Any]) -> Plot:
         )
         for speed, percent, error in zip(table["v"], percents, errors, strict=True)
     ]
-    across, percents, errors = zip(*sorted(ours), strict=True)
+    across, percents, errors = zip(*sorted(simulated), strict=True)
     axes.plot(across, percents, color=colour("soft"), linewidth=0.6, zorder=1)
     axes.errorbar(
         across,
@@ -183,8 +183,8 @@ def _table(table: dict[str, Any]) -> Plot:
         axes.plot(
             steps, printed, linestyle="none", marker=style.marker, color=style.colour, label=f"printed, t = {time:g} s"
         )
-    told = "printed, t = 0.2 s read as 0.25 s"
-    _printed(axes, table["v"], other["t"], table["printed"][1], curve_style(1), told, markerfacecolor="none")
+    label = "printed, t = 0.2 s read as 0.25 s"
+    _printed(axes, table["v"], other["t"], table["printed"][1], curve_style(1), label, markerfacecolor="none")
     axes.set(xlabel="step v·t (m)", ylabel="executions with Δ ≤ 0 (%)")
     axes.legend(frameon=True, facecolor=colour("surface"), edgecolor="none", framealpha=1)
     said = (
@@ -196,17 +196,17 @@ def _table(table: dict[str, Any]) -> Plot:
 
 
 def _printed(
-    axes: Axes, speeds: list[float], time: float, figures: list[float], style: CurveStyle, told: str, **paint: str
+    axes: Axes, speeds: list[float], time: float, figures: list[float], style: CurveStyle, label: str, **paint: str
 ) -> None:
     steps = [time * speed for speed in speeds]
-    axes.plot(steps, figures, linestyle="none", marker=style.marker, color=style.colour, label=told, **paint)  # type: ignore[arg-type]
+    axes.plot(steps, figures, linestyle="none", marker=style.marker, color=style.colour, label=label, **paint)  # type: ignore[arg-type]
 
 
-def _pitch(told: dict[str, Any], pitch: dict[str, Any]) -> Plot:
+def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
     """The body upright and leaning beside the wall, and how often that changes the answer, over the step."""
     figure = new_figure(760, 380)
     section, shares = figure.subplots(1, 2, width_ratios=[1, 1.5])
-    _section(section, told, pitch["degrees"])
+    _section(section, assumptions, pitch["degrees"])
     cells = sorted(pitch["cells"], key=lambda cell: float(cell["t"] * cell["v"]))
     steps = [cell["t"] * cell["v"] for cell in cells]
     dangerous = [cell["dangerous"] for cell in cells]
@@ -228,9 +228,9 @@ def _pitch(told: dict[str, Any], pitch: dict[str, Any]) -> Plot:
     return Plot("tower-pitch", "A quadcopter that leans into its movement, and the upright model", said, figure)
 
 
-def _section(axes: Axes, told: dict[str, Any], degrees: float) -> None:
+def _section(axes: Axes, assumptions: dict[str, Any], degrees: float) -> None:
     """The body where its upright ellipse touches the wall at the waist, from the side."""
-    alpha, gamma, b, d = (told[name] for name in ("alpha", "gamma", "b", "d"))
+    alpha, gamma, b, d = (assumptions[name] for name in ("alpha", "gamma", "b", "d"))
     centre, tilt = alpha - b, math.radians(degrees)
     for style, angle, label in (
         (curve_style(0), 0.0, "upright"),

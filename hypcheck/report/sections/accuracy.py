@@ -86,10 +86,10 @@ def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[
     for each in found:
         if each.gated:
             yield Details(each.name, (_family_table([each]), *_cases([each], replays)))
-    ours = [each for each in found if not each.gated]
-    if ours:
-        yield Details("All methods and families", (_family_table(ours),))
-        yield Details("Their worst cases", tuple(_cases(ours, replays)))
+    builtin = [each for each in found if not each.gated]
+    if builtin:
+        yield Details("All methods and families", (_family_table(builtin),))
+        yield Details("Their worst cases", tuple(_cases(builtin, replays)))
 
 
 def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
@@ -97,13 +97,12 @@ def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
     seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
     named = [] if len(found) == 1 else [Column("method")]
     errors = map(number, ("false clear", "false contact", "wrong side", "worst error in u"))
-    columns: tuple[Column | str, ...] = (*named, "family", number("asked"), *map(number, seen), *errors)
     rows = [
         (*([TableCell(Code(each.name))] if named else []), *_status_row(group, seen))
         for each in found
         for group in each.groups
     ]
-    return table("families", columns, rows)
+    return table("families", (*named, "family", number("asked"), *map(number, seen), *errors), rows)
 
 
 def _status_row(group: GroupLine, seen: Sequence[str]) -> tuple[TableCell, ...]:
@@ -200,14 +199,13 @@ def _workload_table(record: Record) -> Block:
     numbers = map(
         number, ("asked", "wrong", "false clear", "false contact", "wrong side", "abstained", "reliable above")
     )
-    columns: tuple[Column | str, ...] = ("method", "workload", *numbers, "case farthest from contact")
     titles = {name: str(line.title) for name, line in workloads(record).items()}
     rows = [
         (TableCell(Code(each.name)), TableCell(titles[name]), *_workload_row(line))
         for each in measured_methods(record)
         for name, line in each.accuracy.items()
     ]
-    return table("wrong answers by workload", columns, rows)
+    return table("wrong answers by workload", ("method", "workload", *numbers, "case farthest from contact"), rows)
 
 
 def _workload_row(line: AccuracyLine) -> tuple[TableCell, ...]:
@@ -269,7 +267,6 @@ def peer_sections(record: Record) -> Iterator[Section]:
 
 def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
     numbers = map(number, ("triangles", "deviation, radii", "asked", "wrong", "query, ns", "build, ns"))
-    columns: tuple[Column | str, ...] = ("method", *numbers)
     rows = [
         (
             TableCell(Code(line.method)),
@@ -282,7 +279,7 @@ def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
         )
         for line in lines
     ]
-    return table("meshes", columns, rows)
+    return table("meshes", ("method", *numbers), rows)
 
 
 def _bounds(lines: list[BoundingLine]) -> TableBlock:
@@ -307,7 +304,6 @@ def _bounds(lines: list[BoundingLine]) -> TableBlock:
 
 def _overlaps(lines: list[BoundingLine]) -> TableBlock:
     numbers = map(number, ("d/b", "asked", "false contact", "share", "median excess clearance, radii"))
-    columns: tuple[Column | str, ...] = ("shape", "workload", *numbers)
     rows = [
         (
             TableCell(line.shape),
@@ -321,7 +317,7 @@ def _overlaps(lines: list[BoundingLine]) -> TableBlock:
         for line in lines
         for ratio, asked, contacts, excess in line.overlap
     ]
-    return table("bounding volumes by shape of the spheroid", columns, rows)
+    return table("bounding volumes by shape of the spheroid", ("shape", "workload", *numbers), rows)
 
 
 def _share(part: float, whole: float) -> TableCell:

@@ -73,14 +73,13 @@ def speed_sections(record: Record) -> Iterator[Section]:
 
 def _speed_table(record: Record) -> TableBlock:
     numbers = map(number, ("ratio", "ns a query", "queries a second", "noise", "rows"))
-    columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "timed by")
     titles = {name: str(line.title) for name, line in workloads(record).items()}
     rows = [
         (TableCell(Code(each.name)), TableCell(titles[line.workload]), TableCell(line.mode), *_time(record, line))
         for each in measured_methods(record)
         for line in each.speed.values()
     ]
-    return table("run times", columns, rows)
+    return table("run times", ("method", "workload", "mode", *numbers, "timed by"), rows)
 
 
 def _time(record: Record, line: SpeedLine) -> tuple[TableCell, ...]:
@@ -108,7 +107,6 @@ def _how(line: SpeedLine) -> tuple[TableCell, TableCell]:
 
 
 def _memory(record: Record) -> TableBlock:
-    columns: tuple[Column | str, ...] = ("method", number("rows"), number("growth, MB"), number("bytes a row"))
     rows = [
         (
             TableCell(Code(line.method)),
@@ -118,7 +116,7 @@ def _memory(record: Record) -> TableBlock:
         )
         for line in record.of(MemoryLine)
     ]
-    return table("memory", columns, rows)
+    return table("memory", ("method", number("rows"), number("growth, MB"), number("bytes a row")), rows)
 
 
 _FOREST = prose(
@@ -140,13 +138,12 @@ def scene_sections(record: Record) -> Iterator[Section]:
         yield Section("What scenes leave out", (Paragraph(_SCENES), _shares(scenes), _scene_table(scenes)))
     if forests:
         titles = {line.method: line.title for line in forests}
-        who = bullets([(Code(name), f": {title}") for name, title in titles.items()])
-        yield Section("A step in a forest", (Paragraph(_FOREST), Figures("forest"), _forest(forests), who))
+        methods = bullets([(Code(name), f": {title}") for name, title in titles.items()])
+        yield Section("A step in a forest", (Paragraph(_FOREST), Figures("forest"), _forest(forests), methods))
 
 
 def _forest(lines: list[ForestLine]) -> TableBlock:
     numbers = map(number, ("trees", "ns a step", "by hypcheck.Scene's", "building, s", "steps", "wrong"))
-    columns: tuple[Column | str, ...] = ("asked", *numbers)
     rows = [
         (
             TableCell(Code(line.method)),
@@ -159,7 +156,7 @@ def _forest(lines: list[ForestLine]) -> TableBlock:
         )
         for line in lines
     ]
-    return table("a step in a forest", columns, rows)
+    return table("a step in a forest", ("asked", *numbers), rows)
 
 
 def _ratio(ratio: float | None, interval: Interval | None) -> TableCell:
@@ -168,7 +165,6 @@ def _ratio(ratio: float | None, interval: Interval | None) -> TableCell:
 
 def _shares(lines: list[SceneLine]) -> TableBlock:
     numbers = map(number, ("pairs of sizes", *(f"{stage}, %" for stage in _STAGES), "wrong"))
-    columns: tuple[Column | str, ...] = ("scene", "question", *numbers)
     rows = [
         (
             TableCell(line.scene),
@@ -179,7 +175,7 @@ def _shares(lines: list[SceneLine]) -> TableBlock:
         )
         for line in lines
     ]
-    return table("what decides in scenes", columns, rows)
+    return table("what decides in scenes", ("scene", "question", *numbers), rows)
 
 
 def _scene_table(lines: list[SceneLine]) -> TableBlock:
@@ -230,7 +226,6 @@ def _interval(value: float, ends: Interval | None) -> TableCell:
 
 def _baseline(lines: list[ComparisonLine]) -> TableBlock:
     numbers = map(number, ("before", "after", "change", "allowed"))
-    columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
     order = ["slower", "inconclusive", "faster", "same"]
     ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
     rows = [
@@ -246,7 +241,7 @@ def _baseline(lines: list[ComparisonLine]) -> TableBlock:
         )
         for line in ranked
     ]
-    return table("against the baseline", columns, rows)
+    return table("against the baseline", ("method", "workload", "mode", *numbers, "verdict"), rows)
 
 
 def _verdict(line: ComparisonLine) -> TableCell:

@@ -150,8 +150,7 @@ def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
 
 def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
     numbers = map(number, ("asked", "right", "tolerated", "wrong", "false clear", "worst error in u"))
-    columns: tuple[Column | str, ...] = ("method", "question", *numbers, "its case")
-    return table("methods", columns, [_method_row(each) for each in methods])
+    return table("methods", ("method", "question", *numbers, "its case"), [_method_row(each) for each in methods])
 
 
 def _method_row(each: ImplementationTotal) -> tuple[TableCell, ...]:
@@ -185,13 +184,12 @@ def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
         (TableCell(Code(family)), *(cell(each.name, family) for each in methods)) for family in families
     ]
     asked = max((group.asked for group in groups.values()), default=0)
-    columns: tuple[Column | str, ...] = ("family", *(number(Code(_plain_name(each))) for each in methods))
     return (
         Paragraph(
             f"Wrong answers by family, of at most {counted(asked, 'case')} each ({NOTHING} none, {NOT_ASKED} nothing"
             " asked: outside the stated regimes or the format's range):"
         ),
-        table("wrong answers by family", columns, rows),
+        table("wrong answers by family", ("family", *(number(Code(_plain_name(each))) for each in methods)), rows),
     )
 
 
