@@ -158,14 +158,17 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
         click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
+        from hypcheck.geometry.pair import COLUMNS
         from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
-        added = keep_rows(str(out), [cluster.worst.case.row for cluster in found], made_by)
-        click.echo(
-            f"\n{printable(out)}: {counted(added, 'row')} added"
-            f"{'' if added == len(found) else ', the others were there already'}"
-        )
+        rows = [cluster.worst.case.row for cluster in found]
+        upright = [row for row in rows if len(row) == len(COLUMNS)]
+        added = keep_rows(str(out), upright, made_by) if upright else 0
+        there = "" if added == len(upright) else ", the others were there already"
+        tilted = len(rows) - len(upright)
+        left = f"; {counted(tilted, 'row')} of tilted spheroids left out" if tilted else ""
+        click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}{left}")
 
 
 def _exit_code(run: Hunt) -> Exit:
@@ -205,18 +208,18 @@ Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 
 def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
     from hypcheck.answer import answer, answer_as_text
-    from hypcheck.geometry.pair import Pair
     from hypcheck.runs.hunt_results import minimised_lines
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.replay import case_of
+    from hypcheck.truth.tilted.pair import pair_of
     from hypcheck.vectors.families import is_extreme
 
     given = case_of(case)
     with opened(spec, **subject) as target:
-        run = simplify(replace(target, extreme=is_extreme(given.name)), Pair.from_row(given.row))
+        run = simplify(replace(target, extreme=is_extreme(given.name)), pair_of(given.row))
     for line in minimised_lines(run):
         click.echo(printable(line))
-    click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(run.last.case.row)))}")
+    click.echo(f"\nthe right answer: {answer_as_text(answer(pair_of(run.last.case.row)))}")
 
 
 _REPLAY_HELP = """\

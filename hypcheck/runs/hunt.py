@@ -27,6 +27,8 @@ from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
 from hypcheck.truth import exact
 from hypcheck.truth.exact import Cubic, Decision
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors.draw import Integers
 
 NEAR = Fraction(1, 64)
@@ -41,6 +43,7 @@ LONG = 2.0**17
 
 OPEN = "no special place"
 RING = "the ring"
+TILTED = "a tilted spheroid"
 
 _OTHER_DOUBLE_ROOTS = (
     Kind.CROSSING_THROAT_NODE,
@@ -63,8 +66,10 @@ class RowPlace:
     cause: str
 
 
-def place_of(pair: Pair) -> RowPlace:
+def place_of(pair: Pair | TiltedPair) -> RowPlace:
     """The place of a pair."""
+    if isinstance(pair, TiltedPair):
+        return _tilted_place(pair)
     lengths = pair.lengths
     special = [*_double_roots(lengths, exact.decide(lengths)), *_coefficients(exact.cubic(lengths))]
     regimes = list(_regimes(lengths))
@@ -72,6 +77,23 @@ def place_of(pair: Pair) -> RowPlace:
     named = [*special, *_borders(lengths), *regimes, *planes] or [(OPEN, OPEN)]
     cause = special[0][0] if special else " and ".join(name for name, _ in regimes)
     return RowPlace(named[0][0], ", ".join(words for _, words in named), cause.removeprefix("next to "))
+
+
+def _tilted_place(pair: TiltedPair) -> RowPlace:
+    """The place of a tilted spheroid: what is special about its axis and its centre."""
+    x, y, z, axis_x, axis_y, axis_z = map(Fraction, (pair.x, pair.y, pair.z, *pair.axis))
+    across, along = axis_x**2 + axis_y**2, axis_z**2
+    signs = {
+        "exactly tangent": tilted_exact.decide(pair.lengths).tangent,
+        "a horizontal axis": along == 0,
+        "a nearly upright axis": across <= NEAR**2 * along,
+        "a nearly horizontal axis": 0 < along <= NEAR**2 * across,
+        "the axis in the plane of the centre": (x or y) and x * axis_y == y * axis_x,
+        "r = 0": not (x or y),
+        "z = 0": z == 0,
+    }
+    named = [name for name, holds in signs.items() if holds]
+    return RowPlace(next(iter(named), TILTED), ", ".join([TILTED, *named]), next(iter(named), TILTED))
 
 
 def _double_roots(lengths: Lengths, decision: Decision) -> Iterator[tuple[str, str]]:
@@ -248,7 +270,7 @@ class HuntFindings:
     def add(self, cases: Iterable[WrongCase], source: str) -> None:
         """Add judged cases that one stratum or one search found."""
         for case in cases:
-            place = place_of(Pair.from_row(case.row))
+            place = place_of(pair_of(case.row))
             key = (case.mistake, case.truth, place.kind)
             cluster = self.clusters.get(key)
             if cluster is None or _may_be_worse(case, cluster.worst.case):

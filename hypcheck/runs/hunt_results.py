@@ -6,7 +6,9 @@ import math
 import shlex
 from collections.abc import Iterator, Sequence
 
-from hypcheck.geometry.pair import COLUMNS, Pair
+import numpy as np
+
+from hypcheck.geometry.pair import columns_of
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import FindingCluster, Hunt, HuntFinding, HuntTarget
 from hypcheck.runs.judge import Status, in_words
@@ -67,7 +69,7 @@ def _cluster(number: int, cluster: FindingCluster, target: HuntTarget) -> Iterat
 def _finding(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     case = finding.case
     answer = in_words(case.answer, target.criterion.question)
-    yield _titled("row", f"{decimals(case.row)}  ({', '.join(COLUMNS)})")
+    yield _titled("row", f"{decimals(case.row)}  ({', '.join(columns_of(case.row))})")
     yield _titled("hex", ",".join(map(hex_of, case.row)))
     yield _titled("truth", f"{case.truth.label}; answered: {answer} ({case.mistake.value}, wrong by {_u(finding)})")
     yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
@@ -78,7 +80,7 @@ def _unanswered(run: Hunt) -> Iterator[str]:
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
         if status is not Status.NOT_RUN:
-            yield _titled("row", f"{decimals(fault.row)}  ({', '.join(COLUMNS)})")
+            yield _titled("row", f"{decimals(fault.row)}  ({', '.join(columns_of(fault.row))})")
 
 
 def _command(target: HuntTarget, *words: str) -> str:
@@ -91,7 +93,7 @@ def _command(target: HuntTarget, *words: str) -> str:
 
 def decimals(row: Sequence[float]) -> str:
     """A row as the command line reads it back."""
-    return ",".join(repr(value).removesuffix(".0") for value in Pair.from_row(row).row)
+    return ",".join(repr(value).removesuffix(".0") for value in np.add(row, 0.0).tolist())
 
 
 def _u(finding: HuntFinding) -> str:

@@ -27,11 +27,12 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import FixedSizes, Floats, Mask, Positions, Rows, invalid
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import FixedSizes, Floats, Mask, Positions, Rows, invalid, with_axis
 from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding_rank
-from hypcheck.truth import float_filter
+from hypcheck.runs.judge import exact_positions
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import FAMILIES, families_for
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, families_for
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
 
@@ -55,9 +56,9 @@ RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
 """The rungs of a ladder, in ulp of the factor."""
 
 
-def columns_of(movers: NDArray[np.str_]) -> Mask:
-    """The columns that the named movers multiply, as a mask (n, 7)."""
-    mask = np.zeros((len(movers), 7), dtype=np.bool_)
+def columns_of(movers: NDArray[np.str_], numbers: int = len(COLUMNS)) -> Mask:
+    """The columns that the named movers multiply, as a mask (n, 7), or of rows of so many numbers."""
+    mask = np.zeros((len(movers), numbers), dtype=np.bool_)
     for name, columns in MOVERS.items():
         mask[np.ix_(movers == name, columns)] = True
     return mask
@@ -96,9 +97,9 @@ UNUSABLE = 3
 
 def _positions(rows: Rows) -> Positions:
     """Exact positions, and UNUSABLE if a length left the range of float64."""
-    usable = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
+    usable = ~invalid(rows)
     found = np.full(len(rows), UNUSABLE, dtype=np.int8)
-    found[usable] = float_filter.positions(rows[usable])
+    found[usable] = exact_positions(rows[usable])
     return found
 
 
@@ -145,12 +146,13 @@ class HuntStratum:
     rows: Callable[[int, int], Rows]
 
 
-def strata(settings: tuple[FixedSizes, ...] = ()) -> tuple[HuntStratum, ...]:
+def strata(settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False) -> tuple[HuntStratum, ...]:
     """All strata, the families of vectors first; with fixed sizes only the families for them."""
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
-    return (*map(_of_family, FAMILIES.values()), *map(_of_crossing, crossings))
+    tilted = TILTED_FAMILIES.values() if tilt else ()
+    return (*map(_of_family, (*tilted, *FAMILIES.values())), *map(_of_crossing, crossings))
 
 
 def _of_family(family: Family) -> HuntStratum:
@@ -219,6 +221,12 @@ _MOVES = [
     (1, 3, 6),
 ]
 
+_TILTED_MOVES = [
+    *((column,) for column in range(10)),
+    (0, 1, 2, 3, 4, 5, 6),  # the unit of length, and that of the axis
+    (7, 8, 9),
+]
+
 
 @dataclass(slots=True)
 class Climber:
@@ -236,7 +244,7 @@ class Climber:
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7) to ask; for each, (n,), the number of its climber and of its ladder.
+    """Rows (n, 7 or 10) to ask; for each, (n,), the number of its climber and of its ladder.
 
     A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
     wrong answer is the worst.
@@ -251,11 +259,13 @@ def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
     """The neighbours of the climbers."""
     with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
         around = [_around(climber) for climber in climbers]
+    if len({part.shape[1] for part in around}) > 1:  # of upright and of tilted spheroids
+        around = [with_axis(part) for part in around]
     rows = np.concatenate(around)
     owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
     valid = ~invalid(rows)
     rows, owners = rows[valid], owners[valid]
-    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)])
+    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
     rungs, numbers = ladders(rows, mask, border_factors(rows, mask, draw.signs(len(rows)) > 0))
     rungs, numbers = rungs[~invalid(rungs)], numbers[~invalid(rungs)]
     return Neighbours(
@@ -267,8 +277,9 @@ def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
 
 def _around(climber: Climber) -> Rows:
     """The row itself, its neighbours one step away, and its images on the four surfaces."""
-    rows = np.repeat(np.array([climber.row]), 1 + 2 * len(_MOVES) + 4, axis=0)
-    for number, columns in enumerate(_MOVES):
+    moves = _MOVES if len(climber.row) == len(COLUMNS) else _TILTED_MOVES
+    rows = np.repeat(np.array([climber.row]), 1 + 2 * len(moves) + 4, axis=0)
+    for number, columns in enumerate(moves):
         rows[1 + 2 * number, columns] *= 1 + climber.step
         rows[2 + 2 * number, columns] /= 1 + climber.step
     axis, waist, throat, groove = rows[-4:]
@@ -307,7 +318,7 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
 
 def _look(run: Hunt) -> Iterator[None]:
     """The strata, without end: first some rows of each, then block after block."""
-    everywhere = strata(run.target.domain.settings)
+    everywhere = strata(run.target.domain.settings, tilt=run.target.implementation.description.tilt)
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:

@@ -14,13 +14,14 @@ from itertools import product
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Rows
 from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding, place_of
 from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
 from hypcheck.runs.judge import Status, WrongCase
 from hypcheck.runs.score import Score
 from hypcheck.runs.tally import STATUSES
+from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
 
 Row = tuple[float, ...]
@@ -53,10 +54,10 @@ def complexity(row: Sequence[float]) -> Complexity:
 
 
 def simpler_than(rows: Iterable[Row], limit: Complexity) -> Rows:
-    """The distinct valid rows below a complexity, float64 (n, 7), the simplest first."""
+    """The distinct valid rows below a complexity, float64 (n, 7 or 10), the simplest first."""
     found = {row: complexity(row) for row in set(rows) if _valid(row)}
     chosen = sorted((row for row in found if found[row] < limit), key=lambda row: (found[row], row))
-    return np.array(chosen, dtype=np.float64).reshape(-1, 7)
+    return np.array(chosen, dtype=np.float64).reshape(len(chosen), len(chosen[0]) if chosen else len(COLUMNS))
 
 
 def rounded(value: float) -> Iterator[float]:
@@ -90,11 +91,13 @@ def _simplest() -> tuple[Rows, list[Complexity]]:
 
 
 def _valid(row: Row) -> bool:
-    return all(map(math.isfinite, row)) and min(row[:4]) > 0
+    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == len(COLUMNS) or any(row[len(COLUMNS) :]))
 
 
-GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS)
-COORDINATES = (4, 5, 6)
+GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9])
+"""Columns whose numbers share a unit; the last are those of an axis."""
+
+COORDINATES = (4, 5, 6, 7, 8, 9)
 _SMALL = tuple(map(float, range(1, 7)))
 
 
@@ -105,7 +108,19 @@ def same_pair(row: Row) -> Iterator[Row]:
     yield (alpha, gamma, b, d, x, y, z)
     yield (alpha, gamma, b, d, y, x, z)
     yield (alpha, gamma, b, d, math.hypot(x, y), 0.0, z)
-    for columns in GROUPS:
+    for columns in GROUPS[:2]:
+        for unit in _units([row[column] for column in columns]):
+            yield _with(row, {column: row[column] / unit for column in columns})
+
+
+def same_tilted_pair(row: Row) -> Iterator[Row]:
+    """The tilted pair in other coordinates: fewer signs, x and y exchanged, other units of length and of the axis."""
+    alpha, gamma, b, d, x, y, z, *axis = row
+    for turn in (1, -1):
+        mirrored = [turn * each * math.copysign(1.0, place) for each, place in zip(axis, (x, y, z), strict=True)]
+        yield (alpha, gamma, b, d, abs(x), abs(y), abs(z), *mirrored)
+        yield (alpha, gamma, b, d, abs(y), abs(x), abs(z), mirrored[1], mirrored[0], mirrored[2])
+    for columns in (range(len(COLUMNS)), range(len(COLUMNS), len(row))):
         for unit in _units([row[column] for column in columns]):
             yield _with(row, {column: row[column] / unit for column in columns})
 
@@ -125,7 +140,7 @@ def _units(lengths: list[float]) -> set[float]:
 
 def one_changed(row: Row) -> Iterator[Row]:
     """One number made 0, 1 or shorter, or equal to another of its unit."""
-    for column in range(7):
+    for column in range(len(row)):
         for value in {*_simple_values(row, column), *rounded(row[column])}:
             yield _with(row, {column: value})
 
@@ -192,20 +207,23 @@ class Minimised:
         return self.steps[-1]
 
 
-def minimise(target: HuntTarget, pair: Pair) -> Minimised:
+def minimise(target: HuntTarget, pair: Pair | TiltedPair) -> Minimised:
     """Simplify until no simpler row fails in the same way. Raises InputError if the answer is not wrong.
 
     The same way means: the same answer, the same truth, beyond the tolerance, and the same cause (RowPlace.cause).
     """
     run = Minimised(target)
     run.steps.append(_start(run, pair))
-    while any(_improve(run, ways) for ways in _VARIANTS):
+    variants = _VARIANTS if isinstance(pair, Pair) else _TILTED_VARIANTS
+    while any(_improve(run, ways) for ways in variants):
         pass
     return run
 
 
-def _start(run: Minimised, pair: Pair) -> HuntFinding:
+def _start(run: Minimised, pair: Pair | TiltedPair) -> HuntFinding:
     rows = np.array([pair.row])
+    if isinstance(pair, TiltedPair) and not run.target.implementation.description.tilt:
+        raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
     scored = _ask(run, rows)
@@ -228,7 +246,7 @@ def _improve(run: Minimised, ways: Variants) -> bool:
         rows = candidates[start : start + PIECE]
         rows = rows[run.target.claimed(rows)]
         for case in _ask(run, rows).judged():
-            place = place_of(Pair.from_row(case.row)) if _alike(case, run.first.case) else None
+            place = place_of(pair_of(case.row)) if _alike(case, run.first.case) else None
             if place is not None and place.cause == run.first.place.cause:
                 run.steps.append(measured_finding(case, run.target.criterion, place, f"step {len(run.steps)}"))
                 return True
@@ -255,3 +273,5 @@ _VARIANTS: tuple[Variants, ...] = (
     _next_to(brought_back),
 )
 """Cheap variants first: later ones are tried only if the earlier ones give no simpler row."""
+
+_TILTED_VARIANTS: tuple[Variants, ...] = (_next_to(same_tilted_pair), _next_to(one_changed))

@@ -83,7 +83,7 @@ def test_hunt_finds_the_errors_of_the_local_maximum_near_a_equal_1_and_c2_equal_
 def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
     ordinary = tuple(each for each in hunt_search.strata() if "near-tangent" in each.name)
     assert len(ordinary) == 2
-    monkeypatch.setattr(hunt_search, "strata", lambda _: ordinary)
+    monkeypatch.setattr(hunt_search, "strata", lambda _, tilt: ordinary)
     first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK)
     assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
     grown = hunted("local-maximum-float64", 25_000)
@@ -105,7 +105,7 @@ def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse(m
         return np.where((rows == ring).all(axis=1), 0, float_filter.positions(rows))
 
     monkeypatch.setattr(
-        hunt_search, "strata", lambda _: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
+        hunt_search, "strata", lambda _, tilt: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
     )
     monkeypatch.setattr(hunt_search, "neighbours", watched)
     monkeypatch.setattr(hunt_search, "LAST_STEP", 2.0**-8)
@@ -127,7 +127,7 @@ def test_local_search_restarts_with_the_first_step_at_a_worse_answer(monkeypatch
         return neighbours(draw, climbers)
 
     monkeypatch.setattr(
-        hunt_search, "strata", lambda _: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
+        hunt_search, "strata", lambda _, tilt: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
     )
     monkeypatch.setattr(hunt_search, "neighbours", watched)
     monkeypatch.setattr(hunting, "place_of", lambda pair: RowPlace("anywhere", "anywhere", "any"))

@@ -1,0 +1,88 @@
+"""`hypcheck hunt` and `minimise` of implementations that take tilted spheroids."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.runs import hunt_search
+from hypcheck.runs.hunt import TILTED, place_of
+from hypcheck.runs.hunt_search import Climber, neighbours
+from hypcheck.runs.minimise import same_tilted_pair
+from hypcheck.truth.tilted.pair import pair_of
+from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from tests.tilted_fractions import exact_position
+
+UPRIGHT = "python:tests.runs.leaning:upright"
+ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)
+
+
+def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_with_the_axis(capsys, tmp_path):
+    out = tmp_path / "kept.json"
+    assert main(["hunt", UPRIGHT, "--queries", "160", "--show", "1", "--out", str(out)]) == 1
+    said = capsys.readouterr().out
+    (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*axis_z\)$", said, flags=re.MULTILINE)
+    row = tuple(map(float, shown.split(",")))
+    assert len(row) == 10
+    assert exact_position(row) != exact_position((*row[:7], 0.0, 0.0, 1.0))
+    assert "of tilted spheroids left out" in said
+    assert not out.exists()
+
+
+def test_strata_have_tilted_families_where_the_implementation_takes_tilt():
+    upright, both = ({stratum.name for stratum in hunt_search.strata(tilt=tilt)} for tilt in (False, True))
+    assert both - upright == {f"the family {name}" for name in TILTED_FAMILIES}
+
+
+def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_valid():
+    climbers = [Climber(ROW, 1.0, 0.25), Climber(tuple(FAMILIES["uniform"].rows(1, 1)[0].tolist()), 1.0, 0.25)]
+    around = neighbours(Draw("test"), climbers)
+    assert around.rows.shape[1] == 10
+    assert set(around.owners.tolist()) == {0, 1}
+    assert (around.rows[around.owners == 1][:, 7:] == (0, 0, 1)).all()
+    assert len(np.unique(around.rows[around.owners == 0][:, 7:], axis=0)) > 4
+
+
+def test_the_simplest_row_that_fails_alike_is_about_a_tilted_spheroid_and_short(capsys):
+    assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5"]) == 0
+    said = capsys.readouterr().out
+    (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*axis_z\)$", said, flags=re.MULTILINE)
+    row = tuple(map(float, shown.split(",")))
+    assert len(shown) < 40
+    assert (exact_position(row), exact_position((*row[:7], 0.0, 0.0, 1.0))) == (0, -1)
+    assert "the right answer: contact" in said
+
+
+def test_a_tilted_row_is_not_simplified_for_an_implementation_without_tilt(capsys):
+    assert main(["minimise", "builtin:table-2-float64", "tilted-uniform/1/1/5"]) == 2
+    assert 'the row has an axis, and the implementation does not declare "tilt": true' in capsys.readouterr().err
+
+
+def test_the_same_tilted_pair_in_other_coordinates_has_the_same_position():
+    for row in TILTED_FAMILIES["tilted-uniform"].rows(4, 6).tolist():
+        for other in same_tilted_pair(tuple(row)):
+            alike = [math.isclose(a, b, rel_tol=1e-9) for a, b in zip(map(abs, row), map(abs, other), strict=True)]
+            assert exact_position(other) == exact_position(row) or not all(alike)
+
+
+@pytest.mark.parametrize(
+    ("change", "kind"),
+    [
+        ({}, TILTED),
+        ({9: 0.0}, "a horizontal axis"),
+        ({9: 1000.0}, "a nearly upright axis"),
+        ({9: 1e-4}, "a nearly horizontal axis"),
+        ({7: 2.5, 8: -1.0}, "the axis in the plane of the centre"),
+        ({4: 0.0, 5: 0.0}, "r = 0"),
+        ({6: 0.0}, "z = 0"),
+    ],
+)
+def test_the_place_of_a_tilted_spheroid_names_what_is_special_about_its_axis_and_centre(change, kind):
+    place = place_of(pair_of([change.get(column, value) for column, value in enumerate(ROW)]))
+    assert place.kind == place.cause == kind
+    assert place.words.startswith(TILTED)
