@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import compiled_targets
+from hypcheck.bench import compiled_targets, tilted_targets
 from hypcheck.bench.compiled_targets import TOWER_SIZES, uniform_columns
 from hypcheck.bench.timing import (
     Clocked,
@@ -214,6 +214,9 @@ def _groups() -> Iterator[Group]:
         yield lambda folder, quick: compiled_targets.in_cache(folder, _rounds(quick))
         yield lambda folder, quick: compiled_targets.threads_in_cache(folder, _rounds(quick))
         yield lambda _folder, quick: compiled_targets.near_contact(_rounds(quick))
+        yield lambda _folder, quick: tilted_targets.one_orientation(_rounds(quick))
+        yield lambda _folder, quick: tilted_targets.axis_along_z(_rounds(quick))
+        yield lambda _folder, quick: tilted_targets.an_axis_each(_rounds(quick))
         yield lambda _folder, quick: compiled_targets.streamed(QUICK_STREAM if quick else STREAM, 1 if quick else 3)
     yield lambda _folder, quick: against_numpy(3 if quick else 9)
     yield lambda _folder, quick: against_others(_rounds(quick))

@@ -66,7 +66,7 @@ def _scaled(axes: Floats) -> tuple[Floats, Floats, Floats]:
 def _multiplier(form: Sequence[Floats]) -> Floats:
     """Near the multipliers where the dual functions are greatest: core/parts/tilted_level.h says how."""
     p, s, t, k0, k1, m, radius, height, cross_squared, level = form
-    P1 = cross_squared / level
+    P1 = np.fmax(cross_squared / level, 0)  # 0/0 is 0: the axis leans by less than 2⁻⁵⁰⁰
     root = np.sqrt(k1 * k1 + 4 * k0 * t)
     larger = 0.5 * (np.abs(k1) + root)
     one_pole, other_pole, rising = larger / t, k0 / larger, k1 >= 0

@@ -10,15 +10,18 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import compiled_targets, targets
+from hypcheck.bench import compiled_targets, targets, tilted_targets
 from hypcheck.bench.compiled_targets import LEVEL_FLAGS, TOWER_SIZES, c_baselines, touching_columns, uniform_columns
 from hypcheck.bench.timing import KernelTarget
 from hypcheck.errors import UnavailableError
+from hypcheck.geometry.rows import tilted_rows
 from hypcheck.kernel.choice import LEVELS, choice
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
 from hypcheck.truth.nearest import clearances
+from hypcheck.truth.tilted.nearest import nearest
+from hypcheck.truth.tilted.pair import TiltedPair
 from tests.support.records import violations
 
 PUBLISHED = Path(hypcheck.__file__).parent / "report" / "schemas" / f"record-{SCHEMA}.json"
@@ -44,6 +47,7 @@ def small(monkeypatch):
             compiled_targets,
             {"MANY": 4096, "CACHED": 2048, "WORST": 64, "AGAIN": 2, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2},
         ),
+        (tilted_targets, {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64}),
         (targets, {"MANY": 20_000, "CALLS": 20, "FEW": 3, "TRIANGLES": 60}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
@@ -59,7 +63,7 @@ def test_every_target_has_a_line_of_the_record_s_schema(small):
     assert sum(advanced) == targets.steps()
     found = [line for line in recorder.lines if isinstance(line, KernelLine)]
     names = [line.name for line in found]
-    assert len(set(names)) == len(names) == 15
+    assert len(set(names)) == len(names) == 20
     definition = json.loads(PUBLISHED.read_text(encoding="utf-8"))
     for line in found:
         assert not violations(as_json(line), definition, closed=True)
@@ -88,6 +92,19 @@ def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, mon
     assert names >= {"fallback, powers", "fallback, products", "one pair, plain Python"}
     assert "memory speed" not in names
     assert "compiled kernel" in {line.what for line in recorder.lines if isinstance(line, AbsentLine)}
+
+
+def test_the_numpy_version_with_eigh_answers_as_the_kernel_away_from_contact():
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*tilted_targets.axes(3000).T,))
+    found = hypcheck.classify(rows)
+    assert (tilted_targets.with_eigh(rows) == found).all()
+    assert {-1, 0, 1} == set(found.tolist())
+
+
+def test_touching_rows_lie_within_a_few_units_of_contact():
+    rows = tilted_targets.touching_rows(40)
+    clearance = [nearest(TiltedPair.from_row(row)).clearance for row in rows.tolist()]
+    assert 0 < max(map(abs, clearance)) < 4e-14
 
 
 def test_a_target_is_met_by_the_median():

@@ -904,7 +904,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_05d06f9c919d312e
+#ifndef HC_EDITION_2d5acf74eb2fcafa
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1628,7 +1628,8 @@ typedef struct {
     int count;
 } hc_tilted_waiting;
 
-/* An axis of any length as one for which floats have room: times a power of two, where that is exact. NaN stays. */
+/* An axis of any length as one for which floats have room: times a power of two, where no number becomes subnormal by it.
+   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. */
 static void hc_scale_axis(double axis[3]) {
     int i, most = -4096, least = 4096;
     for (i = 0; i < 3; i++) {
@@ -1638,15 +1639,15 @@ static void hc_scale_axis(double axis[3]) {
         if (top > most) most = top;
         if (top < least) least = top;
     }
-    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > 900) return;
+    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > (least ? 1020 : 960)) return;
     for (i = 0; i < 3; i++) {
         const hc_parts parts = hc_parts_of(axis[i]);
         uint64_t power;
         double unit;
         if (parts.sign == 0) continue;
-        power = (uint64_t)(parts.exponent + 1023 + 1023 - most) << 52;
+        power = (uint64_t)(parts.exponent + 52 + 1023 + 1023 - most) << 52;
         memcpy(&unit, &power, sizeof unit);
-        axis[i] = (double)parts.sign * ((double)parts.mantissa * unit);
+        axis[i] = (double)parts.sign * ((double)parts.mantissa * 2.220446049250313e-16 /* 2^-52 */ * unit);
     }
 }
 
@@ -1763,7 +1764,7 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_05d06f9c919d312e
+#define HC_EDITION_2d5acf74eb2fcafa
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -2729,7 +2730,8 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
         const HC_NUMBER p_across = p * across;
         const HC_NUMBER k1 = s_along - p_across;
         /* end of the program "tilted", its first part */
-        const HC_NUMBER l = HC_NAME(hc_tilted_multiplier)(p, s, t, k0, k1, m, radius, height, cross_squared / level);
+        const HC_NUMBER P1 = HC_MAX(cross_squared / level, HC_SET(0.0)); /* 0 for 0/0, where level underflows */
+        const HC_NUMBER l = HC_NAME(hc_tilted_multiplier)(p, s, t, k0, k1, m, radius, height, P1);
         /* printed from the program "tilted", the rest */
         const HC_NUMBER p_l = p + l;
         const HC_NUMBER t_l = t * l;

@@ -7,7 +7,8 @@ typedef struct {
     int count;
 } hc_tilted_waiting;
 
-/* An axis of any length as one for which floats have room: times a power of two, where that is exact. NaN stays. */
+/* An axis of any length as one for which floats have room: times a power of two, where no number becomes subnormal by it.
+   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. */
 static void hc_scale_axis(double axis[3]) {
     int i, most = -4096, least = 4096;
     for (i = 0; i < 3; i++) {
@@ -17,15 +18,15 @@ static void hc_scale_axis(double axis[3]) {
         if (top > most) most = top;
         if (top < least) least = top;
     }
-    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > 900) return;
+    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > (least ? 1020 : 960)) return;
     for (i = 0; i < 3; i++) {
         const hc_parts parts = hc_parts_of(axis[i]);
         uint64_t power;
         double unit;
         if (parts.sign == 0) continue;
-        power = (uint64_t)(parts.exponent + 1023 + 1023 - most) << 52;
+        power = (uint64_t)(parts.exponent + 52 + 1023 + 1023 - most) << 52;
         memcpy(&unit, &power, sizeof unit);
-        axis[i] = (double)parts.sign * ((double)parts.mantissa * unit);
+        axis[i] = (double)parts.sign * ((double)parts.mantissa * 2.220446049250313e-16 /* 2^-52 */ * unit);
     }
 }
 

@@ -40,7 +40,8 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
         /* printed from the program "tilted", its first part */
         @TILTED_FORM@
         /* end of the program "tilted", its first part */
-        const HC_NUMBER l = HC_NAME(hc_tilted_multiplier)(p, s, t, k0, k1, m, radius, height, cross_squared / level);
+        const HC_NUMBER P1 = HC_MAX(cross_squared / level, HC_SET(0.0)); /* 0 for 0/0, where level underflows */
+        const HC_NUMBER l = HC_NAME(hc_tilted_multiplier)(p, s, t, k0, k1, m, radius, height, P1);
         /* printed from the program "tilted", the rest */
         @TILTED_AT_MULTIPLIER@
         /* end of the program "tilted", the rest */

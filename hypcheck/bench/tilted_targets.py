@@ -1,0 +1,136 @@
+"""Targets of the kernel for spheroids that lean: against the upright kernel, and against numpy.linalg.eigh.
+
+The rows are those of the other targets, about the paper's tower, with axes in all directions. All is measured as one
+calls it from Python, with one thread.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+import hypcheck
+from hypcheck.bench.compiled_targets import SEED, TOWER_SIZES, touching_columns, uniform_columns
+from hypcheck.bench.timing import (
+    KernelTarget,
+    TimingEntry,
+    measured_samples,
+    rate_text,
+    thread_clocked,
+    times_as_fast,
+)
+from hypcheck.geometry.rows import Floats, Positions, Rows, tilted_rows
+from hypcheck.record.measurements import KernelLine
+
+MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
+AXIS = (0.3, 0.1, 0.9)
+
+ONE_AXIS = KernelTarget(
+    "one orientation", "classify_scene with an axis, of the speed of the upright one; 1e7 rows", 0.5
+)
+ONE_AXIS_CACHED = KernelTarget("one orientation, in cache", "the same; 1e5 rows", 0.5)
+UPRIGHT = KernelTarget(
+    "axis along z",
+    "classify of rows (n, 10) with the axis 0, 0, 1, of the speed per byte of rows (n, 7); 1e5 rows",
+    0.9,
+)
+EIGH = KernelTarget(
+    "numpy.linalg.eigh",
+    "classify of rows (n, 10) with an axis each, against the dual function in numpy; 1e5 rows",
+    30.0,
+)
+TOUCHING = KernelTarget(
+    "near contact, leaning", "a leaning row within 1e-15 of contact, to an upright one", 8.0, at_most=True
+)
+
+_TURNS = 30
+
+
+def with_eigh(rows: Rows) -> Positions:
+    """Positions of rows (n, 10) as one writes them in numpy: eigenbasis, and the dual function's greatest value.
+
+    By bisection for its slope, which is safe from any start. Uncertified: near contact it is sometimes wrong.
+    """
+    alpha, gamma, b, d = rows[:, :4].T
+    axis = rows[:, 7:] / np.linalg.norm(rows[:, 7:], axis=1, keepdims=True)
+    along = axis[:, :, None] * axis[:, None, :]
+    root = b[:, None, None] * np.eye(3) + (d - b)[:, None, None] * along  # M^(-1/2)
+    diagonal = np.column_stack([alpha**-2, alpha**-2, -(gamma**-2)])
+    values, vectors = np.linalg.eigh(root @ (diagonal[:, :, None] * root))
+    inverse = np.eye(3) / b[:, None, None] + (1 / d - 1 / b)[:, None, None] * along
+    squares = np.einsum("nij,nj->ni", np.swapaxes(vectors, 1, 2) @ inverse, rows[:, 4:7]) ** 2
+    poles = 1 / values  # −B, then A1 and A2 with the nearer one last
+    low, high = -poles[:, 2], -poles[:, 0]
+    for _ in range(_TURNS):
+        middle = (low + high) / 2
+        rising = (poles * squares / (poles + middle[:, None]) ** 2).sum(axis=1) > 1
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    at = (low + high) / 2
+    phi = at * (squares / (poles + at[:, None])).sum(axis=1) - 1 - at
+    return np.where(phi > 0, np.sign(at), 0).astype(np.int8)
+
+
+def axes(count: int) -> Floats:
+    """Axes in all directions, (n, 3)."""
+    return np.random.Generator(np.random.PCG64(SEED)).normal(size=(count, 3))
+
+
+def touching_rows(count: int) -> Rows:
+    """Rows of the tower's body leaning in all directions, within about 1e-15 radii of contact: (n, 10)."""
+    random = np.random.Generator(np.random.PCG64(SEED))
+    alpha, gamma, b, d = TOWER_SIZES
+    turn, height = 2 * np.pi * random.random(count), (2 * random.random(count) - 1) * gamma
+    radius = alpha * np.sqrt(1 + (height / gamma) ** 2)
+    point = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
+    normal = point * [alpha**-2, alpha**-2, -(gamma**-2)]
+    axis = axes(count)
+    along = (axis * normal).sum(axis=1, keepdims=True) / (axis * axis).sum(axis=1, keepdims=True) * axis
+    way = b * b * (normal - along) + d * d * along
+    side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
+    centre = point + (side / np.sqrt((way * normal).sum(axis=1)))[:, None] * way
+    return tilted_rows(TOWER_SIZES, (centre[:, 0], centre[:, 1], centre[:, 2]), (*axis.T,))
+
+
+def one_orientation(rounds: int) -> Iterator[KernelLine]:
+    """A scene with an axis beside the same one without."""
+    for target, count, more in ((ONE_AXIS, MANY, 1), (ONE_AXIS_CACHED, CACHED, 3)):
+        ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
+        entries = [
+            TimingEntry("upright", count, thread_clocked(ask)),
+            TimingEntry("leaning", count, thread_clocked(partial(ask, axis=AXIS))),
+        ]
+        found = measured_samples(entries, more * rounds)
+        says = f"{rate_text(found['leaning'])}; upright: {rate_text(found['upright'])}"
+        yield target.line(times_as_fast(found["leaning"], found["upright"]), says)
+
+
+def axis_along_z(rounds: int) -> Iterator[KernelLine]:
+    """Rows of ten that are upright beside the same rows of seven."""
+    ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
+    seven = np.ascontiguousarray(ten[:, :7])
+    entries = [
+        TimingEntry(name, CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1)))
+        for name, rows in (("seven", seven), ("ten", ten))
+    ]
+    found = measured_samples(entries, 3 * rounds)
+    ratios = [each * ten.shape[1] / seven.shape[1] for each in times_as_fast(found["ten"], found["seven"])]
+    yield UPRIGHT.line(ratios, f"{rate_text(found['ten'])}; rows of seven: {rate_text(found['seven'])}")
+
+
+def an_axis_each(rounds: int) -> Iterator[KernelLine]:
+    """Rows with an axis each, beside numpy; and rows near contact, beside upright ones."""
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (*axes(CACHED).T,))
+    upright = partial(hypcheck.classify_scene, TOWER_SIZES, *touching_columns(WORST), threads=1)
+    entries = [
+        TimingEntry("rows", CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1))),
+        TimingEntry("eigh", FEW, thread_clocked(partial(with_eigh, rows[:FEW]))),
+        TimingEntry("touching", WORST, thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))),
+        TimingEntry("upright", WORST, thread_clocked(upright)),
+    ]
+    found = measured_samples(entries, rounds)
+    says = f"{rate_text(found['rows'])}; numpy: {rate_text(found['eigh'])}"
+    yield EIGH.line(times_as_fast(found["rows"], found["eigh"]), says)
+    says = f"{rate_text(found['touching'])}; upright: {rate_text(found['upright'])}"
+    yield TOUCHING.line(times_as_fast(found["upright"], found["touching"]), says)
