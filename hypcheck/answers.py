@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import Rows, require_valid
 from hypcheck.processes import in_order, usable_processors
-from hypcheck.tables.chunk import TableAnswers, TableChunk, UnreadChunk
+from hypcheck.tables.chunk import Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
@@ -108,15 +108,18 @@ def classify_table(
             writing(route.target) as writer,
             _WRITE[route.target_format](writer, table) as sink,
             watch(reader.size()) as advance,
-            closing(
-                in_order(partial(_answer_chunk, sink.render), table.chunks, workers, CHUNKS_WITHOUT_WORKERS)
-            ) as rendered,
+            closing(in_order(partial(_answer_chunk, sink.render), table.chunks, workers, _alone(table))) as rendered,
         ):
             noted = 0
             for data, rows in rendered:
                 sink.add(data)
                 advance(reader.taken - noted, rows)
                 noted = reader.taken
+
+
+def _alone(table: Table) -> int:
+    """Chunks that this process answers before it starts others: to a row that may lean, a process is soon worth it."""
+    return CHUNKS_WITHOUT_WORKERS if table.columns == COLUMNS else 1
 
 
 def _answer_chunk(render: Callable[[TableChunk, TableAnswers], bytes], unread: UnreadChunk) -> tuple[bytes, int]:

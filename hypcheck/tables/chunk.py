@@ -100,7 +100,11 @@ UnreadChunk: TypeAlias = Callable[[], TableChunk]
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table to be read: its chunks, for CSV its header and the end of its lines, and for an array its columns."""
+    """A table to be read.
+
+    header, line_end: of CSV, as it was written.
+    columns: the seven or ten that are read; of JSON lines, which may have either, seven.
+    """
 
     chunks: Iterator[UnreadChunk]
     header: str | None = None

@@ -114,8 +114,9 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
     check_names(names, where)
     text = records.text
     line_end = "\r\n" if text.endswith("\r\n") else "\n"
-    chunks = _chunks(records, len(names), [names.index(column) for column in columns_of(names)], mark=mark)
-    return Table(chunks, records.byte_order_mark + text.rstrip("\r\n"), line_end)
+    columns = columns_of(names)
+    chunks = _chunks(records, len(names), [names.index(column) for column in columns], mark=mark)
+    return Table(chunks, records.byte_order_mark + text.rstrip("\r\n"), line_end, columns)
 
 
 @contextmanager
