@@ -58,7 +58,7 @@ class WorkloadTruth:
     workload: Workload
     rows: Rows
     positions: Positions
-    octaves: Floats
+    exponents: Floats
 
 
 @dataclass(frozen=True)
@@ -87,23 +87,18 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, plan.amounts.judged)
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
-        octaves = np.empty(len(rows))
-        for (start, piece), found in perform(_octaves, pieces, executor):
-            octaves[start : start + len(piece)] = found
-        yield WorkloadTruth(workload, rows, float_filter.positions(rows), octaves)
+        exponents = np.empty(len(rows))
+        for (start, piece), found in perform(_exponents, pieces, executor):
+            exponents[start : start + len(piece)] = found
+        yield WorkloadTruth(workload, rows, float_filter.positions(rows), exponents)
 
 
-def _octaves(piece: tuple[int, Rows]) -> Floats:
+def _exponents(piece: tuple[int, Rows]) -> Floats:
     return judge.flip_exponents(piece[1])
 
 
-def method_answers(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[MethodAnswers]]:
-    """The answers of each method, as they arrive."""
-    for _, answered in perform(_ask, [(plan, name) for name in names], executor):
-        yield answered
-
-
-def _ask(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
+def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
+    """The answers of the method with that name, to each workload of the plan."""
     plan, name = task
     contender = contenders(plan)[name]
     with closing(contender.load()) as way:
@@ -154,7 +149,7 @@ def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTru
     """The record's line about one method and one workload; `given` holds at least one answer."""
     places, criterion = given.places, Criterion(contender.question, contender.precision)
     scored = score(truth.rows[places], truth.positions[places], Answered.of(given.answers), criterion)
-    octaves, mistakes = truth.octaves[places], scored.mistakes
+    exponents, mistakes = truth.exponents[places], scored.mistakes
     return AccuracyLine(
         method=contender.name,
         workload=given.workload,
@@ -170,38 +165,38 @@ def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTru
                 sum(counts.values()),
                 counts.get("wrong", 0),
             )
-            for exponent, counts in by_exponent(octaves, scored.status).items()
+            for exponent, counts in by_exponent(exponents, scored.status).items()
         ],
-        reliable_above=Unsigned(reliable_above(octaves, scored.status != STATUS_CODES[Status.RIGHT])),
-        worst=_worst(scored, octaves, given),
+        reliable_above=Unsigned(reliable_above(exponents, scored.status != STATUS_CODES[Status.RIGHT])),
+        worst=_worst(scored, exponents, given),
     )
 
 
-def reliable_above(octaves: Floats, wrong: NDArray[np.bool_]) -> float:
+def reliable_above(exponents: Floats, wrong: NDArray[np.bool_]) -> float:
     """The least 2^k with at most TOLERABLE wrong rows at a distance of at least 2^(k + j), for all j ≥ 0.
 
     Missing answers count as wrong: otherwise a method that never answers would be reliable. The result is 0 if nothing
     is wrong, NEAREST if only exact tangencies are wrong, and inf if even the farthest rows are wrong too often or do
     not exist.
     """
-    edges = np.unique(octaves[np.isfinite(octaves)])
+    edges = np.unique(exponents[np.isfinite(exponents)])
     if not wrong.any():
         return 0.0
     if not len(edges):
         return math.inf
-    if not wrong[np.isfinite(octaves)].any():
+    if not wrong[np.isfinite(exponents)].any():
         return NEAREST
-    numbers = np.array([np.count_nonzero(octaves >= edge) for edge in edges])
-    errors = np.array([np.count_nonzero(wrong & (octaves >= edge)) for edge in edges])
+    numbers = np.array([np.count_nonzero(exponents >= edge) for edge in edges])
+    errors = np.array([np.count_nonzero(wrong & (exponents >= edge)) for edge in edges])
     failing = np.flatnonzero(errors > TOLERABLE * numbers)
     if not len(failing):
         return float(2.0 ** edges[0])
     return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
-def _worst(scored: Score, octaves: Floats, given: MethodAnswers) -> list[Mistaken]:
+def _worst(scored: Score, exponents: Floats, given: MethodAnswers) -> list[Mistaken]:
     """The worst wrong answers, of rows with the greatest distance to another position."""
-    tried = scored.wrong[np.argsort(-octaves[scored.wrong], kind="stable")][:_WORST_TRIED].tolist()
+    tried = scored.wrong[np.argsort(-exponents[scored.wrong], kind="stable")][:_WORST_TRIED].tolist()
     cases = [
         Mistaken(
             case=f"{given.workload}/{int(given.places[index])}",

@@ -137,7 +137,7 @@ class InScalars:
     def single(self, rows: Rows) -> PreparedWork:
         """A call for each row, whose numbers are Python floats already."""
         queries = list(map(tuple, rows.tolist()))
-        return _prepared(len(queries), lambda: _of_each(self.function, queries))
+        return _prepared(len(queries), lambda: np.array([self.function(*query) for query in queries], dtype=np.int8))
 
     def build(self, rows: Rows) -> None:
         """Nothing is built."""
@@ -148,10 +148,6 @@ class InScalars:
 
     def close(self) -> None:
         """Nothing is held."""
-
-
-def _of_each(function: Callable[..., int], queries: list[tuple[float, ...]]) -> Answers:
-    return np.array([function(*query) for query in queries], dtype=np.int8)
 
 
 def _none_of(*_numbers: float) -> int:

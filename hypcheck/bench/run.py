@@ -16,7 +16,7 @@ from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
 from hypcheck.bench.plan import BenchPlan, scene_of
 from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
 from hypcheck.implementations.meshes import FCL
-from hypcheck.processes import Advance, Stage, processes, usable_processors
+from hypcheck.processes import Advance, Stage, perform, processes, usable_processors
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.measurements import (
     AbsentLine,
@@ -154,7 +154,8 @@ def _judge(run: _Run, advance: Advance) -> None:
             truths[truth.workload.name] = truth
             advance(1)
         slowest_first = sorted(run.found, key=lambda name: run.found[name].timed or math.inf)  # they take longest
-        for answered in accuracy.method_answers(run.plan, slowest_first, executor):
+        tasks = [(run.plan, name) for name in slowest_first]
+        for _, answered in perform(accuracy.method_answers, tasks, executor):
             run.answers += answered
             advance(1)
     methods, workloads = list(run.found), list(truths)

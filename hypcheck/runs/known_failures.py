@@ -10,6 +10,7 @@ An entry that no longer excuses a case fails the run too.
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
@@ -23,6 +24,7 @@ from hypcheck.record import Record
 from hypcheck.record.lines import GroupLine
 from hypcheck.tables.streams import writing
 
+_LARGEST = sys.float_info.max
 _KEYS = ("case", "family", "max_u", "reason")
 
 
@@ -72,13 +74,9 @@ def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOM
     if not isinstance(reason, str) or not reason.strip():
         raise InputError(f"{where} has no reason; each entry must say why it is known")
     max_u = item.get("max_u", float("inf"))
-    if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not 0 <= max_u or _overflows(max_u):
+    if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not 0 <= max_u or _LARGEST < max_u < math.inf:
         raise InputError(f"{where} has max_u = {max_u!r}; it must be a number of units u, 0 or more")
     return KnownFailure(case, family, float(max_u), reason)
-
-
-def _overflows(number: float) -> bool:
-    return isinstance(number, int) and number > sys.float_info.max
 
 
 def render(entries: Iterable[KnownFailure]) -> str:

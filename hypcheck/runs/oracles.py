@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck import processes
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
@@ -264,14 +262,6 @@ def _unless_rule_differs(row: list[float], opinion: Opinion) -> Opinion:
     if opinion.position == rule:
         return opinion
     return Opinion(opinion.position, opinion.tangent, opinion.kind, f"coefficient rule says {Position(rule).label}")
-
-
-def perform_tasks(
-    todo: Sequence[OracleTask], executor: Executor | None
-) -> Iterator[tuple[OracleTask, list[Opinion], float]]:
-    """Each task with its opinions and seconds, as they finish; without an executor in this process and in order."""
-    for task, (opinions, seconds) in processes.perform(ask_oracle, todo, executor):
-        yield task, opinions, seconds
 
 
 def compare_with_exact(task: OracleTask, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> OracleTally:

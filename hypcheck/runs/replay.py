@@ -201,7 +201,8 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     judgement = _judged(implementation, rows, truth, criterion)
     choice = None
     if isinstance(truth.pair, Pair):
-        subject = AskedImplementation(implementation.spec, declared, used, _usable(judgement.answer))
+        answered = None if judgement.answer == CANNOT_SAY else judgement.answer
+        subject = AskedImplementation(implementation.spec, declared, used, answered)
         choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
         raise InputError(
@@ -238,10 +239,6 @@ def _tilted_truth_of(pair: TiltedPair) -> ProvedTruth:
 
 def _others(position: Position) -> Iterator[Position]:
     return (other for other in Position if other is not position)
-
-
-def _usable(answer: int | None) -> int | None:
-    return None if answer == CANNOT_SAY else answer
 
 
 def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, criterion: Criterion) -> ReplayJudgement:

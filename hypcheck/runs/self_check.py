@@ -21,7 +21,7 @@ from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
 from hypcheck.implementations.meshes import point_mesh
 from hypcheck.implementations.method import Answers, Method
-from hypcheck.processes import Advance, Stage, processes
+from hypcheck.processes import Advance, Stage, perform, processes
 from hypcheck.record import Recorder, lines
 from hypcheck.record.lines import TimingLine
 from hypcheck.runs import findings, judge, oracles
@@ -179,7 +179,7 @@ class _SelfCheck:
     ) -> None:
         tallies: list[OracleTally] = []
         with processes(self.plan.workers) as executor:
-            for task, opinions, seconds in oracles.perform_tasks(tasks, executor):
+            for task, (opinions, seconds) in perform(oracles.ask_oracle, tasks, executor):
                 tallies.append(oracles.compare_with_exact(task, opinions, asked[task.batch], seconds))
                 advance(1)
         for tally in oracles.merged_tallies(tallies):

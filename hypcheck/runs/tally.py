@@ -32,15 +32,11 @@ _LEAST, _GREATEST = 2.0**-1000, 2.0**1000
 _DENSE = 1 << 16
 
 
-def _nothing() -> Integers:
-    return np.empty((0, 4), dtype=np.int64)
-
-
 @dataclass(frozen=True, eq=False)
 class Histogram:
     """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these are not RIGHT."""
 
-    table: Integers = field(default_factory=_nothing)
+    table: Integers = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Histogram) and np.array_equal(self.table, other.table)

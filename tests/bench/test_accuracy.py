@@ -60,11 +60,11 @@ def test_wrong_answer_is_counted_by_its_exponent_with_its_distance(contender, tr
     answers[place] = 0
     found = accuracy_line(contender, answered(truth, answers), truth)
     assert (found.wrong, found.false_contact, found.false_clear, found.wrong_side) == (1, 1, 0, 0)
-    assert [octave for octave, _, wrong in found.octaves if wrong] == [int(truth.octaves[place])]
+    assert [octave for octave, _, wrong in found.octaves if wrong] == [int(truth.exponents[place])]
     (worst,) = found.worst
     assert [float.fromhex(value) for value in worst.row] == truth.rows[place].tolist()
     assert (worst.truth, worst.answer, worst.case) == (1, 0, f"near-contact/{place}")
-    assert 2.0 ** truth.octaves[place] <= worst.flip_distance <= 2.0 ** (truth.octaves[place] + 1)
+    assert 2.0 ** truth.exponents[place] <= worst.flip_distance <= 2.0 ** (truth.exponents[place] + 1)
 
 
 def test_yes_no_question_is_judged_as_such(contender, truth):
