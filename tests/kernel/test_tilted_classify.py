@@ -15,6 +15,7 @@ from hypcheck.kernel.classify import kernel
 from hypcheck.kernel.scalar import exact_position
 from hypcheck.scene.model import QUESTIONS
 from hypcheck.truth.tilted.batch import positions
+from hypcheck.vectors import frozen
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
 
 KERNELS = [numpy_kernel, kernel()] if choice().kernel == "compiled" else [numpy_kernel]
@@ -59,6 +60,24 @@ def test_rows_of_ten_are_answered_exactly_by_every_kernel(each, question, rows, 
     yes = {"position": truth, "exterior": truth == 1, "interior": truth == -1, "contact": truth == 0}
     found, refused = each.answer_rows(rows, question)
     assert (found.tolist(), refused) == (yes[question].astype(int).tolist(), 0)
+
+
+@pytest.mark.parametrize("name", frozen.TILTED_NAMES)
+def test_frozen_vectors_are_answered_as_they_are_labelled_by_every_kernel(name):
+    vectors = frozen.frozen_rows(name)
+    for each in KERNELS:
+        assert (
+            each.answer_rows(np.ascontiguousarray(vectors.rows), "position")[0].tolist() == vectors.positions.tolist()
+        )
+
+
+@pytest.mark.parametrize("each", KERNELS)
+def test_frozen_rows_that_must_be_refused_are_127(each):
+    rows = frozen.rows_from_bits([case.bits for case in frozen.load_invalid_rows(frozen.TILTED_INVALID_NAME).cases])
+    assert rows.shape[1] == 10
+    found, refused = each.answer_rows(rows, "position")
+    assert set(found.tolist()) == {127}
+    assert refused == len(rows) > 100
 
 
 def test_one_pair_with_an_axis_is_answered_as_its_row(rows, truth):

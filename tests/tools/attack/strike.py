@@ -11,6 +11,7 @@ import numpy as np
 from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.truth import float_filter
 from hypcheck.truth.tilted.batch import positions as tilted_positions
+from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.places import Scene
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
@@ -72,6 +73,8 @@ def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
 
 def _tilted_places(random: np.random.Generator, share: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
     """Fewer rows with an axis: each is decided alone, in some 0.1 ms."""
+    for family in TILTED_FAMILIES.values():
+        yield "tilted families", family.rows(1, share // (200 if family.extreme else 20))
     for name, make in (
         ("tilted near", tilted_places.near_contact),
         ("tilted pole", tilted_places.at_a_pole),
