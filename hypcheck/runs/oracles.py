@@ -1,8 +1,8 @@
 """The four oracles behind one interface, and the cross-check that compares each with the exact decision.
 
 An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
-repaired coefficient rule in exact rationals. Rows of ten numbers go to the oracles for tilted spheroids, of which there
-are three; these are asked about frozen vectors, whose positions are proved.
+repaired coefficient rule in exact rationals. Rows of ten numbers go to the oracles for tilted spheroids; these are
+asked about frozen vectors, whose positions are proved.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, pro
 from hypcheck.truth.mesh_meridian import MeshOutcome
 from hypcheck.truth.tilted import certificate as tilted_certificate
 from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted import mesh as tilted_mesh
 from hypcheck.truth.tilted import nearest as tilted_nearest
 from hypcheck.truth.tilted import prove as tilted_prove
 from hypcheck.truth.tilted import roots as tilted_roots
@@ -50,13 +51,13 @@ class Opinion:
 class Oracle:
     """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None.
 
-    `ask_tilted` maps rows (n, 10) to n opinions, where the oracle knows tilted spheroids.
+    `ask_tilted` maps rows (n, 10) of tilted spheroids to n opinions.
     """
 
     name: str
     title: str
     ask: Callable[[Rows], Sequence[Opinion]]
-    ask_tilted: Callable[[Rows], Sequence[Opinion]] | None = None
+    ask_tilted: Callable[[Rows], Sequence[Opinion]]
     available: Callable[[], str | None] = lambda: None
 
 
@@ -141,6 +142,12 @@ def ask_roots_tilted(rows: Rows) -> list[Opinion]:
     return [Opinion(report.position, report.tangent, None, "root pattern") for report in reports]
 
 
+def ask_mesh_tilted(rows: Rows) -> list[Opinion]:
+    """FCL's distance to meshes of lines of the hyperboloid, the spheroid being the unit ball; undecided in its band."""
+    found = [tilted_mesh.position(TiltedPair.from_row(row)) for row in rows.tolist()]
+    return [Opinion(each, stage="undecided" if each is None else "clear" if each else "contact") for each in found]
+
+
 ORACLES = {
     oracle.name: oracle
     for oracle in (
@@ -152,7 +159,7 @@ ORACLES = {
             ask_roots,
             ask_roots_tilted,
         ),
-        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, available=mesh.availability),
+        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, ask_mesh_tilted, mesh.availability),
     )
 }
 
@@ -237,7 +244,6 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[Orac
         OracleTask(oracle, place, start, batch.rows[start : min(start + CHUNK, shares[oracle])])
         for oracle in order
         for place, batch in enumerate(all_batches)
-        if isinstance(batch, FamilyBatch) or ORACLES[oracle].ask_tilted is not None
         for start in range(0, min(len(batch.rows), shares[oracle]), CHUNK)
     ]
 
@@ -245,8 +251,8 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[Orac
 def ask_oracle(task: OracleTask) -> tuple[list[Opinion], float]:
     """The oracle's opinions about a task's rows, and the seconds they took."""
     started = time.perf_counter()
-    oracle, tilted = ORACLES[task.oracle], task.rows.shape[1] > len(COLUMNS)
-    if tilted and oracle.ask_tilted is not None:
+    oracle = ORACLES[task.oracle]
+    if task.rows.shape[1] > len(COLUMNS):
         return list(oracle.ask_tilted(task.rows)), time.perf_counter() - started
     opinions = list(oracle.ask(task.rows))
     if task.oracle == "roots":
