@@ -235,7 +235,7 @@ class BuiltinSession:
             time=True,
         )
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - the runner asks who offers it
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - it has no entry for scenes
         """The method's answers."""
         return self.method.answer(rows)
 

@@ -1,8 +1,4 @@
-"""The protocol of commands: lines on standard input and output, rows in text or binary, and what is wrong with a reply.
-
-Replies of a command: when one is complete, what it says, and what is wrong with it.
-
-The protocol of commands: lines on standard input and output, rows in text or binary.
+"""The protocol of commands: lines on standard input and output, rows in text or binary, and the errors of a reply.
 
 ← {"protocol":1,"name":"…", …}     the first line, unprompted
 → classify SEQ N text              then N lines of seven decimals
@@ -243,7 +239,7 @@ class CommandSession:
         del incoming[: end + 1]
         return line
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - the runner asks who offers it
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - it has no entry for scenes
         """An integer for each row."""
         n = len(rows)
         self._sequence += 1
