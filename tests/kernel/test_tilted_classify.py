@@ -25,9 +25,10 @@ AXES = (
     (1.0, 0.0, 0.0),
     (5e-324, -1e-323, 1.5e-323),
     (1e300, 1.7e308, -1e300),
-    (1e-300, 1e300, 1.0),
+    (1e300, 1.0, 1e20),
     (1e-20, 0.0, 1.0),
 )
+MIXED = (1e-300, 1e300, 1.0)  # which floats have no room for
 
 
 @pytest.fixture(scope="module")
@@ -117,6 +118,13 @@ def test_scene_with_one_axis_is_answered_exactly(each, axis, centres):
         for columns, count in ((centres, 1), (many, 4)):
             found, refused = each.answer_scene(SIZES, tuple(columns), question, None, axis)
             assert (found.tolist(), refused) == (np.tile(wanted, count).astype(int).tolist(), 0)
+
+
+@pytest.mark.parametrize("each", KERNELS)
+def test_scene_whose_axis_has_numbers_of_all_magnitudes_is_answered_exactly(each, centres):
+    some = centres[:, :25]
+    found, refused = each.answer_scene(SIZES, tuple(some), "position", None, MIXED)
+    assert (found.tolist(), refused) == (positions(scene_rows(MIXED, some)).tolist(), 0)
 
 
 def test_axis_may_be_one_or_one_for_each_centre(centres):
