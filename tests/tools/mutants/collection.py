@@ -24,9 +24,10 @@ MODULES = (
     "memory",
     "refusals",
     "extremes",
+    "tilted",
     "correct",
 )
-"""Small modules, each with one kind of mistake; the last with none."""
+"""Small modules, each with one kind of mistake; the last with none. In tilted there are right ones too."""
 
 
 @dataclass(frozen=True, slots=True)

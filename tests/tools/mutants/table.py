@@ -7,6 +7,7 @@ from itertools import groupby
 
 from hypcheck.report.markdown import code_span, escape_text, paragraph_lines, table_lines
 from hypcheck.vectors import frozen
+from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.tools.mutants.collection import Mutant, imported, sentence
 from tests.tools.mutants.gating import Result
 
@@ -99,7 +100,7 @@ def _tally(results: Sequence[Result]) -> str:
 
 
 def _families() -> list[str]:
-    return [*frozen.NAMES, frozen.INVALID_NAME]
+    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, frozen.INVALID_NAME))]
 
 
 def _by_family(wrong: Sequence[Result]) -> list[str]:

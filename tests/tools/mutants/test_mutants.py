@@ -9,16 +9,18 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from hypcheck.geometry.rows import with_axis
 from hypcheck.kernel import numpy_kernel
-from hypcheck.vectors.families import select
-from tests.tools.mutants import __main__, exactly, table
+from hypcheck.runs.judge import exact_positions
+from hypcheck.vectors.families import TILTED_FAMILIES, select
+from tests.tools.mutants import __main__, dual, exactly, table
 from tests.tools.mutants.collection import MODULES, Mutant, imported, mutants, public_functions, sentence
 from tests.tools.mutants.expectation import Expectation, expectation_of
 from tests.tools.mutants.gating import Result, Ruling, gate
 
 HERE = Path(__file__).parent
 PAGE = HERE / "README.md"
-MACHINERY = {"__init__", "__main__", "collection", "exactly", "expectation", "gating", "table", "test_mutants"}
+MACHINERY = {"__init__", "__main__", "collection", "dual", "exactly", "expectation", "gating", "table", "test_mutants"}
 BY_NAME = {mutant.name: mutant for mutant in mutants()}
 
 SAMPLE = {
@@ -38,6 +40,8 @@ SAMPLE = {
     "memory.question_before": "flight,tower-body",
     "batches.rounds_at_random": "tangent",
     "refusals.forgets_nan": "axis",
+    "tilted.transposed_rotation": "tilted-uniform",
+    "tilted.kernel": "tilted-uniform,uniform",
     "correct.whole_numbers": "ring,tangent,waist,osculation",
     "correct.dual_form_in_float32": "ring,tangent,tiny-spheroids",
     "correct.procedure_1_mended": "ring,regime-borders",
@@ -58,6 +62,12 @@ def test_correct_base_of_the_mutants_is_right():
     for family in select(["*", "extreme"]):
         rows = family.rows(3, 60)
         assert exactly.position(rows).tolist() == numpy_kernel.positions(rows).tolist(), family.name
+
+
+def test_what_the_mutants_of_matrices_are_made_of_is_right_away_from_contact():
+    for name in ("tilted-uniform", "tilted-tower"):
+        rows = TILTED_FAMILIES[name].rows(3, 60)
+        assert (dual.dual_positions(rows, lambda M: M) == exact_positions(rows)).mean() > 0.95, name
 
 
 def test_every_module_of_the_folder_is_in_the_collection():
@@ -83,7 +93,8 @@ def test_mutants_are_enough_and_have_different_names():
 def test_every_answer_has_the_length_of_the_question():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
     for name, mutant in BY_NAME.items():
-        answers = getattr(imported(mutant.module), mutant.function)(row.copy())
+        asked = with_axis(row) if mutant.module == "tilted" else row.copy()
+        answers = getattr(imported(mutant.module), mutant.function)(asked)
         assert np.asarray(answers).shape == (1,), name
 
 
