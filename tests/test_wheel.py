@@ -206,7 +206,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
     "verify-spec": [
         (f"{GATED} --out run", 0, "HELD"),
         ("report run", 0, "HELD"),
-        ("record check run", 0, "it is whole"),
+        ("record check run", 0, "it is complete"),
         ("replay tower-body/1/1/0 builtin:fast", 0, "the answer of "),
     ],
     "bench": [(f"{COMPARED} --out quick", 0, "HELD")],
