@@ -28,7 +28,7 @@ from hypcheck.truth.tilted import backward_error
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.tilted_fractions import exact_position
 
-pytestmark = pytest.mark.usefixtures("text_reports")
+pytestmark = [pytest.mark.usefixtures("text_reports"), pytest.mark.slow]
 
 LEANING = "tilted-uniform"
 BESIDE = (2.0, 5.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 0.0, 1.0)

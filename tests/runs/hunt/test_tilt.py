@@ -22,6 +22,7 @@ UPRIGHT = "python:tests.runs.leaning:upright"
 ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)
 
 
+@pytest.mark.slow
 def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_with_the_axis(capsys, tmp_path):
     out = tmp_path / "kept.json"
     assert main(["hunt", UPRIGHT, "--queries", "160", "--show", "1", "--out", str(out)]) == 1
@@ -48,6 +49,7 @@ def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_va
     assert len(np.unique(around.rows[around.owners == 0][:, 7:], axis=0)) > 4
 
 
+@pytest.mark.slow
 def test_the_simplest_row_that_fails_alike_is_about_a_tilted_spheroid_and_short(capsys):
     assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5"]) == 0
     said = capsys.readouterr().out
