@@ -71,7 +71,7 @@ class WorkerSession:
         if what != frames.READY:
             raise StartError(_text(body))
         first, _, described = bytes(body).partition(b"\n")
-        entries = first.decode().split()
+        entries = first.decode("utf-8", "replace").split()  # foreign code may have written into the pipe
         name = os.path.basename(spec.words[0]) + "".join(f":{word}" for word in spec.words[1:])
         defaults = Description(name=name, language=_LANGUAGES[spec.kind], binary=True, time=True)
         try:

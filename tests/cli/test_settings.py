@@ -282,7 +282,7 @@ def test_verify_without_a_settings_file_uses_the_defaults(tmp_path, monkeypatch)
         ("restarts = -1", "it must be a whole number, at least 0"),
         ("count = 1\ncount = 2", "is no TOML"),
         ("count", "is no TOML"),
-        ("a = " + "[" * 100_000, "is no TOML"),
+        ("a = " + "[" * 100_000, "cannot be read as TOML: it is nested too deeply"),
     ],
 )
 def test_an_invalid_setting_is_refused_naming_line_and_key(project, capsys, text, message):
