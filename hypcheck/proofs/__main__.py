@@ -31,7 +31,7 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int | None) -> None:
         _prove(names)
         _refuse([change for change in WEAKENED if change.file in names][:count])
         build.build_checker()
-        sys.exit(build.run_checker(sorted(map(str, build.FROZEN.glob("*.json")))))
+        sys.exit(build.run_checker(build.upright_files()))
     except HypcheckError as error:
         click.echo(f"proofs: error: {error}", err=True)
         sys.exit(error.exit_code)
