@@ -24,6 +24,13 @@ AXIS = ("axis_x", "axis_y", "axis_z")
 TILTED_COLUMNS = COLUMNS + AXIS
 """The names of the ten numbers of a tilted spheroid beside a hyperboloid."""
 
+START, END = ("x0", "y0", "z0"), ("x1", "y1", "z1")
+WAY_COLUMNS = SIZES + START + END
+"""The names of the ten numbers of a straight way: the spheroid's centre goes from (x0, y0, z0) to (x1, y1, z1)."""
+
+TILTED_WAY_COLUMNS = WAY_COLUMNS + AXIS
+"""Those of the way of a tilted spheroid, whose axis stays as it is on the way."""
+
 UPRIGHT = (0.0, 0.0, 1.0)
 """The axis of an upright spheroid, where rows have ten numbers."""
 
@@ -138,13 +145,16 @@ def trouble_with_axis(axis: Sequence[object]) -> str | None:
     return next((each for each in troubles if each), None if any(axis) else NO_DIRECTION)
 
 
-def trouble_with_row(row: Sequence[object]) -> str | None:
-    """Why seven or ten values are no valid row: the first trouble, as the end of a sentence, or None."""
-    for name, value in zip(COLUMNS, row, strict=False):
+def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) -> str | None:
+    """Why values for these columns, with those of an axis behind or not, are no valid row: the first trouble, or None.
+
+    The trouble is the end of a sentence. By default the row is one of seven or ten numbers.
+    """
+    for name, value in zip(columns, row, strict=False):
         trouble = trouble_with(name, value)
         if trouble is not None:
             return trouble
-    return trouble_with_axis(row[len(COLUMNS) :]) if len(row) > len(COLUMNS) else None
+    return trouble_with_axis(row[len(columns) :]) if len(row) > len(columns) else None
 
 
 def to_integers(values: Sequence[float | Fraction]) -> tuple[int, ...]:

@@ -1,8 +1,9 @@
 """Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
 Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS, or (n, 10) of tilted spheroids,
-in the order of pair.TILTED_COLUMNS. First the types and the functions that make rows from what a caller passes, then
-the check of their values, then the ranges of ratios and of lengths on which an implementation is judged.
+in the order of pair.TILTED_COLUMNS. Rows about a way have (n, 10) or (n, 13): a Layout says what columns mean.
+First the types and the functions that make rows from what a caller passes, then the check of their values, then the
+ranges of ratios and of lengths on which an implementation is judged.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, TILTED_COLUMNS, UPRIGHT, Sizes, trouble_with_row
+from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS, UPRIGHT, WAY_COLUMNS, Sizes, trouble_with_row
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -33,22 +34,48 @@ Positions = NDArray[np.int8]
 Columns = tuple[Floats, Floats, Floats]
 """x, y, z of shape (n,), with any strides."""
 
-_NAMES = {len(names): ", ".join(names) for names in (COLUMNS, TILTED_COLUMNS)}
-
 CANNOT_SAY = 2
 """The answer code of a row that a method cannot decide."""
 
 
-def as_rows(values: ArrayLike, *, tilted: bool = False) -> Rows:
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind."""
+
+    upright: tuple[str, ...]
+
+    @property
+    def tilted(self) -> tuple[str, ...]:
+        """The names of the columns of tilted spheroids."""
+        return self.upright + AXIS
+
+    def columns(self, width: int) -> tuple[str, ...]:
+        """The names of the columns of a row with that many numbers."""
+        return self.upright if width == len(self.upright) else self.tilted
+
+    def lean(self, rows: Rows) -> bool:
+        """Whether the rows have the columns of an axis."""
+        return bool(rows.shape[1] == len(self.tilted))
+
+
+PAIRS = Layout(COLUMNS)
+"""One position of a spheroid: (n, 7), or (n, 10) with its axis."""
+
+WAYS = Layout(WAY_COLUMNS)
+"""The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
+
+
+def as_rows(values: ArrayLike, *, tilted: bool = False, layout: Layout = PAIRS) -> Rows:
     """`values` as a float64 array (n, 7), or where `tilted` also (n, 10); contiguous float64 input is not copied.
 
-    Raises InputError if the shape or the type is another, or if values are masked. It does not check the values.
+    With another layout, the widths are those of its columns. Raises InputError if the shape or the type is another, or
+    if values are masked. It does not check the values.
     """
-    widths = tuple(_NAMES) if tilted else (len(COLUMNS),)
-    wanted = ", or ".join(f"(n, {width}) of numbers: {_NAMES[width]}" for width in widths)
+    names = {len(each): ", ".join(each) for each in ((layout.upright, layout.tilted) if tilted else (layout.upright,))}
+    wanted = ", or ".join(f"(n, {width}) of numbers: {columns}" for width, columns in names.items())
     rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be an array {wanted}"))
-    if rows.ndim != 2 or rows.shape[1] not in widths:
-        shapes = ", or ".join(f"(n, {width}): {_NAMES[width]}" for width in widths)
+    if rows.ndim != 2 or rows.shape[1] not in names:
+        shapes = ", or ".join(f"(n, {width}): {columns}" for width, columns in names.items())
         raise InputError(f"the rows have shape {rows.shape}; it must be {shapes}")
     return rows
 
@@ -103,35 +130,35 @@ def require_unmasked(subject: str, values: object) -> None:
         raise InputError(f"{subject} masked in {counted(count, 'place')}; fill {these}, with nan or a number")
 
 
-def invalid(rows: Rows) -> Mask:
-    """A mask (n,) of the rows, (n, 7) or (n, 10), that are no valid query: see pair.Pair and tilted.pair.TiltedPair."""
+def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
+    """A mask (n,) of the rows that are no valid query: see pair.Pair and tilted.pair.TiltedPair."""
     valid = np.isfinite(rows).all(axis=1) & (rows[:, : len(SIZES)] > 0).all(axis=1)
-    if rows.shape[1] == len(TILTED_COLUMNS):
-        valid &= (rows[:, len(COLUMNS) :] != 0).any(axis=1)
+    if layout.lean(rows):
+        valid &= (rows[:, len(layout.upright) :] != 0).any(axis=1)
     return np.asarray(~valid)
 
 
-def with_axis(rows: Rows) -> Rows:
-    """The same queries in ten numbers, (n, 10): rows of seven get the axis 0, 0, 1, others are returned as they are."""
-    if rows.shape[1] == len(TILTED_COLUMNS):
+def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
+    """The same queries with an axis: rows without one get the axis 0, 0, 1, others are returned as they are."""
+    if layout.lean(rows):
         return rows
-    wide = np.empty((len(rows), len(TILTED_COLUMNS)))
-    wide[:, : len(COLUMNS)], wide[:, len(COLUMNS) :] = rows, UPRIGHT
+    wide = np.empty((len(rows), len(layout.tilted)))
+    wide[:, : len(layout.upright)], wide[:, len(layout.upright) :] = rows, UPRIGHT
     return wide
 
 
-def first_trouble(rows: Rows, first_number: int = 0) -> str | None:
+def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:
     """The sentence about the first invalid row, counted from `first_number`, or None where all rows are valid."""
-    bad = np.flatnonzero(invalid(rows))
+    bad = np.flatnonzero(invalid(rows, layout))
     if not len(bad):
         return None
     index = int(bad[0])
-    return f"row {first_number + index}: {trouble_with_row(rows[index].tolist())}"
+    return f"row {first_number + index}: {trouble_with_row(rows[index].tolist(), layout.upright)}"
 
 
-def require_valid(rows: Rows, first_number: int = 0) -> None:
+def require_valid(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> None:
     """Raise InputError about the first invalid row, if there is one."""
-    trouble = first_trouble(rows, first_number)
+    trouble = first_trouble(rows, first_number, layout)
     if trouble is not None:
         raise InputError(trouble)
 
@@ -145,7 +172,9 @@ ORDINARY_MAGNITUDE: Range = (1e-6, 1e6)
 UNBOUNDED: Range = (0.0, math.inf)
 
 
-def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE) -> Mask:
+def within(
+    rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE, layout: Layout = PAIRS
+) -> Mask:
     """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
     The least magnitude applies to semi-axes alone: a coordinate may be arbitrarily near to 0, since a centre close to
@@ -155,7 +184,8 @@ def within(rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINAR
     with np.errstate(over="ignore", under="ignore"):
         ratios = np.stack([alpha / b, gamma / d], axis=1)
     inside = ((ratios >= ratio[0]) & (ratios <= ratio[1])).all(axis=1)
-    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (np.abs(rows[:, : len(COLUMNS)]) <= magnitude[1]).all(axis=1)
+    lengths = np.abs(rows[:, : len(layout.upright)])
+    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (lengths <= magnitude[1]).all(axis=1)
     return np.asarray(inside)
 
 
@@ -173,10 +203,11 @@ class FixedSizes:
         """The spans in order."""
         return self.x, self.y, self.z
 
-    def holds(self, rows: Rows) -> Mask:
-        """A mask (n,) of the rows with these sizes and the centre in the spans."""
+    def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
+        """A mask (n,) of the rows with these sizes and the centre, on a way both its ends, in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
-        for column, span in zip(rows[:, len(SIZES) : len(COLUMNS)].T, self.spans, strict=True):
+        for place in range(len(SIZES), len(layout.upright)):
+            span = self.spans[(place - len(SIZES)) % len(self.spans)]
             if span is not None:
-                inside &= (column >= span[0]) & (column <= span[1])
+                inside &= (rows[:, place] >= span[0]) & (rows[:, place] <= span[1])
         return np.asarray(inside)

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import as_rows, first_trouble, invalid, require_valid
+from hypcheck.geometry.rows import WAYS, FixedSizes, as_rows, first_trouble, invalid, require_valid, with_axis, within
 
 GOOD = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0]
+WAY = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 0.0, 0.0, 4.0]
+AXIS = [3.0, 4.0, 12.0]
 
 
 @pytest.mark.parametrize(
@@ -59,3 +61,44 @@ def test_the_first_bad_row_is_named(column, value):
 
 def test_valid_rows_raise_no_error():
     assert first_trouble(np.array([GOOD])) is None
+
+
+def test_a_way_has_ten_numbers_or_thirteen_with_an_axis():
+    assert as_rows([WAY], layout=WAYS).shape == (1, 10)
+    assert as_rows([WAY + AXIS], layout=WAYS, tilted=True).shape == (1, 13)
+    with pytest.raises(
+        InputError, match=r"shape \(1, 13\); it must be \(n, 10\): alpha, gamma, b, d, x0, y0, z0, x1, y1, z1$"
+    ):
+        as_rows([WAY + AXIS], layout=WAYS)
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "trouble"),
+    [
+        (3, 0.0, "d is 0.0; a semi-axis must be greater than 0"),
+        (6, math.nan, "z0 is nan; it must be finite"),
+        (7, math.inf, "x1 is inf; it must be finite"),
+        (11, -math.inf, "axis_y is -inf; it must be finite"),
+    ],
+)
+def test_the_first_bad_number_of_a_way_is_named(place, value, trouble):
+    rows = np.array([WAY + AXIS, WAY + AXIS])
+    rows[1, place] = value
+    assert first_trouble(rows, layout=WAYS) == f"row 1: {trouble}"
+
+
+def test_a_way_may_end_at_the_origin_but_its_axis_must_have_a_direction():
+    assert not invalid(np.array([WAY[:7] + [0.0] * 3]), WAYS).any()
+    assert invalid(np.array([WAY + [0.0] * 3]), WAYS).all()
+
+
+def test_an_upright_way_gets_the_axis_0_0_1():
+    assert with_axis(np.array([WAY]), WAYS).tolist() == [[*WAY, 0.0, 0.0, 1.0]]
+
+
+def test_both_ends_of_a_way_must_lie_in_a_range_of_magnitudes_and_in_a_span_but_not_its_axis():
+    far = [*WAY[:8], 1e9, 4.0, 0.0, 1e20, 0.0]
+    near = [*WAY, 0.0, 1e20, 0.0]
+    assert within(np.array([near, far]), layout=WAYS).tolist() == [True, False]
+    setting = FixedSizes((1.0, 2.0, 1.0, 1.0), z=(0.0, 3.0))
+    assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), WAYS).tolist() == [False, True]
