@@ -78,7 +78,7 @@ def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
     """The statuses for which a group fails the run must be those of its counts, as far as these decide it."""
     must = {name for name in (*_UNANSWERED, Status.UNDECIDED.value) if line.counts.get(name)}
     may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
-    if plan.fail_on == "wrong" or line.family == frozen.INVALID_NAME:
+    if plan.fail_on == "wrong" or line.family in frozen.INVALID_METADATA:
         must = may
     failing = line.failing or []
     if not must <= set(failing) <= may:
@@ -119,7 +119,7 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
             if done[step.family] > counted[step.family]:  # not one step more than was done is made
                 break
         elif isinstance(step, InvalidRows):
-            done[frozen.INVALID_NAME] += len(frozen.load_invalid_rows().rows)
+            done[step.family] += len(step)
         else:
             waiting = [chunk for chunk in waiting if chunk.part != step.part]
     trouble = _difference(counted, done)
@@ -193,7 +193,7 @@ def _of_sums(family: str, sums: _Sums) -> str:
         return f"{family} has a status or a mistake that does not exist"
     off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
     asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
-    if family == frozen.INVALID_NAME:
+    if family in frozen.INVALID_METADATA:
         agree = not (sums.mistakes or sums.exponents or any(sums.bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
@@ -219,7 +219,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
         return trouble
     if tally.dangerous > min(counts[Status.WRONG.value], tally.mistakes.get(Mistake.FALSE_CLEAR.value, 0)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
-    faults = _UNANSWERED | ({Status.WRONG.value} if family == frozen.INVALID_NAME else set())
+    faults = _UNANSWERED | ({Status.WRONG.value} if family in frozen.INVALID_METADATA else set())
     kept = Counter(fault.status for fault in tally.unanswered)
     if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):
         return f"{family} lists cases without an answer that its counts do not have"

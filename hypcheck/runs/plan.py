@@ -15,7 +15,7 @@ from hypcheck.processes import usable_processors
 from hypcheck.runs.cases import CaseChunk, family_chunks, frozen_count, searched_chunks
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
-from hypcheck.runs.results import JudgingRules
+from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import families as fixed_sizes
 from hypcheck.vectors import frozen
@@ -106,9 +106,14 @@ def planned_cases(
         cases |= {chunk.family: len(chunk) for chunk in searched_chunks()}
         settings = domain.settings if domain is not None else ()
         cases |= {family.name: plan.count for family in fixed_sizes.families_for(settings)}
-    if refuses:
-        cases[frozen.INVALID_NAME] = len(frozen.load_invalid_rows().rows)
+    cases |= {each.family: len(each) for each in invalid_rows(refuses=refuses, tilt=tilt)}
     return {family: number for family, number in cases.items() if number}
+
+
+def invalid_rows(*, refuses: bool, tilt: bool) -> tuple[InvalidRows, ...]:
+    """The invalid rows that an implementation is asked: those of ten numbers too if it takes `tilt`."""
+    names = (frozen.INVALID_NAME, frozen.TILTED_INVALID_NAME) if tilt else (frozen.INVALID_NAME,)
+    return tuple(map(InvalidRows, names)) if refuses else ()
 
 
 def chosen_families(plan: ConformancePlan, *, tilt: bool = False) -> tuple[Family, ...]:
@@ -143,7 +148,7 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
             'description must say "tilt": true'
         )
-    return steps_of_chunks(_chunks(plan, families, used.domain), refuses=used.refuses)
+    return steps_of_chunks(_chunks(plan, families, used.domain), invalid_rows(refuses=used.refuses, tilt=used.tilt))
 
 
 def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure, ...]) -> JudgingRules:

@@ -79,7 +79,7 @@ def case_of(text: str) -> ReplayCase:
         case = parse_case_id(text)
         block, place = divmod(case.index, BLOCK)
         return ReplayCase(text, tuple(case.family.block(case.seed, block)[place].tolist()))
-    if text.startswith(f"{frozen.INVALID_NAME}-"):
+    if text.rpartition("-")[0] in frozen.INVALID_METADATA:
         return ReplayCase(text, invalid_row_of(text).row)
     return ReplayCase(text, vector_of(text).row)
 
@@ -185,6 +185,11 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     declared, used = implementation.declared, implementation.description
     rows = np.array([case.row])
     known = (case, str(implementation.spec), declared, used, criterion)
+    if rows.shape[1] > len(COLUMNS) and not used.tilt:
+        raise InputError(
+            f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
+            "true"
+        )
     if case.at_fault:
         if not used.refuses:
             raise InputError(
@@ -192,11 +197,6 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
                 "refuses such rows"
             )
         return Replay(*known, None, _refused(implementation, rows), None, None)
-    if rows.shape[1] > len(COLUMNS) and not used.tilt:
-        raise InputError(
-            f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
-            "true"
-        )
     truth = truth_of(pair_of(case.row))
     judgement = _judged(implementation, rows, truth, criterion)
     choice = None

@@ -26,6 +26,7 @@ from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_ca
 from hypcheck.runs.tally import STATUS_CODES, CasePlace, Tally, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
+from hypcheck.vectors.frozen import InvalidRowFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,11 +111,21 @@ class JudgingRules:
 
 @dataclass(frozen=True, slots=True)
 class InvalidRows:
-    """All invalid rows, which go to an implementation that declares that it refuses them."""
+    """All invalid rows of one file, which go to an implementation that declares that it refuses such rows."""
+
+    family: str = frozen.INVALID_NAME
+
+    def __len__(self) -> int:
+        return len(self.file.cases)
+
+    @property
+    def file(self) -> InvalidRowFile:
+        """The rows."""
+        return frozen.load_invalid_rows(self.family)
 
     def name(self, index: int) -> str:
         """The id of a case."""
-        return frozen.load_invalid_rows().cases[index].id
+        return self.file.cases[index].id
 
     def place(self, index: int) -> CasePlace:
         """The place of a case among the invalid rows."""
@@ -140,7 +151,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
 
 def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed) -> CasesResult:
     """Ask the invalid rows: each must be answered 127."""
-    file = frozen.load_invalid_rows()
+    file = asked.file
     answered = implementation.classify(file.rows)
     status, reasons = status_of(answered), dict(answered.reasons)
     for index in np.flatnonzero(answered.answered).tolist():
@@ -151,7 +162,7 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
             reasons[index] = f"answered {answer}; a row with an invalid {columns} must be refused: {REFUSED}"
     found = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)))
     tally = Tally(asked=len(status), counts=counts_of(status), unanswered=found)
-    return CasesResult(tallies={frozen.INVALID_NAME: tally}, outcomes=answered.outcomes)
+    return CasesResult(tallies={asked.family: tally}, outcomes=answered.outcomes)
 
 
 def result_of_final(

@@ -172,8 +172,8 @@ class TaskExecution:
         return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
 
-def steps_of_chunks(chunks: Iterable[CaseChunk], *, refuses: bool) -> Iterator[Step]:
-    """The steps that ask these chunks, with their retests; if `refuses`, also the invalid rows."""
+def steps_of_chunks(chunks: Iterable[CaseChunk], invalid: Iterable[InvalidRows] = ()) -> Iterator[Step]:
+    """The steps that ask these chunks, with their retests, and then these invalid rows."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
@@ -183,8 +183,7 @@ def steps_of_chunks(chunks: Iterable[CaseChunk], *, refuses: bool) -> Iterator[S
             yield from _retest_steps(rounds, parts)
             rows, rounds, parts = 0, rounds + 1, set()
     yield from _retest_steps(rounds, parts)
-    if refuses:
-        yield InvalidRows()
+    yield from invalid
 
 
 def _retest_steps(number: int, parts: set[int]) -> Iterator[RetestStep]:

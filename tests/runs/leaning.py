@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import invalid, with_axis
 from hypcheck.truth.tilted.batch import positions
 
 hypcheck = {"name": "leaning", "tilt": True, "refuses": True}
@@ -16,7 +18,16 @@ def exact(rows):
 
 def upright(rows):
     """The answer about the spheroid that stands upright in its place."""
-    return positions(np.column_stack([rows[:, :7], np.tile([0.0, 0.0, 1.0], (len(rows), 1))]), on_invalid="flag")
+    answers = positions(with_axis(rows[:, :7]), on_invalid="flag")
+    answers[invalid(rows)] = REFUSED
+    return answers
+
+
+def refuses_upright_rows_alone(rows):
+    """A row without a direction is answered as contact, as if it were any other."""
+    answers = exact(rows)
+    answers[invalid(rows) & ~invalid(with_axis(rows[:, :7])) & ~rows[:, 7:].any(axis=1)] = 0
+    return answers
 
 
 def raises_far_over(rows):

@@ -19,12 +19,13 @@ from hypcheck.runs import judge
 from hypcheck.runs.cases import CaseChunk, cases_of_chunk
 from hypcheck.runs.conformance import add_reasons
 from hypcheck.runs.judge import Criterion, Status
-from hypcheck.runs.plan import ConformancePlan, planned_cases, steps_of
+from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest
 from hypcheck.runs.resume import restored_result, saved_result
 from hypcheck.runs.retest import RetestTask, retest
 from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.truth.tilted import backward_error
+from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.tilted_fractions import exact_position
 
@@ -49,11 +50,31 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
     code, record = gate(tmp_path, "exact", "--families", f"ring,{LEANING}")
     found = by_family(record)
     assert code == 0
-    assert set(found) == {"ring", LEANING, "invalid"}
+    assert set(found) == {"ring", LEANING, "invalid", "tilted-invalid"}
     assert set(found[LEANING].counts) <= {"right", "skipped"}
     (line,) = record.of(ImplementationLine)
     assert line.declared.tilt is line.used.tilt is True
     assert line.again.asked > 30
+
+
+def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(
+    tmp_path,
+):
+    code, record = gate(tmp_path, "refuses_upright_rows_alone", "--families", "ring", count="0")
+    found = by_family(record)
+    assert code == 1
+    assert found["invalid"].counts == {"refused": found["invalid"].asked}
+    assert found["tilted-invalid"].asked == len(frozen.load_invalid_rows("tilted-invalid").cases)
+    assert found["tilted-invalid"].failing == ["wrong"]
+    for fault in found["tilted-invalid"].faults:
+        assert not any(map(float.fromhex, fault.axis))
+        assert fault.reason == "answered 0; a row with an invalid axis_x and axis_y and axis_z must be refused: 127"
+
+
+def test_tilted_invalid_rows_are_asked_only_if_refuses_and_tilt_are_declared():
+    assert [each.family for each in invalid_rows(refuses=True, tilt=True)] == ["invalid", "tilted-invalid"]
+    assert [each.family for each in invalid_rows(refuses=True, tilt=False)] == ["invalid"]
+    assert invalid_rows(refuses=False, tilt=True) == ()
 
 
 def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(

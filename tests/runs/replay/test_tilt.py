@@ -47,9 +47,20 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
     assert told[0]["kind"] == "crossing-one-curve"
 
 
+def test_a_tilted_row_to_be_refused_is_replayed_by_its_id(capsys):
+    code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}exact")
+    assert code == 0
+    assert "axis_z" in said.out
+    assert "refused" in said.out
+    code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}refuses_upright_rows_alone")
+    assert code == 1
+    assert "an invalid row must be refused with 127" in said.out
+
+
 @pytest.mark.parametrize(
     ("case", "spec", "sentence"),
     [
+        ("tilted-invalid-0000", "builtin:fast", "tilted-invalid-0000 has an axis, but fast takes only upright"),
         (BESIDE, "builtin:fast", "the given row has an axis, but fast takes only upright spheroids; its description"),
         (
             "2,5,1,0.5,2.5,0,0,0,0,0",

@@ -100,7 +100,7 @@ def _tally(results: Sequence[Result]) -> str:
 
 
 def _families() -> list[str]:
-    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, frozen.INVALID_NAME))]
+    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, *frozen.INVALID_METADATA))]
 
 
 def _by_family(wrong: Sequence[Result]) -> list[str]:
