@@ -3,10 +3,11 @@
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
+    hypcheck.passage((alpha, gamma, b, d), start, end, axis=None) -> .hit, .first_lower, .first_upper
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
     hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
 
-They are loaded when first used; all but position load numpy.
+They are loaded when first used; all but position and passage load numpy.
 """
 
 from __future__ import annotations
@@ -19,9 +20,10 @@ if TYPE_CHECKING:
     from hypcheck.kernel.classify import classify, classify_scene
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
+    from hypcheck.truth.swept import passage
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
-__all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "position"]
+__all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "passage", "position"]
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
@@ -29,6 +31,7 @@ _HOMES = {
     "Scene": ("hypcheck.kernel.scene", "Scene"),
     "classify": ("hypcheck.kernel.classify", "classify"),
     "classify_scene": ("hypcheck.kernel.classify", "classify_scene"),
+    "passage": ("hypcheck.truth.swept", "passage"),
     "position": ("hypcheck.kernel.scalar", "position"),
 }
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from fractions import Fraction
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +58,7 @@ def first_contact(
 ) -> tuple[float, float]:
     """Bounds of the time of first contact on one of these ways, 0 ≤ time ≤ 1; inf twice where there is none."""
     way = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
-    return way.first_lower, way.first_upper
+    return (way.first_lower, way.first_upper) if way.hit else (inf, inf)
 
 
 def _favoured(side: Position, at: Columns) -> Columns:

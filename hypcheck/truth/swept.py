@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import CENTER, COLUMNS, SIZES, Lengths, Position, trouble_with
+from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, Lengths, Position, trouble_with
 from hypcheck.messages import counted, escaped
 from hypcheck.truth import exact
 from hypcheck.truth.polynomial_roots import (
@@ -46,7 +46,8 @@ class Passage:
     """What happens on the way: the positions at both ends, and the first contact.
 
     `first` encloses the time t of the first contact, 0 ≤ t ≤ 1, in an open interval or as a single number (twice); None
-    where the way is clear. `grazes`: the surface is only ever touched for an instant, from one and the same side.
+    where the way is clear. `grazes`: all contact is tangency, from one and the same side; a spheroid that is smaller by
+    any part at all is clear.
     """
 
     start: Position
@@ -60,14 +61,19 @@ class Passage:
         return self.first is None
 
     @property
+    def hit(self) -> bool:
+        """Whether there is contact somewhere on the way, its two ends included."""
+        return self.first is not None
+
+    @property
     def first_lower(self) -> float:
-        """The largest float64 that is not above the time of first contact's enclosure; inf where there is none."""
-        return math.inf if self.first is None else _rounded(self.first[0], -math.inf)
+        """The largest float64 that is not above the time of first contact's enclosure; NaN where there is none."""
+        return math.nan if self.first is None else rounded(self.first[0], -math.inf)
 
     @property
     def first_upper(self) -> float:
-        """The least float64 that is not below the enclosure; inf where there is none."""
-        return math.inf if self.first is None else _rounded(self.first[1], math.inf)
+        """The least float64 that is not below the enclosure; NaN where there is none."""
+        return math.nan if self.first is None else rounded(self.first[1], math.inf)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,21 +90,34 @@ class _Journey:
 
     def position(self, time: Fraction) -> Position:
         """The exact position at a rational time."""
+        return exact.position(self.at(time))
+
+    def at(self, time: Fraction) -> Lengths:
+        """The pair at a rational time."""
         n, m = time.numerator, time.denominator
         x, y, z = (start * m + step * n for start, step in (self.x, self.y, self.z))
-        return exact.position(Lengths(self.alpha * m, self.b * m, x, y, self.gamma * m, self.d * m, z))
+        return Lengths(self.alpha * m, self.b * m, x, y, self.gamma * m, self.d * m, z)
 
 
-def passage(sizes: Sequence[Rational], start: Sequence[Rational], end: Sequence[Rational]) -> Passage:
+def passage(
+    sizes: Sequence[Rational],
+    start: Sequence[Rational],
+    end: Sequence[Rational],
+    axis: Sequence[Rational] | None = None,
+) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
-    Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0, a coordinate not
-    finite, or their number not 4, 3 and 3.
+    `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way; vertical where
+    it is None. Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0, a
+    coordinate not finite, an axis without direction, or their number not 4, 3, 3 and 3.
     """
+    if axis is not None and _leans(sizes, checked_axis(axis)):
+        raise InputError("a way of a spheroid whose axis leans cannot be decided yet")
     journey = _journey(sizes, start, end)
     here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
     if not any(step for _, step in (journey.x, journey.y, journey.z)):
-        return Passage(here, there, None if here is not Position.CONTACT else (Fraction(0), Fraction(0)))
+        met = (Fraction(0), Fraction(0)) if here is Position.CONTACT else None
+        return Passage(here, there, met, met is not None and exact.decide(journey.at(Fraction(0))).tangent)
     delta = _discriminant(journey)
     times = roots_from_0_to_1(delta)
     gaps = [None if time is None else journey.position(time) for time in _between(times)]
@@ -171,7 +190,7 @@ def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
     yield None if last == 1 and times[-1][0] == 1 else (last + 1) / 2
 
 
-def _rounded(number: Fraction, toward: float) -> float:
+def rounded(number: Fraction, toward: float) -> float:
     """The nearest float64 that is not beyond the number on the side away from `toward`."""
     near = float(number)
     wrong_side = near > number if toward < 0 else near < number
@@ -190,6 +209,20 @@ def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Frac
     """α, γ, b, d, x, y, z as fractions. Raises InputError naming the first that cannot be."""
     numbers = (*checked_sequence("the sizes", SIZES, sizes), *checked_sequence("a centre", CENTER, center))
     return tuple(_exact(name, number) for name, number in zip(COLUMNS, numbers, strict=True))
+
+
+def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
+    """axis_x, axis_y, axis_z as fractions. Raises InputError where they cannot be, or are all 0."""
+    found = tuple(map(_exact, AXIS, checked_sequence("the axis", AXIS, axis)))
+    if not any(found):
+        raise InputError(NO_DIRECTION)
+    return found
+
+
+def _leans(sizes: Sequence[Rational], axis: tuple[Fraction, ...]) -> bool:
+    """Whether the axis matters: it is not vertical, and the spheroid is no sphere."""
+    _, _, b, d = checked_sequence("the sizes", SIZES, sizes)
+    return any(axis[:2]) and b != d
 
 
 def checked_sequence(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:

@@ -196,7 +196,7 @@ def test_steps_in_contact_are_those_of_each_tree_alone():
             ways.append(passage((tree.alpha, tree.gamma, 0.3, 0.9), here, there))
         if not all(way.clear and way.start == 1 for way in ways):
             touching += 1
-            first, place = min((way.first_lower, place) for place, way in enumerate(ways))
+            first, place = min((way.first_lower, place) for place, way in enumerate(ways) if way.hit)
             contacts.append((start, end, scene.hyperboloids[place].name, first, ways[place].first_upper))
     told = found["ways"].pop("contacts")
     assert found["ways"] == {"made": len(path) - 1, "touching": touching}

@@ -142,7 +142,9 @@ def watched_alone(craft, moves, place, expected):
         for name, count in ((kind, True), (f"{kind}_touching", not good), (f"{kind}_begun", not begun)):
             setattr(expected, name, getattr(expected, name) + count)
         if begun and not good:
-            (lower, upper), rotor = min(((way.first_lower, way.first_upper), each) for each, way in enumerate(found, 1))
+            (lower, upper), rotor = min(
+                ((way.first_lower, way.first_upper), each) for each, way in enumerate(found, 1) if way.hit
+            )
             expected.contacts += (Contact(floats(*start)[0], floats(*end)[0], rotor, lower, upper),)
         expected.wrongly_accepted += not (body.end is INTERIOR or all(way.end is INTERIOR for way in found))
     if moves.turn[place]:

@@ -222,6 +222,7 @@ def test_times_of_first_contact_are_those_worked_out_by_hand(sizes, start, end, 
         ((2, 3, 1, 1), (3, 0, 0), (Fraction(7, 2), 0, 0), True),
         ((2, 3, 1, 1), (0, 0, 0), (9, 0, 0), False),
         ((2, 3, 1, 1), (2, 0, 0), (2, 0, 0), False),
+        ((2, 3, 1, 1), (3, 0, 0), (3, 0, 0), True),
         ((1, 1, 1, 1), (0, 0, 3), (0, 0, -3), True),
     ],
 )
@@ -239,7 +240,9 @@ def test_a_spheroid_that_does_not_move_keeps_its_position():
 def test_a_clear_way_has_no_time_of_contact():
     found = passage((2, 3, 1, 1), (5, 0, 0), (6, 0, 0))
     assert found.first is None
-    assert found.first_lower == found.first_upper == math.inf
+    assert not found.hit
+    assert math.isnan(found.first_lower)
+    assert math.isnan(found.first_upper)
 
 
 @settings(max_examples=25)

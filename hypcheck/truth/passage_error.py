@@ -1,0 +1,131 @@
+"""How wrong an answer about a way is: by the spheroid's size, and by the time of first contact.
+
+A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid leans. The
+answer is True for contact somewhere on the way.
+
+**Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
+centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
+where a spheroid has contact on its way, outside, inside or begun in contact, each larger one has it too, and no later.
+There is a least factor k* ≥ 0 with contact, for contact is a closed condition. A wrong answer is right for a factor
+just beyond k*: its size error is |k* − 1|, found by bisection on exact decisions. k* is 0 where the centre itself meets
+the surface; no smaller spheroid is clear then.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypcheck.geometry.pair import SIZES, WAY_COLUMNS
+from hypcheck.truth.swept import Passage, Rational, passage, rounded
+
+RELATIVE_WIDTH = Fraction(1, 100)
+"""A size error is bracketed to this part of itself."""
+
+_LARGEST = 1 - Fraction(1, 2**53)
+"""The largest change of the size that is asked about: no size is 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class SizeError:
+    """The least relative change of b and d together that makes an answer right is between these.
+
+    Both are 0 for a right answer and for the limit of right ones, inf where no change below 1 is enough.
+    """
+
+    lower: float
+    upper: float
+
+
+def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
+    """What happens on the row's way, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
+    alpha, gamma, b, d = row[: len(SIZES)]
+    start, end, axis = row[4:7], row[7:10], row[len(WAY_COLUMNS) :]
+    if scale != 1:
+        b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
+    return passage((alpha, gamma, b, d), start, end, axis or None)
+
+
+def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
+    """Whether there is contact on the row's way, with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
+    return scaled_passage(row, scale).hit
+
+
+def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
+    """The size error of an answer, exact to RELATIVE_WIDTH of itself."""
+    truth = scaled_passage(row)
+    if truth.hit == answer or truth.grazes:
+        return SizeError(0.0, 0.0)
+    sign = 1 if answer else -1
+
+    def right(change: Fraction) -> bool:
+        return hits_at_size(row, 1 + sign * min(change, _LARGEST)) == answer
+
+    if not right(Fraction(1)):
+        return SizeError(math.inf, math.inf)
+    low, high = _octave(right)
+    while high - low > RELATIVE_WIDTH * low:
+        middle = (low + high) / 2
+        low, high = (low, middle) if right(middle) else (middle, high)
+    return SizeError(rounded(low, -math.inf), rounded(high, math.inf))
+
+
+def _octave(right: Callable[[Fraction], bool]) -> tuple[Fraction, Fraction]:
+    """Two neighbouring powers of two, the first a change that is too small, the second one that is enough."""
+    low, step = -10, 8
+    high = 0
+    while right(Fraction(2) ** low):
+        low, high, step = low - step, low, 2 * step
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if right(Fraction(2) ** middle) else (middle, high)
+    return Fraction(2) ** low, Fraction(2) ** high
+
+
+def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> bool:
+    """Whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
+
+    By monotony one of the two is the one to ask about. From a tolerance of 1 on every size error below 1 is tolerated.
+    """
+    change = min(tolerance, _LARGEST)
+    return hits_at_size(row, 1 + change if answer else 1 - change) == answer
+
+
+def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> Fraction:
+    """The relative change of b and d that stands for relative changes of `units` roundoffs of each input.
+
+    δ = units · roundoff, and the tolerance is δ K. Where an answer is right for inputs each of which is changed by δ of
+    itself at most (the axis by δ of its length), it is right for b and d both multiplied by 1 + δ K, or both by
+    1 − δ K. With ρ and ζ the largest (|x|+|y|)/b and |z|/d of both ends, for an upright spheroid
+
+        K = 1 + ρ + ζ + (1+δ)/(1−δ) (ρ + ζ + 2);
+
+    docs/motion.md derives it, and the one of a spheroid that leans. Infinite changes are not meant: δ counts as 1/2 at
+    most in K.
+    """
+    change = Fraction(units) * Fraction(roundoff)
+    _, _, b, d, *ends = (Fraction(each) for each in row[: len(WAY_COLUMNS)])
+    bounded = min(change, Fraction(1, 2))
+    stretch = (1 + bounded) / (1 - bounded)
+    across = max(abs(x) + abs(y) for x, y in (ends[:2], ends[3:5]))
+    along = max(abs(ends[2]), abs(ends[5]))
+    axis = row[len(WAY_COLUMNS) :]
+    if not axis or b == d or not any(axis[:2]):
+        way = across / b + along / d
+        return change * (1 + way + stretch * (way + 2))
+    least, ratio = min(b, d), max(b / d, d / b)
+    way = (across + along) / least
+    return change * (1 + way + (1 + bounded) * (ratio + bounded) + stretch * (way + 2 * ratio))
+
+
+def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | None, Fraction | None]:
+    """The earliest and the latest time that a right answer may give for the first contact.
+
+    The first contact of the spheroid grown by `change`, rounded down, and of it shrunk by `change`, rounded up; None
+    where there is none: without the second there is no upper end, without the first no time is right.
+    """
+    part = min(Fraction(change), _LARGEST)
+    grown, shrunk = (scaled_passage(row, 1 + sign * part).first for sign in (1, -1))
+    return None if grown is None else grown[0], None if shrunk is None else shrunk[1]

@@ -1,0 +1,103 @@
+"""How wrong an answer about a way is: size errors and windows of time worked out by hand, and the tolerance's claim."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, time_window, tolerance
+from hypcheck.truth.swept import passage
+
+BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
+"""Past the waist at 3.5 from the axis: 1.5 from the surface, so that it touches when grown by a half."""
+THROUGH = (2.0, 3.0, 1.0, 1.0, -4.0, 2.75, 0.0, 4.0, 2.75, 0.0)
+"""The same at 2.75: it is clear when a quarter smaller."""
+ACROSS = (2.0, 3.0, 1.0, 1.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""From outside to the axis; contact from a distance of 3, at t = 2/5. The centre meets the surface."""
+
+
+@pytest.mark.parametrize(("row", "answer", "change"), [(BESIDE, True, 0.5), (THROUGH, False, 0.25)])
+def test_the_size_error_is_the_distance_worked_out_by_hand(row, answer, change):
+    found = size_error(row, answer)
+    assert found.lower <= change <= found.upper <= 1.011 * found.lower
+
+
+def test_a_right_answer_has_no_size_error():
+    assert size_error(BESIDE, False).upper == size_error(THROUGH, True).upper == 0
+
+
+@pytest.mark.parametrize("end", [(4.0, 3.0, 0.0), (0.0, 3.0, 0.0)])
+def test_the_size_error_of_clear_is_zero_where_a_way_only_touches(end):
+    row = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, *end)
+    assert size_error(row, True).upper == size_error(row, False).upper == 0
+
+
+def test_no_size_is_enough_where_the_centre_meets_the_surface_or_is_far_away():
+    assert size_error(ACROSS, False).lower == math.inf
+    assert size_error((2.0, 3.0, 1.0, 1.0, 9.0, 0.0, 0.0, 8.0, 0.0, 0.0), True).lower == math.inf
+
+
+_sizes = st.tuples(*[st.integers(64, 4096).map(lambda n: n / 1024)] * 4)
+_centers = st.tuples(*[st.integers(-6144, 6144).map(lambda n: n / 1024)] * 3)
+
+
+@settings(max_examples=40)
+@given(_sizes, _centers, _centers, st.sampled_from([0.25, 0.5, 0.9, 1.1, 1.5, 4.0]))
+def test_contact_on_the_way_is_monotone_in_the_size(sizes, start, end, scale):
+    row = (*sizes, *start, *end)
+    hit = hits_at_size(row)
+    other = hits_at_size(row, Fraction(scale))
+    assert other >= hit if scale > 1 else other <= hit
+
+
+@settings(max_examples=40)
+@given(_sizes, _centers, _centers)
+def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, end):
+    row = (*sizes, *start, *end)
+    answer = not hits_at_size(row)
+    found = size_error(row, answer)
+    assume(0 < found.upper < 1)
+    sign = 1 if answer else -1
+    assert hits_at_size(row, 1 + sign * Fraction(found.upper)) == answer
+    assert hits_at_size(row, 1 + sign * Fraction(found.lower)) != answer
+
+
+@settings(max_examples=40)
+@given(
+    _sizes,
+    _centers,
+    _centers,
+    st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
+    st.lists(st.sampled_from([-1, 0, 1]), min_size=10, max_size=10),
+)
+def test_an_answer_that_is_right_for_changed_inputs_is_tolerated(sizes, start, end, change, signs):
+    """The claim by which the tolerance is derived, at corners of the box of changes."""
+    row = tuple(map(Fraction, (*sizes, *start, *end)))
+    moved = tuple(each * (1 + sign * change) for each, sign in zip(row, signs, strict=True))
+    assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
+
+
+def test_the_tolerance_is_the_sum_of_what_each_input_may_do():
+    row = (2.0, 3.0, 0.5, 0.25, -4.0, 3.0, 1.0, 1.0, 0.0, -2.0)  # ρ = 14, ζ = 8
+    unit = Fraction(1, 2**24)
+    assert tolerance(row, 8, unit) / (8 * unit) == pytest.approx(1 + 22 + 24, rel=1e-5)
+
+
+def test_the_window_of_time_holds_first_contact_of_the_changed_spheroid():
+    earliest, latest = time_window(ACROSS, Fraction(1, 100))
+    assert float(earliest) == pytest.approx((5 - 3.01) / 5)
+    assert float(latest) == pytest.approx((5 - 2.99) / 5)
+    first = passage(ACROSS[:4], ACROSS[4:7], ACROSS[7:]).first
+    assert earliest < first[0] <= first[1] < latest
+
+
+def test_the_window_of_time_has_no_upper_end_where_the_smaller_spheroid_is_clear():
+    touching = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
+    earliest, latest = time_window(touching, Fraction(1, 2**20))
+    assert 0 < earliest < Fraction(1, 2)
+    assert latest is None
+    assert time_window(BESIDE, Fraction(1, 2**20)) == (None, None)
