@@ -255,7 +255,7 @@ def _precisions() -> tuple[str, ...]:
 def _questions() -> tuple[str, ...]:
     from hypcheck.implementations.description import QUESTIONS
 
-    return QUESTIONS
+    return tuple(QUESTIONS)
 
 
 def _domain(value: object) -> str:

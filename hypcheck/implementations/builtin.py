@@ -19,10 +19,9 @@ from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual_positions
 from hypcheck.implementations.description import EVERYWHERE, Description, Domain
-from hypcheck.implementations.frames import LARGEST
+from hypcheck.implementations.frames import LARGEST, GivenAnswers
 from hypcheck.implementations.meshes import ellipsoid_mesh, point_mesh, sphere_mesh
 from hypcheck.implementations.method import Answers, Method, by_rows
-from hypcheck.implementations.session import IntegerAnswers
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel
@@ -235,9 +234,9 @@ class BuiltinSession:
             time=True,
         )
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - it has no entry for scenes
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
         """The method's answers."""
-        return self.method.answer(rows)
+        return GivenAnswers(self.method.answer(rows))
 
     def time(
         self,

@@ -6,7 +6,7 @@ value raises InputError, which names the key, the value, and what would be right
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
@@ -18,12 +18,53 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, trouble_with
-from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, UNBOUNDED, FixedSizes, Mask, Range, Rows, within
+from hypcheck.geometry.rows import (
+    ORDINARY_MAGNITUDE,
+    ORDINARY_RATIO,
+    PAIRS,
+    UNBOUNDED,
+    WAYS,
+    FixedSizes,
+    Layout,
+    Mask,
+    Range,
+    Rows,
+    within,
+)
 from hypcheck.messages import escaped
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 
-QUESTIONS = ("position", "exterior", "interior", "contact")
-"""The question for the position itself, or whether it is one of the three."""
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A question to an implementation: its name, its answers besides CANNOT_SAY, and the columns of its rows.
+
+    `entry` is what a library's function is called after: hypcheck_ENTRY and hypcheck_ENTRY_tilted. `forms` stand before
+    "text" and "binary" in the protocol of commands, for upright and for tilted spheroids. `times` says that a time may
+    go with each answer 1.
+    """
+
+    name: str
+    answers: tuple[int, ...] = (0, 1)
+    layout: Layout = PAIRS
+    entry: str = "classify"
+    forms: tuple[str, str] = ("", "tilted-")
+    times: bool = False
+
+
+QUESTIONS: Mapping[str, Question] = MappingProxyType(
+    {
+        each.name: each
+        for each in (
+            Question("position", (-1, 0, 1)),
+            Question("exterior"),
+            Question("interior"),
+            Question("contact"),
+            Question("passage", layout=WAYS, entry="passage", forms=("passage-", "passage-"), times=True),
+        )
+    }
+)
+"""The position itself, whether it is one of the three, and whether there is contact on the way between two."""
 
 UNIT_ROUNDOFF = {
     "float16": Fraction(1, 2**11),
@@ -37,11 +78,6 @@ UNIT_ROUNDOFF = {
 """The unit u of each precision that an implementation can declare: half the distance from 1 to the next number."""
 
 PRECISIONS = tuple(UNIT_ROUNDOFF)
-
-
-def allowed(question: str) -> tuple[int, ...]:
-    """The answers to a question."""
-    return (-1, 0, 1) if question == "position" else (0, 1)
 
 
 def shown_value(value: object) -> str:
@@ -79,8 +115,8 @@ NORMAL_RANGE: dict[str, Range] = {
 """The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
 
 
-_CORNERS = np.array([(*sizes, *[center] * 6) for *sizes, center in product((0, 1), repeat=5)])
-"""Least or greatest, of four sizes and of the centre with the axis."""
+_CORNERS = np.array([(*sizes, *[center] * 9) for *sizes, center in product((0, 1), repeat=5)])
+"""Least or greatest, of four sizes and of all other numbers: of centres and of the axis."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +142,7 @@ class Domain:
                 shown = f"[{limits[0]}, {limits[1]}]"
                 raise InputError(f"the domain's {name} is {shown}; it must be two numbers with 0 ≤ low ≤ high")
 
-    def holds(self, rows: Rows, *, extreme: bool = False) -> Mask:
+    def holds(self, rows: Rows, *, extreme: bool = False, layout: Layout = PAIRS) -> Mask:
         """A mask (n,) of the rows inside the domain.
 
         `extreme` rows belong to a family that is asked only on request; then ranges that were not declared are
@@ -114,11 +150,11 @@ class Domain:
         """
         unbounded = extreme or self.settings
         ratio, magnitude = (UNBOUNDED, UNBOUNDED) if unbounded else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
-        inside = within(rows, self.ratio or ratio, self.magnitude or magnitude)
+        inside = within(rows, self.ratio or ratio, self.magnitude or magnitude, layout)
         for regime in self.regimes:
             inside &= in_regime(rows, regime)
         if self.settings:
-            inside &= np.logical_or.reduce([setting.holds(rows) for setting in self.settings])
+            inside &= np.logical_or.reduce([setting.holds(rows, layout) for setting in self.settings])
         return inside
 
 
@@ -151,7 +187,9 @@ def representable(rows: Rows, precision: str) -> Mask:
     return np.asarray((((lengths >= limits[0]) & (lengths <= limits[1])) | (rows == 0)).all(axis=1))
 
 
-def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False) -> NDArray[np.intp]:
+def claimed(
+    rows: Rows, domain: Domain, precision: str, *, extreme: bool = False, layout: Layout = PAIRS
+) -> NDArray[np.intp]:
     """The ascending indices of the rows that lie in the domain and are representable in the declared precision.
 
     `extreme` is as in Domain.holds.
@@ -159,13 +197,14 @@ def claimed(rows: Rows, domain: Domain, precision: str, *, extreme: bool = False
     with np.errstate(all="ignore"):
         if not domain.settings:
             corners = _corners(rows)
-            if (domain.holds(corners, extreme=extreme) & representable(corners, precision)).all():
+            if (domain.holds(corners, extreme=extreme, layout=layout) & representable(corners, precision)).all():
                 return np.arange(len(rows))
-        return np.flatnonzero(domain.holds(rows, extreme=extreme) & representable(rows, precision))
+        inside = domain.holds(rows, extreme=extreme, layout=layout)
+        return np.flatnonzero(inside & representable(rows, precision))
 
 
 def _corners(rows: Rows) -> Rows:
-    """Rows (32, 7 or 10) of the extremes of |rows|: all combinations of sizes, with the least and the greatest others.
+    """Rows (32, their columns) of the extremes of |rows|: all combinations of sizes, least and greatest of the others.
 
     Each condition of a domain except its settings is monotone in each length. So is the range of a precision, except
     for zero, which is always representable. Hence a condition that holds for these rows holds for all.
@@ -232,8 +271,8 @@ class Description:
     """An implementation's description of itself.
 
     `domain` is where it claims to be right. `refuses` says that it answers invalid rows with 127. `binary` and `time`
-    say what a command offers of the protocol. `tilt` says that it takes rows of ten numbers, the spheroid's axis after
-    the other seven.
+    say what a command offers of the protocol. `tilt` says that rows have the spheroid's axis after the other numbers.
+    `times` says that a time goes with each answer 1.
     """
 
     name: str
@@ -246,17 +285,32 @@ class Description:
     binary: bool = False
     time: bool = False
     tilt: bool = False
+    times: bool = False
+
+    @property
+    def asked(self) -> Question:
+        """The question."""
+        return QUESTIONS[self.question]
 
     def overridden(
         self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
     ) -> Description:
-        """The description with values of the caller; raises InputError if there is no such precision or question."""
-        return replace(
+        """The description with values of the caller; raises InputError if there is no such precision or question.
+
+        It also raises that if the question is about other rows than those that the description declares.
+        """
+        found = replace(
             self,
             precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
             question=self.question if question is None else _one_of(QUESTIONS)(question, "the question"),
             domain=domain or self.domain,
         )
+        if found.asked.layout != self.asked.layout:
+            raise InputError(
+                f"the question is {found.question!r}, but {self.name} describes itself as answering {self.question!r}, "
+                f'about other rows; its description must say "question": "{found.question}"'
+            )
+        return found
 
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
@@ -264,7 +318,14 @@ def described(raw: object, defaults: Description, required: tuple[str, ...] = ()
     found = object_of(raw, "the description", tuple(_KEYS), required)
     values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in found.items()}
     values.pop("protocol", None)
-    return replace(defaults, **values)
+    description = replace(defaults, **values)
+    if description.times and not description.asked.times:
+        with_times = " or ".join(name for name, question in QUESTIONS.items() if question.times)
+        raise InputError(
+            f"the description's times is true, but its question is {description.question!r}; times belong to the "
+            f"question {with_times}"
+        )
+    return description
 
 
 def described_by_json(text: str | bytes, defaults: Description, required: tuple[str, ...] = ()) -> Description:
@@ -316,11 +377,11 @@ def _truth_value(value: object, where: str) -> bool:
     return value
 
 
-def _one_of(choices: tuple[str, ...]) -> Callable[[object, str], str]:
+def _one_of(choices: Collection[str]) -> Callable[[object, str], str]:
     def check(value: object, where: str) -> str:
-        if value not in choices:
+        if not isinstance(value, str) or value not in choices:
             raise InputError(f"{where} is {shown_value(value)}; it must be one of {', '.join(choices)}")
-        return str(value)
+        return value
 
     return check
 
@@ -344,5 +405,6 @@ _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
         "binary": _truth_value,
         "time": _truth_value,
         "tilt": _truth_value,
+        "times": _truth_value,
     }
 )

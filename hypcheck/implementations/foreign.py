@@ -15,6 +15,13 @@ If the description has "tilt": true, rows are (n, 10), and the functions of a li
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions);
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions);    (optional)
+
+If the question is "passage", rows are (n, 10), with "tilt" (n, 13), and the functions of a library are
+
+void hypcheck_passage(size_t n, const double *rows, int8_t *hits, double *times);
+void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
+
+With "times": true the function of Python returns hits and times; without, `times` is a null pointer.
 """
 
 from __future__ import annotations
@@ -34,14 +41,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import TILTED_COLUMNS
-from hypcheck.geometry.rows import Rows
-from hypcheck.implementations.frames import ENTRIES, UNWRITTEN, entry_name
+from hypcheck.geometry.rows import PAIRS, Floats, Rows
+from hypcheck.implementations.frames import CALLS, ENTRIES, UNWRITTEN, Call, GivenAnswers, IntegerAnswers, entry_name
 from hypcheck.implementations.spec import is_file
 from hypcheck.kernel.choice import compiled
 from hypcheck.messages import counted
-
-IntegerAnswers = NDArray[np.signedinteger[Any]]
 
 
 class LoadError(Exception):
@@ -61,19 +65,19 @@ class ForeignCode(Protocol):
     entries: tuple[str, ...]
     """Those of frames.ENTRIES that a library exports."""
 
-    def classify(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows."""
+    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+        """Answers to rows, by that call."""
         ...
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
         """Answers to rows with the same sizes and axis, by the entry for many centres."""
         ...
 
-    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         ...
 
-    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         For a library, no rows mean a call that does nothing.
@@ -130,15 +134,15 @@ class PythonFunction:
         found = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
         self.description = "" if found is None or isinstance(found, ModuleType) else description_as_json(found)
 
-    def classify(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows; raises ContractError if the function returns no array of n integers."""
-        return _integers(self._function(rows), len(rows))
+    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+        """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
+        return _given(self._function(rows), len(rows), call)
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
         """Raises ContractError, because a Python function has no entry for scenes."""
         raise ContractError(f"a Python function has no entry for scenes, and was asked for one with {len(rows)} rows")
 
-    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         if by_scene:
             self.classify_scene(rows)
@@ -147,9 +151,9 @@ class PythonFunction:
         for _ in range(repeat):
             result = function(rows)
         took = time.perf_counter_ns() - start
-        return took, int(_integers(result, len(rows)).sum(dtype=np.int64))
+        return took, int(_given(result, len(rows), call).integers.sum(dtype=np.int64))
 
-    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers."""
         function, parts = self._function, [rows[place : place + 1] for place in range(len(rows))]
         results: list[Any] = []
@@ -157,7 +161,7 @@ class PythonFunction:
         for _ in range(repeat):
             results = [function(part) for part in parts]
         took = time.perf_counter_ns() - start
-        return took, sum(int(_integers(result, 1)[0]) for result in results)
+        return took, sum(int(_given(result, 1, call).integers[0]) for result in results)
 
 
 def error_text(error: BaseException) -> str:
@@ -198,6 +202,26 @@ def _of_file(path: str) -> ModuleType:
     return module
 
 
+def _given(result: object, n: int, call: Call) -> GivenAnswers:
+    if not call.times:
+        return GivenAnswers(_integers(result, n))
+    if not isinstance(result, (tuple, list)) or len(result) != 2:
+        raise ContractError(f"it returned {_kind(result)}; with times it must return two arrays, hits and times")
+    hits, times = result
+    return GivenAnswers(_integers(hits, n), _times(times, n))
+
+
+def _times(result: object, n: int) -> Floats:
+    try:
+        array = np.asarray(result)
+    except ValueError:  # of several lengths
+        array = np.empty(0, dtype=np.object_)
+    if array.shape != (n,) or array.dtype.kind not in "iuf":
+        shown = f"{_kind(result)} of shape {array.shape} and of {array.dtype}"
+        raise ContractError(f"it returned as times {shown} for {n} rows; it must be ({n},) of float64")
+    return array.astype(np.float64)
+
+
 def _integers(result: object, n: int) -> IntegerAnswers:
     if isinstance(result, np.ma.MaskedArray) and np.any(result.mask):
         raise ContractError("it returned a masked array with masked answers; it must answer every row")
@@ -230,7 +254,7 @@ _HINTS = (
 
 
 class Library:
-    """A library and its entries; rows of seven and of ten numbers have different entries. Raises LoadError."""
+    """A library and its entries; each call has one for rows with an axis and one for others. Raises LoadError."""
 
     def __init__(self, path: str) -> None:
         library = _loaded(path)
@@ -238,69 +262,68 @@ class Library:
         self.entries = tuple(self._entries)
         self.description = _description(library, path)
 
-    def classify(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows; raises ContractError if it writes outside the positions."""
-        positions = _Positions(rows)
-        self._entry(rows)(len(rows), rows.ctypes.data, positions.address)
-        return positions.written()
+    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+        """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
+        room = _AnswerRoom(rows, call)
+        self._entry(rows, call)(len(rows), rows.ctypes.data, *room.words)
+        return room.written()
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
         """Answers to rows that share sizes and axis; raises ContractError if it writes outside the positions."""
-        positions = _Positions(rows)
+        room = _AnswerRoom(rows)
         parts = _scene(rows)
-        self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), positions.address)
-        return positions.written()
+        self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), *room.words)
+        return room.written().integers
 
-    def seconds(self, rows: Rows, repeat: int, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        positions, n = _Positions(rows), len(rows)
+        room, n = _AnswerRoom(rows, call), len(rows)
         if by_scene:
             parts = _scene(rows)  # kept alive, because the pointers do not do that
-            words: tuple[int, ...] = (*_scene_words(parts, n), positions.address)
+            words: tuple[int | None, ...] = (*_scene_words(parts, n), *room.words)
         else:
-            words = (n, rows.ctypes.data, positions.address)
-        function = self._entry(rows, scene=by_scene)
+            words = (n, rows.ctypes.data, *room.words)
+        function = self._entry(rows, call, scene=by_scene)
         start = time.perf_counter_ns()
         for _ in range(repeat):
             function(*words)
         took = time.perf_counter_ns() - start
-        return took, int(positions.written().sum(dtype=np.int64))
+        return took, room.total()
 
-    def seconds_each(self, rows: Rows, repeat: int) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         The compiled kernel makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
         function of the kernel, or with ctypes of this library without rows.
         """
-        positions = _Positions(rows)
+        room = _AnswerRoom(rows, call)
         try:
             call_each = compiled().call_each
         except (ImportError, AttributeError):  # not built, or built before it had call_each
-            return self._seconds_by_ctypes(rows, repeat, positions)
+            return self._seconds_by_ctypes(rows, repeat, call, room)
+        if call.layout is not PAIRS:  # call_each calls functions of three arguments
+            return self._seconds_by_ctypes(rows, repeat, call, room)
         address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value if len(rows) else 0
         nothing = np.zeros((1, rows.shape[1])), np.zeros(1, dtype=np.int8)
-        asked, answers = (rows, positions.room) if len(rows) else nothing
+        asked, answers = (rows, room.answers) if len(rows) else nothing
         start = time.perf_counter_ns()
         call_each(address, asked, answers, repeat)
         took = time.perf_counter_ns() - start
-        return took, int(positions.written().sum(dtype=np.int64))
+        return took, room.total()
 
-    def _seconds_by_ctypes(self, rows: Rows, repeat: int, positions: _Positions) -> tuple[int, int]:
-        function, begin, room, n = self._entry(rows), rows.ctypes.data, positions.address, len(rows)
-        calls = [(1, begin + 8 * rows.shape[1] * place, room + place) for place in range(n)] or [(0, begin, room)]
+    def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: Call, room: _AnswerRoom) -> tuple[int, int]:
+        function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
+        calls = [(1, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
+        calls = calls or [(0, begin, *room.words)]
         start = time.perf_counter_ns()
         for _ in range(repeat):
             for words in calls:
                 function(*words)
         took = time.perf_counter_ns() - start
-        return took, int(positions.written().sum(dtype=np.int64))
+        return took, room.total()
 
-    def _entry(self, rows: Rows, *, scene: bool = False) -> Any:  # noqa: ANN401 - ctypes' own is private
-        return self._entries[entry_name(tilt=_has_axis(rows), scene=scene)]
-
-
-def _has_axis(rows: Rows) -> bool:
-    return bool(rows.shape[1] == len(TILTED_COLUMNS))
+    def _entry(self, rows: Rows, call: Call = CALLS[0], *, scene: bool = False) -> Any:  # noqa: ANN401 - ctypes' own is private
+        return self._entries[entry_name(call.entry, tilt=call.layout.lean(rows), scene=scene)]
 
 
 def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...]:
@@ -312,7 +335,7 @@ def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...
 def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
     """Sizes, the axis of rows of ten, x, y, z, each with another address modulo 64, which varies with the rows'."""
     parts = []
-    axis = [rows[0, 7:]] if _has_axis(rows) else []
+    axis = [rows[0, 7:]] if PAIRS.lean(rows) else []
     for index, part in enumerate((rows[0, :4], *axis, *rows[:, 4:7].T)):
         placed = bytes_at(rows.ctypes.data + 24 * index, part.size * 8).view(np.float64)
         placed[...] = part
@@ -320,24 +343,63 @@ def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
     return parts
 
 
-class _Positions:
-    """Memory for answers between two fences; its address modulo 64 varies with the rows'."""
+class _AnswerRoom:
+    """Memory for answers, and for times if a call gives them, between fences. Addresses vary with the rows'.
 
-    def __init__(self, rows: Rows) -> None:
-        self._n = len(rows)
-        self._room = bytes_at(rows.ctypes.data // 8 * 5, self._n + 2 * _FENCE).view(np.int8)
-        self._room.fill(UNWRITTEN)
-        self.address = self._room.ctypes.data + _FENCE
+    `words` are the arguments of the call behind the rows.
+    """
+
+    def __init__(self, rows: Rows, call: Call = CALLS[0]) -> None:
+        self._call = call
+        self._answers = _Fenced(rows, np.dtype(np.int8))
+        self._times = _Fenced(rows, np.dtype(np.float64)) if call.times else None
+        self.words = self.words_at(0)
+
+    def words_at(self, place: int) -> tuple[int | None, ...]:
+        """The arguments for the row at that place."""
+        answers = self._answers.address + place
+        if self._call.layout is PAIRS:
+            return (answers,)
+        return answers, None if self._times is None else self._times.address + 8 * place
 
     @property
-    def room(self) -> NDArray[np.int8]:
+    def answers(self) -> NDArray[np.int8]:
         """The memory for the answers."""
-        return self._room[_FENCE:-_FENCE]
+        answers: NDArray[np.int8] = self._answers.values
+        return answers
 
-    def written(self) -> NDArray[np.int8]:
-        if (self._room[:_FENCE] != UNWRITTEN).any() or (self._room[-_FENCE:] != UNWRITTEN).any():
-            raise ContractError(f"it wrote outside the {counted(self._n, 'position')} that it was given")
-        return self.room
+    def written(self) -> GivenAnswers:
+        """What was written; raises ContractError if anything was written outside."""
+        self._answers.check("position" if self._call.layout is PAIRS else "hit")
+        if self._times is not None:
+            self._times.check("time")
+        return GivenAnswers(self.answers, None if self._times is None else self._times.values)
+
+    def total(self) -> int:
+        """The sum of the answers that were written; raises ContractError as written does."""
+        return int(self.written().integers.sum(dtype=np.int64))
+
+
+class _Fenced:
+    """Memory for a value of that type a row between two fences; its address modulo 64 varies with the rows'."""
+
+    def __init__(self, rows: Rows, kind: np.dtype[Any]) -> None:
+        self._kind, self._n = kind, len(rows)
+        size = kind.itemsize
+        self._bytes = bytes_at(rows.ctypes.data // 8 * 5 * size, self._n * size + 2 * _FENCE)
+        self._bytes.view(np.int8).fill(UNWRITTEN)
+        self.address = self._bytes.ctypes.data + _FENCE
+
+    @property
+    def values(self) -> NDArray[Any]:
+        """The memory between the fences."""
+        return self._bytes[_FENCE:-_FENCE].view(self._kind)
+
+    def check(self, what: str) -> None:
+        """Raise ContractError if a fence was written to."""
+        fences = self._bytes.view(np.int8)
+        if (fences[:_FENCE] != UNWRITTEN).any() or (fences[-_FENCE:] != UNWRITTEN).any():
+            raise ContractError(f"it wrote outside the {counted(self._n, what)} that it was given")
 
 
 def _loaded(path: str) -> ctypes.CDLL:
@@ -360,6 +422,8 @@ _ARGUMENTS = dict(
             (ctypes.c_size_t, _POINTER, _POINTER),
             (_POINTER, ctypes.c_size_t, *[_POINTER] * 4),
             (_POINTER, _POINTER, ctypes.c_size_t, *[_POINTER] * 4),
+            (ctypes.c_size_t, *[_POINTER] * 3),
+            (ctypes.c_size_t, *[_POINTER] * 3),
         ),
         strict=True,
     )

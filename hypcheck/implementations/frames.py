@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows
 from hypcheck.messages import escaped
 
 KEPT = 16_384
@@ -66,12 +67,37 @@ def _lines(data: bytearray) -> tuple[str, ...]:
 LARGEST = 65_536
 """The most rows of a question."""
 
-REQUEST = struct.Struct("=4sIIQQ")
-"""The kind of request, the numbers of a row, the number of rows, the repetitions, and a mark that nobody can guess;
-then the rows."""
+IntegerAnswers = NDArray[np.signedinteger[Any]]
+
+
+class GivenAnswers(NamedTuple):
+    """What an implementation gave, not checked: an integer for each row, and times, float64 (n,), if they were asked.
+
+    A time means something where the answer is 1.
+    """
+
+    integers: IntegerAnswers
+    times: Floats | None = None
+
+
+class Call(NamedTuple):
+    """The function of foreign code that is called, the columns of its rows, and whether it gives times."""
+
+    entry: str
+    layout: Layout
+    times: bool = False
+
+
+CALLS = (Call("classify", PAIRS), Call("passage", WAYS), Call("passage", WAYS, times=True))
+
+REQUEST = struct.Struct("=4sIIIQQ")
+"""The kind of request, the place of its call in CALLS, the numbers of a row, the number of rows, the repetitions, and a
+mark that nobody can guess; then the rows."""
 
 REPLY = struct.Struct("=4sIQQ")
 """The kind of reply, the bytes of an answer (1 or 8), the bytes that follow, and the mark of the request.
+
+Answers are followed by their times, if these were asked.
 
 Without the mark, bytes that foreign code writes into the pipe would look like a reply, and the true reply like that to
 the next question. The first reply, which has no request, has the mark 0.
@@ -85,13 +111,15 @@ ENTRIES = (
     "hypcheck_classify_tilted",
     "hypcheck_classify_scene",
     "hypcheck_classify_tilted_scene",
+    "hypcheck_passage",
+    "hypcheck_passage_tilted",
 )
-"""The functions of a library: of rows, of rows with an axis, and of one scene; READY says which of them it exports."""
+"""The functions of a library: of rows, of rows with an axis, of one scene, and of ways; READY says which it exports."""
 
 
-def entry_name(*, tilt: bool, scene: bool = False) -> str:
-    """The one of ENTRIES that is called: with an axis or without, of rows or of one scene."""
-    return ENTRIES[2 * scene + tilt]
+def entry_name(entry: str = "classify", *, tilt: bool, scene: bool = False) -> str:
+    """The one of ENTRIES that is called: of that name, with an axis or without, of rows or of one scene."""
+    return f"hypcheck_{entry}{'_tilted' if tilt else ''}{'_scene' if scene else ''}"
 
 
 TIMES = struct.Struct("=qq")
@@ -102,7 +130,7 @@ UNWRITTEN = -86
 
 
 def row_bytes(rows: Rows) -> memoryview:
-    """Rows (n, 7 or 10) as little-endian bytes, without a copy if they have that layout."""
+    """Rows (n, as many columns) as little-endian bytes, without a copy if they have that layout."""
     return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
 
 

@@ -135,7 +135,8 @@ class Implementation:
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
         """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
 
-        Where its description says tilt, rows may have ten numbers, and it is asked all of them in ten.
+        Of the question passage they are (n, 10). Where its description says tilt, rows may have the three numbers of an
+        axis behind, and it is asked all of them so.
 
         `by_scene` asks through the entry for scenes; raises InputError where there is none, or sizes differ, and where
         rows are none.
@@ -212,8 +213,9 @@ class Implementation:
 
     def _rows(self, rows: Rows) -> Rows:
         """The rows as it is asked them; raises InputError where they are none, or tilted and it does not take these."""
-        rows = as_rows(rows, tilted=self.description.tilt)
-        return with_axis(rows) if self.description.tilt else rows
+        tilt, layout = self.description.tilt, self.description.asked.layout
+        rows = as_rows(rows, tilted=tilt, layout=layout)
+        return with_axis(rows, layout) if tilt else rows
 
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
         if by_scene and not self.scene:

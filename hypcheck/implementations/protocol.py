@@ -10,10 +10,15 @@
 
 A program whose description has "tilt": true is asked tilted-text in place of text, lines of ten decimals, and
 tilted-binary in place of binary, N·80 bytes.
+
+A program whose description has "question": "passage" is asked passage-text and passage-binary: lines of ten decimals or
+N·80 bytes, with "tilt": true thirteen decimals or N·104 bytes. With "times": true it replies lines such as "1 T" or
+"0", or N bytes and N float64.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
@@ -23,14 +28,15 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import LARGEST, WIDTH, integers, quoted, row_bytes, stderr_excerpt
+from hypcheck.implementations.frames import LARGEST, WIDTH, GivenAnswers, integers, quoted, row_bytes, stderr_excerpt
 from hypcheck.implementations.process import Process
-from hypcheck.implementations.session import FaultError, IntegerAnswers, Limits, Outcome, StartError
+from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.messages import escaped
 
 _HEAD = re.compile(rb"(\d{1,19}) (\d{1,19})\r?\n")
 _TIMES = re.compile(rb"(\d{1,19}) (\d{1,18}) ([+-]?\d{1,18})\r?\n")
 _INTEGER = re.compile(rb"[ \t]*([+-]?\d{1,18})[ \t\r]*")
+_HIT = re.compile(rb"[ \t]*\+?1[ \t]+([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,5})?|[+-]?nan|[+-]?inf)[ \t\r]*")
 _USUAL = {b"0": 0, b"1": 1, b"-1": -1, b"2": 2, b"127": 127}
 _LINE = 64
 """The most bytes of a line with one integer, with room for blanks."""
@@ -86,9 +92,12 @@ class Reply:
 
 
 class _Answers(Reply):
-    def __init__(self, sequence: int, n: int) -> None:
+    """The answers to n rows, with times or without."""
+
+    def __init__(self, sequence: int, n: int, *, times: bool = False) -> None:
         super().__init__(sequence)
         self._n = n
+        self._times = times
 
     def _check_head(self, incoming: bytearray, end: int) -> None:
         head = _HEAD.fullmatch(incoming, 0, end)
@@ -111,22 +120,29 @@ class _Answers(Reply):
 
 
 class BinaryReply(_Answers):
-    """`SEQ N` and N bytes."""
+    """`SEQ N` and N bytes, then N float64 if there are times."""
+
+    @property
+    def _size(self) -> int:
+        return self._n * (1 + 8 * self._times)
 
     def _after(self, incoming: bytearray, end: int) -> int:
         self._check_head(incoming, end)
-        return end + self._n if len(incoming) >= end + self._n else 0
+        return end + self._size if len(incoming) >= end + self._size else 0
 
     def _so_far(self, incoming: bytearray, end: int) -> int:
-        return len(incoming) - end
+        return (len(incoming) - end) * self._n // max(1, self._size)
 
-    def integers(self, reply: bytes) -> IntegerAnswers:
+    def answers(self, reply: bytes) -> GivenAnswers:
         """The answers of a complete reply."""
-        return integers(reply[-self._n :], 1)
+        if not self._times:
+            return GivenAnswers(integers(reply[-self._n :], 1))
+        body = reply[len(reply) - self._size :]
+        return GivenAnswers(integers(body[: self._n], 1), np.frombuffer(body[self._n :], dtype="<f8"))
 
 
 class TextReply(_Answers):
-    """`SEQ N` and N lines of one integer."""
+    """`SEQ N` and N lines of one integer, and of a time behind a 1 if there are times."""
 
     def _after(self, incoming: bytearray, end: int) -> int:
         self._check_head(incoming, end)
@@ -143,13 +159,24 @@ class TextReply(_Answers):
     def _so_far(self, incoming: bytearray, end: int) -> int:
         return incoming.count(b"\n", end)
 
-    def integers(self, reply: bytes) -> IntegerAnswers:
+    def answers(self, reply: bytes) -> GivenAnswers:
         """The answers of a complete reply; raises FaultError naming the first line that is no integer."""
         lines = reply.split(b"\n")[1:-1]
+        if self._times:
+            timed = [self._timed(number, line) for number, line in enumerate(lines, start=1)]
+            return GivenAnswers(np.array([answer for answer, _ in timed]), np.array([time for _, time in timed]))
         values = [_USUAL.get(line) for line in lines]
         if None in values:
             values = [self._integer(number, line) for number, line in enumerate(lines, start=1)]
-        return np.array(values, dtype=np.int64)
+        return GivenAnswers(np.array(values, dtype=np.int64))
+
+    def _timed(self, number: int, line: bytes) -> tuple[int, float]:
+        hit = _HIT.fullmatch(line)
+        answer = 1 if hit else self._integer(number, line)
+        if answer == 1 and not hit:
+            wanted = "it must be 1 and the time, one blank between"
+            raise broken(f"answer {number} of {self._n} is {quoted(line)}; {wanted}")
+        return answer, float(hit[1]) if hit else math.nan
 
     def _integer(self, number: int, line: bytes) -> int:
         match = _INTEGER.fullmatch(line)
@@ -239,13 +266,15 @@ class CommandSession:
         del incoming[: end + 1]
         return line
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:  # noqa: ARG002 - it has no entry for scenes
-        """An integer for each row."""
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
+        """An integer for each row, and times if the description says so."""
         n = len(rows)
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
-        again = rows[:1] if self._known is None else self._known
-        answers = reply.integers(self._ask(question, self._body(rows), reply, again, rows.size * self._widest))
+        again: Rows | None = rows[:1] if self._known is None else self._known
+        if self.description.times and self.description.binary:
+            again = None  # the bytes of a time may look like the first line of the second reply
+        answers = reply.answers(self._ask(question, self._body(rows), reply, again, rows.size * self._widest))
         self._known = rows[-1:].copy()
         return answers
 
@@ -270,7 +299,7 @@ class CommandSession:
     def _time(self, rows: Rows, repeat: int) -> tuple[int, int]:
         self._sequence += 1
         reply = TimeReply(self._sequence)
-        question = f"time {self._sequence} {len(rows)} {repeat} {self._tilted}binary"
+        question = f"time {self._sequence} {len(rows)} {repeat} {self._form}binary"
         return reply.times(self._ask(question, (row_bytes(rows),), reply))
 
     def _ask(
@@ -331,11 +360,11 @@ class CommandSession:
 
     @property
     def _how(self) -> str:
-        return self._tilted + ("binary" if self.description.binary else "text")
+        return self._form + ("binary" if self.description.binary else "text")
 
     @property
-    def _tilted(self) -> str:
-        return "tilted-" if self.description.tilt else ""
+    def _form(self) -> str:
+        return self.description.asked.forms[self.description.tilt]
 
     @property
     def _widest(self) -> int:
@@ -346,7 +375,8 @@ class CommandSession:
         return (row_bytes(rows),) if self.description.binary else row_text(rows)
 
     def _reply(self, n: int) -> BinaryReply | TextReply:
-        return (BinaryReply if self.description.binary else TextReply)(self._sequence, n)
+        kind = BinaryReply if self.description.binary else TextReply
+        return kind(self._sequence, n, times=self.description.times)
 
     @property
     def evidence(self) -> str:
@@ -370,7 +400,8 @@ class CommandSession:
 def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) -> None:
     """Raise FaultError if the second reply begins before the first, of `length` if complete, ends.
 
-    No answer looks like its first line: in text, none has a blank in it; in binary, none is a digit.
+    No answer looks like its first line: in text, none has a blank in it, or it is a 1 with a time, while the second
+    question is never the first; in binary, none is a digit.
     """
     began = re.search(rb"(?<!\d)%d 1\r?\n" % second.sequence, incoming)
     if began and (not length or began.start() < length):

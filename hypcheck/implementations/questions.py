@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import CANNOT_SAY, Rows, invalid
-from hypcheck.implementations.description import Description, allowed
-from hypcheck.implementations.frames import UNWRITTEN
-from hypcheck.implementations.session import FaultError, GivenUpError, IntegerAnswers, Outcome, Supervisor
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Mask, Rows, invalid
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.frames import UNWRITTEN, GivenAnswers
+from hypcheck.implementations.session import FaultError, GivenUpError, Outcome, Supervisor
 
 ALONE = 4096
 """So many rows are asked one by one to find the row that ends the process; more rows are first asked in such parts.
@@ -25,17 +25,19 @@ by halving.
 class Answered:
     """The answers to n rows: `answers` int8 (n,), CANNOT_SAY for rows without one; `status` int8 (n,), an Outcome each.
 
-    `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED.
+    `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED. `times` (n,) are those of the
+    answers 1, and NaN elsewhere; None if the implementation gives none.
     """
 
     answers: NDArray[np.int8]
     status: NDArray[np.int8]
     reasons: dict[int, str]
+    times: Floats | None = None
 
     @classmethod
-    def of(cls, answers: NDArray[np.int8]) -> Answered:
+    def of(cls, answers: NDArray[np.int8], times: Floats | None = None) -> Answered:
         """These answers, one for every row."""
-        return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {})
+        return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {}, times)
 
     @property
     def answered(self) -> NDArray[np.bool_]:
@@ -59,23 +61,30 @@ class AllowedAnswers:
 
     def __init__(self, description: Description) -> None:
         self._refuses = description.refuses
-        self.answers = allowed(description.question)
+        self._layout = description.asked.layout
+        self.times = description.times
+        self.answers = description.asked.answers
         self._usable = np.zeros(256, dtype=np.bool_)
         self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
 
-    def understood(self, answers: IntegerAnswers, rows: Rows) -> NDArray[np.bool_]:
-        """A mask (n,) of the allowed answers; REFUSED is allowed for invalid rows only."""
+    def understood(self, given: GivenAnswers, rows: Rows) -> Mask:
+        """A mask (n,) of the allowed answers. REFUSED is allowed for invalid rows only; a time is from 0 to 1."""
+        answers, times = given
         short = answers.astype(np.int8, copy=False)
         usable = self._usable.take(short.view(np.uint8))
         if answers.dtype != np.int8:
             usable &= short == answers
         if self._refuses:
             refused = np.flatnonzero(short == REFUSED)
-            usable[refused] &= invalid(rows[refused])
+            usable[refused] &= invalid(rows[refused], self._layout)
+        if times is not None:
+            usable &= (short != 1) | ((times >= 0) & (times <= 1))
         return np.asarray(usable)
 
-    def trouble_with(self, answer: int) -> str:
-        """Why an answer is not allowed."""
+    def trouble_with(self, answer: int, time: float | None = None) -> str:
+        """Why an answer with this time is not allowed."""
+        if answer == 1 and time is not None:
+            return f"it answered 1 with the time {time!r}; it must be a number from 0 to 1"
         if answer == REFUSED and self._refuses:
             return f"it answered {REFUSED}, which refuses the row, but the row is valid"
         hint = ", the value of positions that a library did not write" if answer == UNWRITTEN else ""
@@ -91,7 +100,8 @@ class RowQuestions:
         self._supervisor = supervisor
         self._allowed = allowed_answers
         self._by_scene = by_scene
-        self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {})
+        times = np.full(n, np.nan) if allowed_answers.times else None
+        self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {}, times)
 
     def ask(self, start: int, stop: int) -> None:
         """Ask rows [start, stop), together if possible; raises GivenUpError if the implementation is given up."""
@@ -107,13 +117,17 @@ class RowQuestions:
 
     def _question(self, start: int, stop: int) -> None:
         rows = self._rows[start:stop]
-        answers = self._supervisor.session().classify(rows, by_scene=self._by_scene)
+        given = self._supervisor.session().classify(rows, by_scene=self._by_scene)
         self._supervisor.note_answer()
-        understood = self._allowed.understood(answers, rows)
+        answers, times = given
+        understood = self._allowed.understood(given, rows)
         self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
         self.result.status[start:stop] = Outcome.ANSWERED
+        if self.result.times is not None and times is not None:
+            self.result.times[start:stop] = np.where(understood & (answers == 1), times, np.nan)
         for index in np.flatnonzero(~understood).tolist():
-            self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index])))
+            time = None if times is None else float(times[index])
+            self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index]), time))
 
     def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
         """Find the rows at fault by asking parts, and parts of the parts that fail.

@@ -10,14 +10,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Any, Protocol
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Protocol
 
 from hypcheck.errors import Exit, HypcheckError, InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import Description
+from hypcheck.implementations.frames import GivenAnswers
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +81,6 @@ class TimingError(HypcheckError):
     exit_code = Exit.WRONG
 
 
-IntegerAnswers = NDArray[np.signedinteger[Any]]
-
-
 class Session(Protocol):
     """One run of an implementation. Questions raise FaultError; after a fatal one only kill() may be called.
 
@@ -102,8 +97,8 @@ class Session(Protocol):
     scene: bool
     """Whether it has an entry for scenes: one set of sizes, many centres."""
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:
-        """An integer for each row, not checked."""
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
+        """An integer for each row and, if the description says so, times; neither is checked."""
         ...
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int] | None:

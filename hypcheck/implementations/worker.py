@@ -19,20 +19,19 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hypcheck.geometry.pair import TILTED_COLUMNS
+from hypcheck.geometry.pair import TILTED_WAY_COLUMNS
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.foreign import (
     ContractError,
     ForeignCode,
-    IntegerAnswers,
     Library,
     LoadError,
     PythonFunction,
     bytes_at,
     error_text,
 )
-from hypcheck.implementations.frames import WIDTH
+from hypcheck.implementations.frames import WIDTH, Call, GivenAnswers
 from hypcheck.messages import escaped
 
 _ONE, _TINY = 1.0, 2.0**-60
@@ -92,22 +91,22 @@ class WorkerChannel:
         os.close(nothing)
         sys.stdout = open(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)  # noqa: SIM115
         self._mark = 0
-        self._room = bytes_at(0, frames.LARGEST * 8 * len(TILTED_COLUMNS) + 56).data
+        self._room = bytes_at(0, frames.LARGEST * 8 * len(TILTED_WAY_COLUMNS) + 56).data
 
-    def request(self, count: int) -> tuple[bytes, int, Rows] | None:
-        """The next question: its kind, the repetitions, and the rows; None at the end of input.
+    def request(self, count: int) -> tuple[bytes, Call, int, Rows] | None:
+        """The next question: its kind, the call, the repetitions, and the rows; None at the end of input.
 
         The rows' address modulo 64 varies with `count`.
         """
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
             return None
-        asked, columns, n, repeat, self._mark = frames.REQUEST.unpack(head)
+        asked, call, columns, n, repeat, self._mark = frames.REQUEST.unpack(head)
         shift = 8 * (count % 8)
         body = self._room[shift : shift + n * 8 * columns]
         if not self._fill(body):
             return None
-        return asked, repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
+        return asked, frames.CALLS[call], repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
 
     def _fill(self, room: memoryview) -> bool:
         while room:
@@ -156,25 +155,28 @@ def serve(line: WorkerChannel, subject: ForeignCode, count: int) -> None:
 Reply = tuple[bytes, bytes | memoryview, int]
 
 
-def _reply(subject: ForeignCode, asked: bytes, repeat: int, rows: Rows) -> Reply:
+def _reply(subject: ForeignCode, asked: bytes, call: Call, repeat: int, rows: Rows) -> Reply:
     try:
         if asked in {frames.TIME, frames.TIME_SCENE, frames.TIME_EACH}:
-            times = _times(subject, asked, repeat, rows)
+            times = _times(subject, asked, call, repeat, rows)
             return frames.TIMED, frames.TIMES.pack(*times), 8
-        classify = subject.classify_scene if asked == frames.CLASSIFY_SCENE else subject.classify
-        answers: IntegerAnswers = np.ascontiguousarray(classify(rows))
+        scene = asked == frames.CLASSIFY_SCENE
+        given = GivenAnswers(subject.classify_scene(rows)) if scene else subject.classify(rows, call)
+        answers = np.ascontiguousarray(given.integers)
     except ContractError as error:
         return frames.PROTOCOL, _sentence(str(error)), 1
     except BaseException as error:  # noqa: BLE001 - foreign code raises anything, SystemExit too
         traceback.print_exc()
         return frames.ERROR, _sentence(f"it {error_text(error)}"), 1
+    if given.times is not None:
+        return frames.ANSWERS, answers.tobytes() + given.times.astype("<f8", copy=False).tobytes(), answers.itemsize
     return frames.ANSWERS, answers.data.cast("B"), answers.itemsize
 
 
-def _times(subject: ForeignCode, asked: bytes, repeat: int, rows: Rows) -> tuple[int, int]:
+def _times(subject: ForeignCode, asked: bytes, call: Call, repeat: int, rows: Rows) -> tuple[int, int]:
     if asked == frames.TIME_EACH:
-        return subject.seconds_each(rows, repeat)
-    return subject.seconds(rows, repeat, by_scene=asked == frames.TIME_SCENE)
+        return subject.seconds_each(rows, repeat, call)
+    return subject.seconds(rows, repeat, call, by_scene=asked == frames.TIME_SCENE)
 
 
 def _sentence(text: str) -> bytes:

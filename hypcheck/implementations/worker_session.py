@@ -7,13 +7,15 @@ import secrets
 import sys
 from pathlib import Path
 
+import numpy as np
+
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import WIDTH, quoted, stderr_excerpt
+from hypcheck.implementations.frames import WIDTH, Call, GivenAnswers, quoted, stderr_excerpt
 from hypcheck.implementations.process import Process
-from hypcheck.implementations.session import FaultError, IntegerAnswers, Limits, Outcome, StartError
+from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.implementations.spec import Spec
 from hypcheck.messages import counted, escaped
 
@@ -78,18 +80,21 @@ class WorkerSession:
             self.description = described_by_json(described or b"{}", defaults)
         except InputError as error:
             raise StartError(str(error)) from None
-        tilt = self.description.tilt
-        self.scene = frames.entry_name(tilt=tilt, scene=True) in entries
-        if spec.kind == "library" and frames.entry_name(tilt=tilt) not in entries:
-            raise StartError(_lacking(spec.words[0], tilt=tilt))
+        tilt, asked = self.description.tilt, self.description.asked
+        self._call = Call(asked.entry, asked.layout, self.description.times)
+        self.scene = frames.entry_name(asked.entry, tilt=tilt, scene=True) in entries
+        if spec.kind == "library" and frames.entry_name(asked.entry, tilt=tilt) not in entries:
+            raise StartError(_lacking(spec.words[0], self.description))
 
-    def classify(self, rows: Rows, *, by_scene: bool = False) -> IntegerAnswers:
-        """An integer for each row."""
+    def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
+        """An integer for each row, and times if the description says so."""
         asked = frames.CLASSIFY_SCENE if by_scene else frames.CLASSIFY
         width, body = self._ask(asked, rows, 1, frames.ANSWERS)
-        if len(body) != width * len(rows):
-            raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(len(rows), 'row')}")
-        return frames.integers(body, width)
+        n, times = len(rows), self._call.times
+        if len(body) != (width + 8 * times) * n:
+            raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(n, 'row')}")
+        answers = frames.integers(body[: width * n], width)
+        return GivenAnswers(answers, np.frombuffer(body[width * n :], dtype="<f8") if times else None)
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
         """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
@@ -103,7 +108,9 @@ class WorkerSession:
     def _ask(self, asked: bytes, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
         mark = secrets.randbits(64)
-        self._process.send((frames.REQUEST.pack(asked, rows.shape[1], len(rows), repeat, mark), frames.row_bytes(rows)))
+        call = frames.CALLS.index(self._call)
+        head = frames.REQUEST.pack(asked, call, rows.shape[1], len(rows), repeat, mark)
+        self._process.send((head, frames.row_bytes(rows)))
         what, width, body = self._reply(self._limits.timeout, mark)
         if what == expected:
             return width, body
@@ -117,7 +124,7 @@ class WorkerSession:
         self._await(frames.REPLY.size, until, seconds)
         incoming = self._process.incoming
         what, width, size, marked = frames.REPLY.unpack_from(incoming)
-        if marked != mark or width not in {1, 8} or size > max(8 * frames.LARGEST, 2 * LONGEST):
+        if marked != mark or width not in {1, 8} or size > max(16 * frames.LARGEST, 2 * LONGEST):
             raise _broken(quoted(incoming))
         self._await(frames.REPLY.size + size, until, seconds)
         body = incoming[frames.REPLY.size : frames.REPLY.size + size]
@@ -149,11 +156,16 @@ class WorkerSession:
         self._process.kill()
 
 
-def _lacking(path: str, *, tilt: bool) -> str:
+def _lacking(path: str, described: Description) -> str:
     """That a library lacks the function that is to be called."""
-    name, rows = frames.entry_name(tilt=tilt), "rows10" if tilt else "rows"
-    why = ', since it describes itself with "tilt": true' if tilt else ""
-    wanted = f"void {name}(size_t n, const double *{rows}, int8_t *positions)"
+    asked = described.asked
+    name = frames.entry_name(asked.entry, tilt=described.tilt)
+    rows = f"rows{len(asked.layout.tilted)}" if described.tilt else "rows"
+    reasons = [f'"question": "{asked.name}"'] if asked.layout is not PAIRS else []
+    reasons += ['"tilt": true'] if described.tilt else []
+    why = f", since it describes itself with {' and '.join(reasons)}" if reasons else ""
+    answers = "int8_t *positions" if asked.layout is PAIRS else "int8_t *hits, double *times"
+    wanted = f"void {name}(size_t n, const double *{rows}, {answers})"
     return f'{path!r} has no symbol {name}; it must export {wanted}, in C++ as extern "C"{why}'
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.description import allowed
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
@@ -148,7 +148,7 @@ def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
 def _of_open(each: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
     """Pending cases must be part of a planned chunk, and each must have an answer that the question allows."""
     chunk, indices = each.chunk, each.indices
-    known = (*allowed(rules.criterion.question), CANNOT_SAY)
+    known = (*QUESTIONS[rules.criterion.question].answers, CANNOT_SAY)
     whole = [
         part.between(chunk.start - part.start, chunk.stop - part.start)
         for part in waiting

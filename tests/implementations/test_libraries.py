@@ -12,6 +12,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.implementations import foreign as libraries
+from hypcheck.implementations.frames import CALLS
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
 from tests.tools.miniatures import LIMITS, compiled, only_unlucky, rows, signs
@@ -78,11 +79,11 @@ def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_
     counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
     calls = ctypes.c_long.in_dll(ctypes.CDLL(str(tmp_path / f"{loop[-1]}.so")), "calls_about_one_row")
     some = rows(40)
-    took, total = counting.seconds_each(some, 25)
+    took, total = counting.seconds_each(some, 25, CALLS[0])
     assert took > 0
     assert total == sum(signs(some).tolist())
     assert calls.value == 40 * 25
-    assert counting.seconds_each(some[:0], 25)[1] == 0
+    assert counting.seconds_each(some[:0], 25, CALLS[0])[1] == 0
     assert calls.value == 40 * 25
 
 
