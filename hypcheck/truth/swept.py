@@ -1,15 +1,15 @@
 """The way between two positions: whether a spheroid that moves along a segment meets contact, exactly, and when first.
 
-The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1. In t, x² + y² and z² are polynomials of degree 2, c1 and c2 too, and Δ
-is one of degree 8 at most, with rational coefficients. Its roots are all that matters (docs/motion.md):
+The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1; the axis keeps its direction. Steps (steps.py) decide most ways: each
+is a piece that one multiplier proves clear, and a contact behind the last piece is asked for by the exact decision. The
+roots of a critical polynomial in t decide every way (docs/motion.md). Of an upright spheroid it is the discriminant Δ
+of the cubic, of degree 8 at most; of one that leans that of the quartic, of degree 12:
 
 - the position changes only through a tangency, and a tangency has Δ = 0. So between two neighbouring roots of Δ the
   position is constant, and one exact decision between them finds it;
 - at a root with the same clear position on both sides there is a tangency (the spheroid grazes the surface), unless the
-  double root of g is the ring's. That one needs z = 0: where z varies it is zero at one rational t, which is decided
-  exactly; where z = 0 all along, the position depends on x² + y² alone, monotonically, so the spheroid can graze only
-  where x² + y² is least: at one rational t again;
-- Δ is not 0 for every t unless nothing moves.
+  multiple root is the ring's. Where the ring can be is known exactly (`touches` of a journey);
+- Δ of an upright way is not 0 for every t unless nothing moves; of one that leans another polynomial takes its place.
 
 Roots are counted by Sturm's theorem in integers; nothing is rounded.
 """
@@ -23,19 +23,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, Lengths, Position, trouble_with
+from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, Position, trouble_with
 from hypcheck.messages import counted, escaped
-from hypcheck.truth import exact
-from hypcheck.truth.polynomial_roots import (
-    Interval,
-    Polynomial,
-    narrowed,
-    polynomial_product,
-    polynomial_sum,
-    primitive,
-    roots_from_0_to_1,
-    value,
-)
+from hypcheck.truth.journey import Journey, UprightJourney
+from hypcheck.truth.polynomial_roots import Interval, narrowed, roots_from_0_to_1
+from hypcheck.truth.steps import WIDTH_BITS, steps
+from hypcheck.truth.tilted.journey import TiltedJourney
 
 Rational = float | Fraction
 """A float64, taken as an exact value, or a fraction."""
@@ -76,29 +69,6 @@ class Passage:
         return math.nan if self.first is None else rounded(self.first[1], math.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class _Journey:
-    """Sizes and a way in integers, radial and axial lengths each in their own unit: (start, step) by coordinate."""
-
-    alpha: int
-    b: int
-    gamma: int
-    d: int
-    x: tuple[int, int]
-    y: tuple[int, int]
-    z: tuple[int, int]
-
-    def position(self, time: Fraction) -> Position:
-        """The exact position at a rational time."""
-        return exact.position(self.at(time))
-
-    def at(self, time: Fraction) -> Lengths:
-        """The pair at a rational time."""
-        n, m = time.numerator, time.denominator
-        x, y, z = (start * m + step * n for start, step in (self.x, self.y, self.z))
-        return Lengths(self.alpha * m, self.b * m, x, y, self.gamma * m, self.d * m, z)
-
-
 def passage(
     sizes: Sequence[Rational],
     start: Sequence[Rational],
@@ -111,71 +81,45 @@ def passage(
     it is None. Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0, a
     coordinate not finite, an axis without direction, or their number not 4, 3, 3 and 3.
     """
-    if axis is not None and _leans(sizes, checked_axis(axis)):
-        raise InputError("a way of a spheroid whose axis leans cannot be decided yet")
-    journey = _journey(sizes, start, end)
+    journey = journey_of(sizes, start, end, axis)
+    return by_steps(journey) or by_roots(journey)
+
+
+def by_steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Passage | None:
+    """What happens on a way, by steps; None where they come to nothing, or where it begins with a tangency."""
     here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
-    if not any(step for _, step in (journey.x, journey.y, journey.z)):
+    if not journey.moves:
+        return None
+    if here is Position.CONTACT:
+        return None if journey.tangent(Fraction(0)) else Passage(here, there, (Fraction(0), Fraction(0)))
+    found = steps(journey, width_bits)
+    if found is None:
+        return None
+    return Passage(here, there, None if found.contact is None else (found.until, found.contact))
+
+
+def by_roots(journey: Journey) -> Passage:
+    """What happens on a way, by the roots of the critical polynomial: always decides."""
+    here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
+    if not journey.moves:
         met = (Fraction(0), Fraction(0)) if here is Position.CONTACT else None
-        return Passage(here, there, met, met is not None and exact.decide(journey.at(Fraction(0))).tangent)
-    delta = _discriminant(journey)
-    times = roots_from_0_to_1(delta)
-    gaps = [None if time is None else journey.position(time) for time in _between(times)]
+        return Passage(here, there, met, met is not None and journey.tangent(Fraction(0)))
+    critical = journey.critical()
+    times = roots_from_0_to_1(critical)
+    between = list(_between(times))
+    gaps = [None if time is None else journey.position(time) for time in between]
     before = [here if gap is None else gap for gap in gaps[:-1]]
     after = [there if gap is None else gap for gap in gaps[1:]]
     meetings = [
         time
         for time, left, right in zip(times, before, after, strict=True)
-        if _meets(journey, delta, time, left, right)
+        if left is not right or left is Position.CONTACT or journey.touches(critical, time, left)
     ]
-    grazes = bool(meetings) and Position.CONTACT not in gaps
+    contacts = [time for time, gap in zip(between, gaps, strict=True) if time is not None and gap is Position.CONTACT]
+    grazes = bool(meetings or contacts) and all(map(journey.tangent, contacts))
     if here is Position.CONTACT:
         return Passage(here, there, (Fraction(0), Fraction(0)), grazes)
-    return Passage(here, there, narrowed(delta, *meetings[0]) if meetings else None, grazes)
-
-
-def _meets(journey: _Journey, delta: Polynomial, time: Interval, before: Position, after: Position) -> bool:
-    """Whether the spheroid is in contact at a root of Δ, given the positions just before and just after."""
-    if before is not after or before is Position.CONTACT:
-        return True  # contact is a closed condition, and the only way from one clear position to the other
-    low, high = time
-    special = low if low == high else _special_time(journey)
-    if low <= special <= high and value(delta, special) == 0:
-        return journey.position(special) is Position.CONTACT
-    return any(journey.z)
-
-
-def _special_time(journey: _Journey) -> Fraction:
-    """The one time at which the root can be the ring's; where z = 0 all along, the one at which it is a tangency."""
-    if journey.z[1]:
-        return Fraction(-journey.z[0], journey.z[1])
-    across = journey.x[1] ** 2 + journey.y[1] ** 2
-    return Fraction(-journey.x[0] * journey.x[1] - journey.y[0] * journey.y[1], across)
-
-
-def _discriminant(journey: _Journey) -> Polynomial:
-    """N⁴ Δ as a polynomial in t, over the gcd of its coefficients. N, c0, c1, c2 are those of exact.Cubic."""
-    p, q, s, t = journey.alpha**2, journey.b**2, journey.gamma**2, journey.d**2
-    radius, height = polynomial_sum(_square(journey.x), _square(journey.y)), _square(journey.z)
-    n3, n0 = (q * t,), (-p * s,)
-    n2 = polynomial_sum(((p + q) * t - s * q,), polynomial_product((-t,), radius), polynomial_product((-q,), height))
-    n1 = polynomial_sum((p * (t - s) - s * q,), polynomial_product((s,), radius), polynomial_product((-p,), height))
-    square2, square1 = polynomial_product(n2, n2), polynomial_product(n1, n1)
-    return primitive(
-        polynomial_sum(
-            polynomial_product(square1, square2),
-            polynomial_product((-4,), polynomial_product(n3, polynomial_product(n1, square1))),
-            polynomial_product(n0, polynomial_product((18,), polynomial_product(n3, polynomial_product(n1, n2)))),
-            polynomial_product(n0, polynomial_product((-4,), polynomial_product(n2, square2))),
-            polynomial_product((-27 * n3[0] ** 2,), polynomial_product(n0, n0)),
-        )
-    )
-
-
-def _square(coordinate: tuple[int, int]) -> Polynomial:
-    """(start + step t)²."""
-    start, step = coordinate
-    return (step * step, 2 * start * step, start * start)
+    return Passage(here, there, narrowed(critical, *meetings[0]) if meetings else None, grazes)
 
 
 def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
@@ -197,12 +141,23 @@ def rounded(number: Fraction, toward: float) -> float:
     return math.nextafter(near, toward) if wrong_side else near
 
 
-def _journey(sizes: Sequence[Rational], start: Sequence[Rational], end: Sequence[Rational]) -> _Journey:
+def journey_of(
+    sizes: Sequence[Rational],
+    start: Sequence[Rational],
+    end: Sequence[Rational],
+    axis: Sequence[Rational] | None = None,
+) -> Journey:
+    """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
     alpha, gamma, b, d, x0, y0, z0 = checked(sizes, start)
     x1, y1, z1 = checked(sizes, end)[len(SIZES) :]
+    direction = None if axis is None else checked_axis(axis)
+    if direction is not None and any(direction[:2]) and b != d:
+        a, c, w, h, x, u, y, v, z, s = integers(alpha, gamma, b, d, x0, x1 - x0, y0, y1 - y0, z0, z1 - z0)
+        v_x, v_y, v_z = integers(*direction)
+        return TiltedJourney(a, c, w, h, (x, u), (y, v), (z, s), (v_x, v_y, v_z))
     a, w, x, u, y, v = integers(alpha, b, x0, x1 - x0, y0, y1 - y0)
     c, h, z, s = integers(gamma, d, z0, z1 - z0)
-    return _Journey(a, w, c, h, (x, u), (y, v), (z, s))
+    return UprightJourney(a, w, c, h, (x, u), (y, v), (z, s))
 
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:
@@ -217,12 +172,6 @@ def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
     if not any(found):
         raise InputError(NO_DIRECTION)
     return found
-
-
-def _leans(sizes: Sequence[Rational], axis: tuple[Fraction, ...]) -> bool:
-    """Whether the axis matters: it is not vertical, and the spheroid is no sphere."""
-    _, _, b, d = checked_sequence("the sizes", SIZES, sizes)
-    return any(axis[:2]) and b != d
 
 
 def checked_sequence(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:

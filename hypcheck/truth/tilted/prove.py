@@ -42,35 +42,40 @@ def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> TiltedCer
 
 def _multiplier(F: Quartic) -> Fraction:
     """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
-    found = next(at for at in _toward_maximum(F) if _inside(F, at) and exact.sign_at(F.coefficients, at) > 0)
+    found = next(at for at in _toward_maximum(F) if inside(F, at) and exact.sign_at(F.coefficients, at) > 0)
     for bits in _precisions():
         at = _round(found, bits)
-        if _inside(F, at) and exact.sign_at(F.coefficients, at) > 0:
+        if inside(F, at) and exact.sign_at(F.coefficients, at) > 0:
             return at * F.side
     raise AssertionError("unreachable: the precisions do not end")
 
 
-def _toward_maximum(F: Quartic) -> Iterator[Fraction]:
-    """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ.
+def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
+    """A polynomial that has the sign of φ′ on (0, ℓ), the highest power first.
 
     φ is F over the determinant of M + λD, up to a positive factor, so that its slope has the sign of
     F′ K − F K′, K = (p ± q μ)(e0 + e1 μ − e2 μ²).
     """
     signed = F.side * F.q
     K = (-signed * F.e2, signed * F.e1 - F.p * F.e2, signed * F.e0 + F.p * F.e1, F.p * F.e0)
-    slope = _difference(_product(_derived(F.coefficients), K), _product(F.coefficients, _derived(K)))
+    return _difference(_product(_derived(F.coefficients), K), _product(F.coefficients, _derived(K)))
+
+
+def _toward_maximum(F: Quartic) -> Iterator[Fraction]:
+    """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ."""
+    slope = slope_of_quotient(F)
     largest = max(abs(each) for each in (*F.coefficients, *slope)).bit_length()
     low, high = Fraction(1, 2 << largest), Fraction(2 << largest)
     while True:
         middle = _power_near(low, high) if high > 4 * low else (low + high) / 2
         yield middle
-        if _inside(F, middle) and exact.sign_at(slope, middle) > 0:
+        if inside(F, middle) and exact.sign_at(slope, middle) > 0:
             low = middle
         else:
             high = middle
 
 
-def _inside(F: Quartic, at: Fraction) -> bool:
+def inside(F: Quartic, at: Fraction) -> bool:
     """Whether 0 < at < ℓ."""
     n, k = at.numerator, at.denominator
     before_first = F.side > 0 or F.q * n < F.p * k
@@ -131,7 +136,7 @@ def _candidates(forms: _Forms, F: Quartic) -> Iterator[Vector]:
     for bits in (4, 60) if square else ():
         yield _plus(forms.center, steepest, -F.side * _root(1 / square, bits))
     for steps, at in enumerate(_toward_maximum(F)):
-        if not _inside(F, at):
+        if not inside(F, at):
             continue
         adjugate = forms.adjugate(at * F.side)
         scaled = _times(adjugate, _times(forms.M, forms.center))

@@ -1,0 +1,190 @@
+"""The way of a spheroid that leans: steps against roots, exact decisions on the way, its tangencies and rings."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Position
+from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
+from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.certificate import matrices
+from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+from hypcheck.truth.tilted.surd import Surd
+from hypcheck.vectors.tilted.coincidences import RINGS, TWO_POINTS
+
+CONTACT = Position.CONTACT
+
+_sizes = st.tuples(*[st.integers(32, 1024).map(lambda n: n / 256)] * 4)
+_centers = st.tuples(*[st.integers(-1536, 1536).map(lambda n: n / 256)] * 3)
+_axes = st.tuples(*[st.integers(-3, 3)] * 3).filter(lambda axis: any(axis[:2]))
+
+
+def position(sizes, start, end, axis, time):
+    centre = (Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(start, end, strict=True))
+    return exact.position(TiltedLengths.of((*map(Fraction, sizes), *centre, *map(Fraction, axis))))
+
+
+@settings(max_examples=30)
+@given(_sizes, _centers, _centers, _axes)
+def test_exact_decisions_on_a_tilted_way_agree(sizes, start, end, axis):
+    found = passage(sizes, start, end, axis)
+    assert found.start == position(sizes, start, end, axis, Fraction(0))
+    assert found.end == position(sizes, start, end, axis, Fraction(1))
+    for number in range(33):
+        time = Fraction(number, 32)
+        there = position(sizes, start, end, axis, time)
+        if found.clear or time < found.first[0]:
+            assert there == found.start
+        elif there == 0:
+            assert found.first[0] <= time
+        elif there != found.start:
+            assert found.first[1] < time
+
+
+@settings(max_examples=8, deadline=None)
+@given(_sizes, _centers, _centers, st.one_of(st.none(), _axes))
+def test_steps_and_roots_agree_about_a_way(sizes, start, end, axis):
+    journey = journey_of(sizes, start, end, axis)
+    steps, roots = by_steps(journey), by_roots(journey)
+    assume(steps is not None)
+    assert (steps.start, steps.end, steps.hit, steps.grazes) == (roots.start, roots.end, roots.hit, roots.grazes)
+    if steps.hit:
+        assert steps.first[0] <= roots.first[1]
+        assert roots.first[0] <= steps.first[1]
+
+
+def beside(row):
+    """The direction in the plane of y = 0 that keeps the centre at the same place beside the pole, and one across it.
+
+    The double root is the pole: towards exterior that of a direction k in that plane, and the first keeps kᵀ M C at 0;
+    towards interior that of y, and the first goes along the level of φ.
+    """
+    F = exact.quartic(TiltedLengths.of(row))
+    pole = exact.double_root(F) * F.side
+    S, H = matrices(TiltedPair.from_row(row))
+    (m, _, n), (_, _, w) = S[0][:3], S[2][:3]
+    if F.side > 0:
+        k = (-n, m + pole * H[0][0])
+        along = (m * k[0] + n * k[1], n * k[0] + w * k[1])
+    else:
+        a, c = m + pole * H[0][0], w + pole * H[2][2]
+        centre = Fraction(row[4]), Fraction(row[6])
+        x, z = (m * centre[0] + n * centre[1], n * centre[0] + w * centre[1])
+        along = ((c * x - n * z) * H[0][0], (a * z - n * x) * H[2][2])
+    size = max(map(abs, along))
+    return (-along[1] / size, Fraction(0), along[0] / size), (along[0] / size, Fraction(0), along[1] / size)
+
+
+def way_through(row, direction, reach):
+    centre = tuple(map(Fraction, row[4:7]))
+    start, end = (tuple(c + n * w * reach for c, w in zip(centre, direction, strict=True)) for n in (-1, 2))
+    return row[:4], start, end, row[7:]
+
+
+@pytest.mark.parametrize("row", RINGS)
+def test_passing_the_ring_of_a_tilted_spheroid_is_no_contact(row):
+    """Every way through the centre is short enough to stay clear, and the discriminant is 0 there."""
+    ways = [beside(row)[0], (0, 1, 0)]
+    for way in ways:
+        journey = journey_of(*way_through(row, way, Fraction(1, 2**20)))
+        assert by_roots(journey).clear
+        assert by_steps(journey).clear
+
+
+@pytest.mark.parametrize("row", TWO_POINTS)
+def test_a_way_beside_a_tangency_in_two_points_grazes_there_alone(row):
+    found = passage(*way_through(row, beside(row)[0], Fraction(1, 2**20)))
+    assert found.hit
+    assert found.grazes
+    assert found.first[0] <= Fraction(1, 3) <= found.first[1]
+    assert found.first[1] - found.first[0] < Fraction(1, 2**50)
+    assert found.start is found.end is not CONTACT
+
+
+@pytest.mark.parametrize("row", TWO_POINTS)
+def test_a_way_into_a_tangency_in_two_points_meets_it(row):
+    for way in (beside(row)[1], (0, 1, 0), (1, 2, -1)):
+        found = passage(*way_through(row, way, Fraction(1, 2**20)))
+        assert found.hit
+        assert found.first[0] <= Fraction(1, 3)
+
+
+def test_a_way_along_which_every_position_has_a_multiple_root_is_decided():
+    """b = α, and the centre on a line through the origin: tangent near the origin, interior far from it.
+
+    With λ = −1 the form S + λH has two zero directions at every time; −1 is the pole of the direction n.
+    """
+    way = ((3, 1, 3, 1), (0, 0, 0), (Fraction(128, 9), 0, 64), (1, 0, 2))
+    journey = journey_of(*way)
+    found = passage(*way)
+    positions = [position(*way, Fraction(n, 16)) for n in range(17)]
+    assert {*positions} == {CONTACT, Position.INTERIOR}
+    assert all(journey.tangent(Fraction(n, 16)) for n in range(17) if positions[n] is CONTACT)
+    assert found.first == (0, 0)
+    assert found.grazes
+    back = by_roots(journey_of(way[0], way[2], way[1], way[3]))
+    last = Fraction(positions.count(CONTACT) - 1, 16)
+    assert 1 - last - Fraction(1, 16) <= back.first[0] <= back.first[1] <= 1 - last
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    _sizes,
+    _centers,
+    _centers,
+    _axes,
+    st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
+    st.lists(st.sampled_from([-1, 0, 1]), min_size=13, max_size=13),
+)
+def test_an_answer_that_is_right_for_changed_inputs_of_a_tilted_way_is_tolerated(
+    sizes, start, end, axis, change, signs
+):
+    row = tuple(map(Fraction, (*sizes, *start, *end, *axis)))
+    moved = tuple(each * (1 + sign * change) for each, sign in zip(row, signs, strict=True))
+    assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
+
+
+def test_a_tilted_size_error_is_bracketed_by_exact_decisions():
+    row = (2.0, 3.0, 1.0, 0.5, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0, 1.0, 0.0, 1.0)
+    assert not hits_at_size(row)
+    found = size_error(row, True)
+    assert not hits_at_size(row, 1 + Fraction(found.lower))
+    assert hits_at_size(row, 1 + Fraction(found.upper))
+
+
+def test_an_upright_axis_and_a_sphere_are_decided_as_upright_ways():
+    way = ((2, 3, 1, 0.5), (-4, 2, 1), (4, 2, 0))
+    assert passage(*way, (0, 0, -3)) == passage(*way)
+    sphere = ((2, 3, 1, 1), (-4, 2, 1), (4, 2, 0))
+    assert passage(*sphere, (1, 2, 3)) == passage(*sphere)
+
+
+def test_an_axis_without_direction_is_refused():
+    with pytest.raises(InputError, match="an axis must have a direction"):
+        hypcheck.passage((2, 3, 1, 0.5), (0, 0, 0), (1, 0, 0), (0, 0, 0))
+    with pytest.raises(InputError, match=r"the axis: 2 numbers in .*; there must be 3: axis_x, axis_y, axis_z"):
+        hypcheck.passage((2, 3, 1, 0.5), (0, 0, 0), (1, 0, 0), (0, 1))
+
+
+@given(*[st.fractions(-4, 4, max_denominator=12)] * 4, st.sampled_from([2, 3, Fraction(5, 7)]))
+def test_numbers_with_a_root_are_computed_exactly(u, v, s, t, w):
+    first, second = Surd(u, v, Fraction(w)), Surd(s, t, Fraction(w))
+    root = math.sqrt(w)
+    for found, value in (
+        (first + second, u + s + (v + t) * root),
+        (first - second, u - s + (v - t) * root),
+        (first * second, (u + v * root) * (s + t * root)),
+    ):
+        assert float(found.u + found.v * Fraction(root)) == pytest.approx(float(value), abs=1e-9)
+        if abs(value) > 1e-9:
+            assert found.sign == (1 if value > 0 else -1)
+    if second.sign:
+        assert (first / second * second - first).sign == 0
