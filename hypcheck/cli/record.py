@@ -72,12 +72,13 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
         return None
     if wanted:
         return wanted[0]
-    fitting = [name for name, each in REPORTS.items() if Path(each.file).suffix == out.suffix]
-    usual = [name for name in fitting if name in kept_formats()]
-    named = [name for name in fitting if REPORTS[name].file == out.name] or usual
-    if len(named or fitting) != 1:
+    named = [name for name, each in REPORTS.items() if each.file == out.name]
+    alike = [name for name, each in REPORTS.items() if each.by_suffix and Path(each.file).suffix == out.suffix]
+    usual = [name for name in alike if name in kept_formats()]
+    found = named or usual or alike
+    if len(found) != 1:
         raise InputError(f"--out {out}: its name does not say which report it is; use --format {', '.join(REPORTS)}")
-    return (named or fitting)[0]
+    return found[0]
 
 
 def _read(path: Path, subject: Path) -> Record:

@@ -203,9 +203,10 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     A run with SPEC that was interrupted or killed continues with --resume RECORD (or the folder of its run, which is
     then the default of --out) and the same options. A run without SPEC keeps what it finished, and starts again.
 
-    Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, measurements.csv and
-    pictures. Options and SPECs that are not given are read from hypcheck.toml in the working directory, if it exists.
-    Each option that weakens the gate is shown at the start and in every report.
+    Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, results.sarif,
+    gl-code-quality-report.json, badge.json, measurements.csv and pictures. Options and SPECs that are not given are
+    read from hypcheck.toml in the working directory, if it exists. Each option that weakens the gate is shown at the
+    start and in every report.
     """
     chosen = _chosen_specs(context, specs, self_check=options.pop("self_check"))
     unused = _WITHOUT_SPEC if chosen else _WITH_SPEC

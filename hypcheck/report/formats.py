@@ -14,18 +14,23 @@ class ReportFormat:
     shows: the type of lines that it shows; without one of them no file is written, and none is missed.
     compares: whether it shows changes against another record.
     kept: whether every run writes it; others are made on demand.
+    by_suffix: whether a file name with its suffix alone means it; else only its own name does.
     """
 
     file: str
     shows: str | None = None
     compares: bool = False
     kept: bool = True
+    by_suffix: bool = True
 
 
 REPORTS = {
     "terminal": ReportFormat("report.txt", compares=True, kept=False),
     "json": ReportFormat("summary.json"),
     "junit": ReportFormat("junit.xml"),
+    "sarif": ReportFormat("results.sarif"),
+    "gitlab": ReportFormat("gl-code-quality-report.json", by_suffix=False),
+    "badge": ReportFormat("badge.json", by_suffix=False),
     "csv": ReportFormat("measurements.csv"),
     "map": ReportFormat("map.svg", shows="map"),
     "errors": ReportFormat("errors.svg", shows="accuracy"),

@@ -42,7 +42,7 @@ from hypcheck.report.model import (
     under_test,
     worst_case,
 )
-from hypcheck.report.verdict import EXITS_UNFINISHED, INCONCLUSIVE, MEASUREMENT, SLOWER, Failure, failures, verdict
+from hypcheck.report.verdict import INCONCLUSIVE, MEASUREMENT, SLOWER, Failure, ended_badly, failures, verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,13 +213,10 @@ def _ended(record: Record, failed: list[Failure]) -> JunitCase:
 
     Failures of other cases are not repeated here.
     """
-    ended = verdict(record)
-    unfinished = record.footer is None or record.footer.exit_code in EXITS_UNFINISHED
-    unexplained = not ended.passed and not failed
-    contradictory = bool(failed) and record.footer is not None and record.footer.exit_code == 0
-    if unfinished or unexplained or contradictory:
-        return JunitCase("ended", JunitTrouble("error", "unfinished" if unfinished else "unexplained", ended.sentence))
-    return JunitCase("ended", output=(ended.sentence,))
+    ended = ended_badly(record, failed)
+    if ended is not None:
+        return JunitCase("ended", JunitTrouble("error", ended.kind, ended.message))
+    return JunitCase("ended", output=(verdict(record).sentence,))
 
 
 def _proof(line: ProofLine) -> JunitCase:

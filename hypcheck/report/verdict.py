@@ -8,7 +8,7 @@ known ones, an implementation under test errs, or a benchmark misses a target.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -39,7 +39,7 @@ from hypcheck.runs.judge import UNANSWERED, in_words
 class Failure:
     """One thing that fails a run.
 
-    subject: "proof", "oracle", "implementation", "findings" or "measurement".
+    subject: "proof", "oracle", "implementation", "findings", "measurement", or "run": how it ended.
     name: the one that failed.
     group: the family, the quantity or the workload.
     kind: one word for what happened.
@@ -325,6 +325,17 @@ def verdict(record: Record) -> Verdict:
         what_helps = "A quieter machine or more --processes would tell."
         return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. {what_helps}")
     return Verdict(False, f"FAILED with exit code {code}: {reason}.")
+
+
+def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
+    """How a run ended, if it stopped before its end or its exit code contradicts the record's lines; else None."""
+    ended, footer = verdict(record), record.footer
+    unfinished = footer is None or footer.exit_code in EXITS_UNFINISHED
+    unexplained = not ended.passed and not failed
+    contradictory = bool(failed) and footer is not None and footer.exit_code == 0
+    if not (unfinished or unexplained or contradictory):
+        return None
+    return Failure("run", "hypcheck", "ended", "unfinished" if unfinished else "unexplained", ended.sentence)
 
 
 def _failure_counts(found: list[Failure]) -> str:

@@ -5,7 +5,7 @@ jinja2 and matplotlib, which are extras, are loaded for the reports that need th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
@@ -13,10 +13,20 @@ from types import ModuleType
 from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report import csv, junit, markdown, summary, terminal
+from hypcheck.report import badge, csv, gitlab, junit, markdown, sarif, summary, terminal
 from hypcheck.report.drawings import ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.tables.streams import writing
+
+FOR_PROGRAMS: Mapping[str, ModuleType] = {
+    "json": summary,
+    "junit": junit,
+    "sarif": sarif,
+    "gitlab": gitlab,
+    "badge": badge,
+    "csv": csv,
+}
+"""The modules that make what programs read: of the record alone, whatever other reports there are."""
 
 
 def _html() -> ModuleType:
@@ -34,15 +44,11 @@ def _html() -> ModuleType:
 def render(name: str, record: Record, context: ReportContext | None = None) -> bytes:
     """The report of that format. Raises UnavailableError if it cannot be made here."""
     context = context or ReportContext()
+    if name in FOR_PROGRAMS:
+        return bytes(FOR_PROGRAMS[name].render(record))
     match name:
         case "terminal":
             return terminal.render(record, context)
-        case "json":
-            return summary.render(record)
-        case "junit":
-            return junit.render(record)
-        case "csv":
-            return csv.render(record)
         case "markdown":
             return markdown.render(record, context)
         case "overview":

@@ -60,7 +60,15 @@ def test_report_with_a_folder_writes_the_reports_of_a_run(run, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("file", "name"), [("a.md", "markdown"), ("b.xml", "junit"), ("c.json", "json"), ("d.txt", "terminal")]
+    ("file", "name"),
+    [
+        ("a.md", "markdown"),
+        ("b.xml", "junit"),
+        ("c.json", "json"),
+        ("e.sarif", "sarif"),
+        ("badge.json", "badge"),
+        ("d.txt", "terminal"),
+    ],
 )
 def test_report_with_a_file_writes_the_format_of_its_name(run, tmp_path, file, name):
     assert main(["report", str(run), "--out", str(tmp_path / file)]) == 0

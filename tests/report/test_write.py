@@ -16,7 +16,8 @@ from hypcheck.report.plots import pictures
 from hypcheck.report.write import render, write_reports
 from tests.report import record_samples
 
-FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv"}
+CODE = {"sarif": "results.sarif", "gitlab": "gl-code-quality-report.json", "badge": "badge.json"}
+FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv", *CODE.values()}
 TEXTS = ("json", "junit", "markdown", "csv")
 
 
@@ -33,6 +34,7 @@ def test_write_reports_writes_every_format(tmp_path):
         "report.md": markdown.render(record, ReportContext(["map.svg"])),
         "report.html": html.render(record),
         "measurements.csv": csv.render(record),
+        **{file: render(name, record) for name, file in CODE.items()},
     }
     assert b"](map.svg)" in contents["report.md"]
 
@@ -55,7 +57,8 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
     for each in write_reports(read(path), tmp_path):
         assert each.skipped is None
         if each.path.suffix not in (".svg", ".csv"):
-            assert "TRUNCATED" in each.path.read_text(encoding="utf-8")
+            said = "unfinished" if each.path.name == "badge.json" else "TRUNCATED"
+            assert said in each.path.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("kept", range(len(record_samples.lines()) + 1))

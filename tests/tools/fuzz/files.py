@@ -74,7 +74,7 @@ def reports(data: bytes) -> None:
     """A record of which every report in text is made."""
     found = read(kept(data, "record.jsonl"))
     notes(found)
-    for name in ("terminal", "json", "markdown", "junit"):
+    for name in ("terminal", "json", "markdown", "junit", "sarif", "gitlab", "badge"):
         render_report(name, found)
     github.error_lines(found)
 

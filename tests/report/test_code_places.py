@@ -1,0 +1,170 @@
+"""SARIF, GitLab's report and the badge say what failed, and where it stands in the code under test."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+
+import msgspec
+import pytest
+from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonSchema as Sarif
+
+from hypcheck.cli.main import main
+from hypcheck.record import Record
+from hypcheck.report import badge, gitlab, sarif
+from hypcheck.report.places import UNKNOWN, Place, placed_failures
+from hypcheck.report.verdict import failures
+from tests.report import record_samples
+from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+
+SEVERITIES = {"info", "minor", "major", "critical", "blocker"}
+SOURCE = """import numpy as np
+
+
+def other(rows):
+    return 1
+
+
+def position(rows):
+    return -np.ones(len(rows), np.int8)
+"""
+
+FAILING = [DISAGREEMENT, UNPROVED, EXACT_WRONG, CRASHED, DRIFT]
+
+
+def made(*lines, exit_code=1, files=None):
+    record = record_samples.record([*record_samples.lines(), *lines], exit_code)
+    if files is None:
+        return record
+    return Record(msgspec.structs.replace(record.header, files=files), record.lines, record.footer)
+
+
+def refused(spec):
+    """A run whose implementation could not be started."""
+    return {"type": "implementation", "spec": spec, "name": "theirs", "started": False, "trouble": "it is not there"}
+
+
+def place_of(spec, files):
+    (found,) = placed_failures(made(refused(spec), exit_code=5, files=files))
+    return found.place
+
+
+@pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
+def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
+    log = json.loads(sarif.render(record))
+    Sarif.model_validate(log)  # made from the published schema; unknown keys are refused
+    (run,) = log["runs"]
+    messages = [each["message"]["text"] for each in run["results"]]
+    assert len(messages) == len(failures(record)) + (record.footer is None)
+    assert all(any(failure.message in text for text in messages) for failure in failures(record))
+    for result in run["results"]:
+        assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
+
+
+def test_a_key_that_sarif_does_not_have_is_noticed():
+    log = json.loads(sarif.render(made(*FAILING, exit_code=6)))
+    log["runs"][0]["results"][0]["mesage"] = {"text": "misspelt"}
+    with pytest.raises(ValueError, match="mesage"):
+        Sarif.model_validate(log)
+
+
+@pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
+def test_every_failure_of_a_run_is_an_issue_with_the_keys_that_gitlab_reads(record):
+    issues = json.loads(gitlab.render(record))
+    assert len(issues) == len(failures(record)) + (record.footer is None)
+    for issue in issues:
+        assert set(issue) == {"description", "check_name", "fingerprint", "severity", "location"}
+        assert issue["severity"] in SEVERITIES
+        assert issue["location"]["lines"]["begin"] >= 1
+        assert issue["location"]["path"]
+    assert len({issue["fingerprint"] for issue in issues}) == len(issues)
+
+
+def test_a_run_that_was_cut_off_does_not_look_like_one_in_which_nothing_failed():
+    record = made(exit_code=None)
+    assert "TRUNCATED" in json.loads(gitlab.render(record))[0]["description"]
+    (run,) = json.loads(sarif.render(record))["runs"]
+    assert run["results"][0]["ruleId"] == "run/unfinished"
+    assert not run["invocations"][0]["executionSuccessful"]
+
+
+def test_the_fingerprint_of_a_failure_does_not_depend_on_what_else_failed_or_on_its_numbers():
+    worse = json.loads(json.dumps(CRASHED).replace('"crash": 2', '"crash": 3'))
+    (alone,) = placed_failures(made(CRASHED))
+    beside = {each.failure.kind: each for each in placed_failures(made(worse, DRIFT))}
+    assert beside["crash"].fingerprint == alone.fingerprint
+    assert beside["crash"].message != alone.message
+
+
+def test_a_python_function_is_placed_at_its_definition(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
+    told = hashlib.sha256(SOURCE.encode()).hexdigest()
+    assert place_of("python:mine.py:position", {"mine.py": told}) == Place("mine.py", 8)
+    assert place_of("python:./mine.py:position", {"mine.py": told}) == Place("mine.py", 8)
+    assert place_of("python:mine:other", {str(tmp_path / "mine.py"): told}) == Place("mine.py", 4)
+    assert place_of("python:mine.py:imported", {"mine.py": told}) == Place("mine.py")
+
+
+def test_a_python_file_that_is_not_the_one_that_was_asked_gives_no_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
+    assert place_of("python:mine.py:position", {"mine.py": "0" * 64}) == Place("mine.py")
+    assert place_of("python:mine.py:position", {}) == Place("mine.py")
+
+
+@pytest.mark.parametrize(
+    ("spec", "files", "place"),
+    [
+        ("library:./build/libmine.so", [], Place("build/libmine.so")),
+        ("command:python3 adapter.py --fast", ["/usr/bin/python3", "adapter.py"], Place("adapter.py")),
+        ("command:./adapter --fast", ["adapter"], Place("adapter")),
+        ("command:adapter", ["/usr/bin/adapter"], UNKNOWN),
+        ("builtin:table-2-float32", [], UNKNOWN),
+        ("what is this?", [], UNKNOWN),
+        ("python:pack.mine:f", ["/somewhere/pack/mine.py"], Place("/somewhere/pack/mine.py")),
+    ],
+)
+def test_an_implementation_is_placed_as_far_as_its_file_is_known(spec, files, place):
+    assert place_of(spec, dict.fromkeys(files, "0" * 64)) == place
+
+
+def test_a_path_in_sarif_is_a_uri():
+    (run,) = json.loads(sarif.render(made(refused("library:my lib#1.so"), exit_code=5)))["runs"]
+    location = run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
+    assert location == {"uri": "my%20lib%231.so", "uriBaseId": "%SRCROOT%"}
+
+
+@pytest.mark.parametrize(
+    ("lines", "exit_code", "message", "color"),
+    [
+        ([], 0, "held", "brightgreen"),
+        (FAILING, 6, "5 failures", "red"),
+        ([], 4, "inconclusive", "yellow"),
+        ([], 2, "failed", "red"),
+        ([], None, "unfinished", "lightgrey"),
+        ([], 130, "unfinished", "lightgrey"),
+    ],
+)
+def test_the_badge_says_how_the_run_ended(lines, exit_code, message, color):
+    shown = json.loads(badge.render(made(*lines, exit_code=exit_code)))
+    assert shown == {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
+
+
+def test_verify_writes_all_three_for_a_wrong_function_at_its_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    words = ["--families", "ring", "--count", "0", "--out", "out"]
+    assert main(["verify", "python:mine.py:position", *words]) == 1
+    (run,) = json.loads((tmp_path / "out" / "results.sarif").read_bytes())["runs"]
+    place = run["results"][0]["locations"][0]["physicalLocation"]
+    assert place == {
+        "artifactLocation": {"uri": "mine.py", "uriBaseId": "%SRCROOT%"},
+        "region": {"startLine": 8},
+    }
+    assert "replay: hypcheck replay ring/" in run["results"][0]["message"]["text"]
+    (issue, *_) = json.loads((tmp_path / "out" / "gl-code-quality-report.json").read_bytes())
+    assert issue["location"] == {"path": "mine.py", "lines": {"begin": 8}}
+    assert json.loads((tmp_path / "out" / "badge.json").read_bytes())["color"] == "red"
