@@ -15,6 +15,7 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Point
 from hypcheck.truth.exact import Cubic, Decision
+from hypcheck.truth.passage_certificate import Place
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
@@ -22,13 +23,15 @@ def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
     lengths = pair.lengths
     decision = decision or exact.decide(lengths)
     if decision.tangent:
-        return Certificate(decision.position, double_root=_double_root(exact.cubic(lengths)))
+        return Certificate(decision.position, double_root=double_root(lengths))
     if decision.position is Position.CONTACT:
-        return Certificate(decision.position, points=_points(pair))
+        return Certificate(decision.position, points=points(pair, lengths))
     return Certificate(decision.position, multiplier=_multiplier(exact.cubic(lengths)))
 
 
-def _double_root(g: Cubic) -> Fraction:
+def double_root(lengths: Lengths) -> Fraction:
+    """The double root of g of a tangency."""
+    g = exact.cubic(lengths)
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     return Fraction(9 * g.n3 * g.n0 - g.n1 * g.n2, 2 * h) if h else Fraction(-g.n2, 3 * g.n3)
 
@@ -48,7 +51,7 @@ def _multiplier(g: Cubic) -> Fraction:
     raise AssertionError("unreachable: the precisions do not end")
 
 
-def _points(pair: Pair) -> tuple[Point, ...]:
+def points(pair: Pair | Place, lengths: Lengths) -> tuple[Point, ...]:
     """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
     alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
 
@@ -65,13 +68,13 @@ def _points(pair: Pair) -> tuple[Point, ...]:
     start = side(center)
     if start == 0:
         return (center,)
-    for point in _candidates(pair, outward=start < 0):
+    for point in _candidates(pair, lengths, outward=start < 0):
         if side(point) in (0, -start) and in_spheroid(point):
             return (center, point)
     raise AssertionError("unreachable: the candidates do not end")
 
 
-def _candidates(pair: Pair, outward: bool) -> Iterator[Point]:
+def _candidates(pair: Pair | Place, lengths: Lengths, outward: bool) -> Iterator[Point]:
     """Points of the spheroid's plane through the axis, first the simple ones, then ever nearer to the best one."""
     _, _, b, d, x, y, z = map(Fraction, pair.row)
     radius = _root(x * x + y * y, 30, upward=True)
@@ -90,7 +93,7 @@ def _candidates(pair: Pair, outward: bool) -> Iterator[Point]:
     if outward and abs(z) < d:  # right out from the waist, where a spheroid a little too wide for the throat sticks out
         yield moved(1 - (z / d) ** 2, Fraction(1))
     for bits in _precisions(start=8):
-        near = _near_surface(pair.lengths, bits)
+        near = _near_surface(lengths, bits)
         if near is None:
             continue
         stretch, height = near

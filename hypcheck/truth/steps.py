@@ -90,12 +90,12 @@ def _step(journey: Journey, pencil: Sequence[Polynomial], time: Fraction) -> tup
         proof = piece(pencil, multiplier)
         if proved or value(proof, time) > 0:
             if proved and value(proof, time) > 0:
-                return multiplier, _reach(proof, time)
+                return multiplier, reach(proof, time)
             proved = True
     raise AssertionError("unreachable: the multipliers do not end")
 
 
-def _reach(proof: Polynomial, time: Fraction) -> Fraction | None:
+def reach(proof: Polynomial, time: Fraction) -> Fraction | None:
     """A number below the distance to the next root of a quadratic that is positive at a time; None without one."""
     a, b, c = proof
     n, m = time.numerator, time.denominator

@@ -146,7 +146,7 @@ def journey_of(
     start: Sequence[Rational],
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
-) -> Journey:
+) -> UprightJourney | TiltedJourney:
     """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
     alpha, gamma, b, d, x0, y0, z0 = checked(sizes, start)
     x1, y1, z1 = checked(sizes, end)[len(SIZES) :]

@@ -16,15 +16,28 @@ This module shares no code with what makes certificates: it starts from the ten 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
+from typing import Protocol
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.tilted.pair import TiltedPair
 
 Point = tuple[Fraction, Fraction, Fraction]
 Matrix = list[list[Fraction]]
+
+
+class Query(Protocol):
+    """A pair: alpha, gamma, b, d, x, y, z and more, and the axis, floats or rationals."""
+
+    @property
+    def row(self) -> Sequence[float | Fraction]:
+        """The numbers in the order of geometry.pair.TILTED_COLUMNS; seven are enough."""
+
+    @property
+    def axis(self) -> Sequence[float | Fraction]:
+        """A vector along the axis of revolution."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +50,7 @@ class TiltedCertificate:
     double_root: Fraction | None = None
 
 
-def check_certificate(pair: TiltedPair, certificate: TiltedCertificate) -> bool:
+def check_certificate(pair: Query, certificate: TiltedCertificate) -> bool:
     """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
 
     Numbers of other types are taken as the rationals that they are. Raises ValueError for a claim that is no position,
@@ -62,9 +75,9 @@ def check_certificate(pair: TiltedPair, certificate: TiltedCertificate) -> bool:
     return 0 in sides or sides == {-1, 1}
 
 
-def matrices(pair: TiltedPair) -> tuple[Matrix, Matrix]:
+def matrices(pair: Query) -> tuple[Matrix, Matrix]:
     """S and H, from their definitions."""
-    alpha, gamma, b, d, *center = map(Fraction, pair.row[:7])
+    alpha, gamma, b, d, *center = (Fraction(each) for each in pair.row[:7])
     v = [Fraction(each) for each in pair.axis]
     along = (1 / d**2 - 1 / b**2) / sum(each * each for each in v)
     M = [[(i == j) / b**2 + along * v[i] * v[j] for j in range(3)] for i in range(3)]

@@ -16,7 +16,7 @@ from itertools import count
 from hypcheck.geometry.pair import Position
 from hypcheck.truth import prove as upright
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.certificate import Point, TiltedCertificate
+from hypcheck.truth.tilted.certificate import Point, Query, TiltedCertificate
 from hypcheck.truth.tilted.exact import Quartic, TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 
@@ -36,7 +36,7 @@ def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> TiltedCer
     if decision.tangent:
         return TiltedCertificate(decision.position, double_root=exact.double_root(F) * F.side)
     if decision.position is Position.CONTACT:
-        return TiltedCertificate(decision.position, points=_points(pair, F))
+        return TiltedCertificate(decision.position, points=points(pair, F))
     return TiltedCertificate(decision.position, multiplier=_multiplier(F))
 
 
@@ -82,7 +82,7 @@ def inside(F: Quartic, at: Fraction) -> bool:
     return n > 0 and before_first and F.e2 * n * n - F.e1 * n * k < F.e0 * k * k
 
 
-def _points(pair: TiltedPair, F: Quartic) -> tuple[Point, ...]:
+def points(pair: Query, F: Quartic) -> tuple[Point, ...]:
     """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
 
     Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
@@ -100,8 +100,8 @@ def _points(pair: TiltedPair, F: Quartic) -> tuple[Point, ...]:
 class _Forms:
     """The two surfaces' equations, and what the pencil needs of them, in rationals."""
 
-    def __init__(self, pair: TiltedPair) -> None:
-        alpha, gamma, b, d, *self.center = map(Fraction, pair.row[:7])
+    def __init__(self, pair: Query) -> None:
+        alpha, gamma, b, d, *self.center = (Fraction(each) for each in pair.row[:7])
         v = [Fraction(each) for each in pair.axis]
         square = sum(each * each for each in v)
         across, along = 1 / b**2, (1 / d**2 - 1 / b**2) / square

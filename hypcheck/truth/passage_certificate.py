@@ -1,0 +1,110 @@
+"""What proves an answer about a way, and the check of that proof, in rational arithmetic alone.
+
+S(t) and H are the 4×4 matrices of the spheroid at time t and of the hyperboloid, M and D their upper 3×3 parts. M does
+not change on the way. With a λ for which M + λD is positive definite, S(t) + λH is so exactly where
+
+    φ(t) = λ C(t)ᵀ M (M + λD)⁻¹ D C(t) − 1 − λ > 0,
+
+and then the spheroid is clear (tilted/certificate.py). C(t) is linear in t, so φ is of degree 2, and on [t0, t1] it is
+positive if its Bernstein coefficients φ(t0), φ(t0, t1), φ(t1) are, or if the first and last are and the square of the
+middle one is below their product; φ(s, t) is the bilinear form that belongs to φ. So it is enough:
+
+- clear up to a time: pieces (λ, end), each beginning where the one before ends, the first at 0;
+- contact: a time, and a certificate of contact at that time.
+
+This module shares no code with what makes certificates: it starts from the floats of the row and the definitions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
+from hypcheck.truth.tilted.certificate import Matrix, Point, TiltedCertificate, check_certificate, matrices, pivots
+
+Rationals = tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A pair at a rational time of a way: seven rational numbers, and the axis."""
+
+    row: Rationals
+    axis: Rationals
+
+
+@dataclass(frozen=True, slots=True)
+class PassageCertificate:
+    """What proves an answer: `pieces` (λ, end) without contact, and the contact at a `time`; None where there is none.
+
+    `points` are in the caller's coordinates; `double_root` is that of a tangency, in place of points.
+    """
+
+    pieces: tuple[tuple[Fraction, Fraction], ...] = ()
+    time: Fraction | None = None
+    points: tuple[Point, ...] = ()
+    double_root: Fraction | None = None
+
+
+def place(row: Sequence[float], time: Fraction) -> Place:
+    """The pair of a row of ten or thirteen numbers at a time."""
+    numbers = [Fraction(each) for each in row]
+    start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(WAY_COLUMNS)]
+    centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]
+    axis = numbers[len(WAY_COLUMNS) :] or list(map(Fraction, UPRIGHT))
+    return Place((*numbers[: len(SIZES)], *centre), tuple(axis))
+
+
+def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
+    """The time up to which the pieces prove the spheroid clear; None where there is none, or a piece fails."""
+    last = Fraction(0)
+    S, H = matrices(place(row, last))
+    M, D = [each[:3] for each in S[:3]], [H[i][i] for i in range(3)]
+    for multiplier, end in certificate.pieces:
+        form = [[M[i][j] + (i == j) * multiplier * D[i] for j in range(3)] for i in range(3)]
+        if not last < end <= 1 or min(pivots(form)) <= 0:
+            return None
+        centres = [place(row, time).row[len(SIZES) :] for time in (last, end)]
+        solved = [_solved(form, [a * b for a, b in zip(D, centre, strict=True)]) for centre in centres]
+        images = [[sum((a * b for a, b in zip(line, each, strict=True)), Fraction(0)) for line in M] for each in solved]
+        first, middle, final = (
+            multiplier * sum((a * b for a, b in zip(centres[i], images[j], strict=True)), Fraction(0)) - 1 - multiplier
+            for i, j in ((0, 0), (0, 1), (1, 1))
+        )
+        if min(first, final) <= 0 or (middle < 0 and middle * middle >= first * final):
+            return None
+        last = end
+    return last if certificate.pieces else None
+
+
+def _solved(matrix: Matrix, right: list[Fraction]) -> list[Fraction]:
+    """The solution of a linear system with a positive definite matrix, by elimination."""
+    rows = [[*line, each] for line, each in zip(matrix, right, strict=True)]
+    for i in range(3):
+        for j in range(3):
+            if j != i and rows[j][i]:
+                factor = rows[j][i] / rows[i][i]
+                rows[j] = [a - factor * b for a, b in zip(rows[j], rows[i], strict=True)]
+    return [rows[i][3] / rows[i][i] for i in range(3)]
+
+
+def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
+    """The time from 0 to 1 at which the certificate proves contact; None where it does not."""
+    time = certificate.time
+    if time is None or not 0 <= time <= 1:
+        return None
+    claim = TiltedCertificate(Position.CONTACT, points=certificate.points, double_root=certificate.double_root)
+    return time if check_certificate(place(row, time), claim) else None
+
+
+def check_passage(row: Sequence[float], certificate: PassageCertificate, first: tuple[float, float] | None) -> bool:
+    """Whether the certificate proves the answer: clear all along, or the first contact from first[0] to first[1]."""
+    if first is None:
+        return certificate.time is None and clear_until(row, certificate) == 1
+    lower, upper = (Fraction(each) for each in first)
+    time = contact_at(row, certificate)
+    if time is None or not lower <= time <= upper:
+        return False
+    return lower == 0 or (clear_until(row, certificate) or 0) >= lower

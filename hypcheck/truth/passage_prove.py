@@ -1,0 +1,128 @@
+"""The search for what passage_certificate.py checks: pieces of the way, and a time with its points, short ones.
+
+Bounds of the first contact are neighbouring float64 numbers, or 0 twice where the way begins in contact. A way that
+only touches at an irrational time has no such proof: its contact has no rational time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from hypcheck.geometry.pair import WAY_COLUMNS
+from hypcheck.truth import prove as upright
+from hypcheck.truth.journey import Journey, UprightJourney, piece, shortened
+from hypcheck.truth.passage_certificate import PassageCertificate, Place, contact_at, place
+from hypcheck.truth.polynomial_roots import value
+from hypcheck.truth.steps import reach
+from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted import prove as tilted
+from hypcheck.truth.tilted.certificate import Point
+from hypcheck.truth.tilted.journey import TiltedJourney
+
+Bounds = tuple[float, float]
+
+_STEP_BITS = 12
+_FEW = 2
+_MOST_BITS = 1 << 12
+
+
+def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertificate]:
+    """What happens on the row's way, bounds of the first contact (None without), and the proof of both.
+
+    Raises ValueError where the only contact is at an irrational time.
+    """
+    journey = journey_of(row[:4], row[4:7], row[7:10], row[len(WAY_COLUMNS) :] or None)
+    found = by_steps(journey) or by_roots(journey)
+    if found.first is None:
+        return found, None, PassageCertificate(_pieces(journey, Fraction(1)))
+    time = _time_of_contact(journey, found)
+    if time == 0:
+        bounds = (0.0, 0.0)
+    else:
+        lower, upper = found.first_lower, found.first_upper
+        bounds = (math.nextafter(lower, 0.0) if Fraction(lower) >= found.first[0] else lower, upper)
+    pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()
+    if journey.tangent(time):
+        return found, bounds, PassageCertificate(pieces, time, double_root=_double_root(journey, time))
+    return found, bounds, PassageCertificate(pieces, time, points=_points(row, journey, time))
+
+
+def _time_of_contact(journey: Journey, found: Passage) -> Fraction:
+    """A rational time of contact up to first_upper."""
+    low, high = found.first or (Fraction(0), Fraction(0))
+    upper = Fraction(found.first_upper)
+    for time in (upper, high, low):
+        if time <= 1 and not journey.position(time):
+            return time
+    raise ValueError("the way touches the surface at an irrational time alone")
+
+
+def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:
+    """Pieces of a way that is clear up to a time, that time included."""
+    time = Fraction(0)
+    pieces: list[tuple[Fraction, Fraction]] = []
+    while time < until:
+        multiplier, step = _multiplier(journey, time)
+        end = until
+        if step is not None and time + step <= until:
+            end = time + shortened(step.numerator, step.denominator, _STEP_BITS)
+        pieces.append((multiplier, end))
+        time = end
+    return tuple(pieces)
+
+
+def _multiplier(journey: Journey, time: Fraction) -> tuple[Fraction, Fraction | None]:
+    """The first multiplier that proves a time clear, or the next where that reaches farther; and how far it reaches."""
+    found: list[tuple[Fraction, Fraction | None]] = []
+    for multiplier in journey.multipliers(time):
+        proof = piece(journey.pencil, multiplier)
+        if value(proof, time) > 0:
+            found.append((multiplier, reach(proof, time)))
+            far = found[0][1]
+            if far is None or time + far > 1 or len(found) == _FEW:
+                break
+    nearest = found[0][1]
+    if nearest is None or len(found) == 1:
+        return found[0]
+    step = found[1][1]
+    return found[1] if step is None or step > nearest * Fraction(9, 8) else found[0]
+
+
+def _double_root(journey: UprightJourney | TiltedJourney, time: Fraction) -> Fraction:
+    if isinstance(journey, UprightJourney):
+        return upright.double_root(journey.at(time))
+    F = exact.quartic(journey.at(time))
+    return exact.double_root(F) * F.side
+
+
+def _points(row: Sequence[float], journey: UprightJourney | TiltedJourney, time: Fraction) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid strictly on the other side, cut to as few bits as will do."""
+    here = place(row, time)
+    if isinstance(journey, UprightJourney):
+        points = upright.points(here, journey.at(time))
+    else:
+        points = tilted.points(here, exact.quartic(journey.at(time)))
+    if len(points) == 1:
+        return points
+    centre, far = points
+    for shorter in _rounded(here, far):
+        if contact_at(row, PassageCertificate((), time, (centre, shorter))) is not None:
+            return centre, shorter
+    return points
+
+
+def _rounded(here: Place, far: Point) -> Iterator[Point]:
+    """The point, drawn a little towards the centre, with more and more bits in units of the spheroid's b."""
+    b, centre = here.row[2], here.row[4:]
+    offset = [(a - c) / b for a, c in zip(far, centre, strict=True)]
+    longest = max(map(abs, offset))
+    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
+    bits = 1
+    while bits < _MOST_BITS:
+        step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
+        x, y, z = (c + b * (round(part * share / step) * step) for c, part in zip(centre, offset, strict=True))
+        yield (x, y, z)
+        bits += 1 + bits // 4
