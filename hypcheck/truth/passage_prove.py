@@ -16,7 +16,7 @@ from hypcheck.truth.journey import Journey, UprightJourney, piece, shortened
 from hypcheck.truth.passage_certificate import PassageCertificate, Place, contact_at, place
 from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.steps import reach
-from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of
+from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, rounded
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted import prove as tilted
 from hypcheck.truth.tilted.certificate import Point
@@ -39,11 +39,10 @@ def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertific
     if found.first is None:
         return found, None, PassageCertificate(_pieces(journey, Fraction(1)))
     time = _time_of_contact(journey, found)
-    if time == 0:
-        bounds = (0.0, 0.0)
-    else:
-        lower, upper = found.first_lower, found.first_upper
-        bounds = (math.nextafter(lower, 0.0) if Fraction(lower) >= found.first[0] else lower, upper)
+    low, high = (time, time) if found.grazes else found.first
+    bounds = rounded(low, -math.inf), rounded(high, math.inf)
+    if bounds[0] and Fraction(bounds[0]) >= low:
+        bounds = math.nextafter(bounds[0], 0.0), bounds[1]
     pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()
     if journey.tangent(time):
         return found, bounds, PassageCertificate(pieces, time, double_root=_double_root(journey, time))
@@ -51,13 +50,23 @@ def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertific
 
 
 def _time_of_contact(journey: Journey, found: Passage) -> Fraction:
-    """A rational time of contact up to first_upper."""
+    """A rational time of contact up to first_upper; of a way that only touches, the simplest number it can be."""
     low, high = found.first or (Fraction(0), Fraction(0))
     upper = Fraction(found.first_upper)
-    for time in (upper, high, low):
+    for time in (upper, high, low, _simplest(low, high)):
         if time <= 1 and not journey.position(time):
             return time
     raise ValueError("the way touches the surface at an irrational time alone")
+
+
+def _simplest(low: Fraction, high: Fraction) -> Fraction:
+    """The fraction with the least denominator from low to high, both ≥ 0, by continued fractions."""
+    whole = math.floor(low)
+    if whole == low:
+        return low
+    if whole + 1 <= high:
+        return Fraction(whole + 1)
+    return whole + 1 / _simplest(1 / (high - whole), 1 / (low - whole))
 
 
 def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:

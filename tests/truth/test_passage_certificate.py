@@ -1,0 +1,103 @@
+"""The proof of what happens on a way: every one that is found holds, and none that is damaged does."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
+from hypcheck.truth.passage_prove import prove
+from hypcheck.vectors.tilted.coincidences import TWO_POINTS
+
+THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
+OUTSIDE = (2.0, 3.0, 1.0, 1.0, -6.0, 5.0, 1.0, 8.0, 3.25, 0.5)
+TUNNEL = (2.0, 3.0, 1.0, 0.5, -6.0, 0.5, 1.0, 8.0, 0.5, 0.5, 1.0, 0.0, 2.0)
+GRAZING = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
+STILL = (2.0, 3.0, 1.0, 1.0, 2.5, 0.0, 0.0, 2.5, 0.0, 0.0)
+INSIDE = (4.0, 3.0, 1.0, 1.0, 0.5, 0.0, -9.0, 0.5, 1.0, 9.0)
+
+
+def random_ways(number):
+    draw = random.Random(7)  # noqa: S311
+    for turn in range(number):
+        reach = draw.choice([3, 8, 20])
+        yield (
+            *(draw.uniform(0.3, 6) for _ in range(4)),
+            *(draw.uniform(-reach, reach) for _ in range(6)),
+            *((draw.uniform(-1, 1) for _ in range(3)) if turn % 3 == 0 else ()),
+        )
+
+
+@pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE, *random_ways(24)])
+def test_the_proof_that_is_found_holds(row):
+    found, first, certificate = prove(row)
+    assert check_passage(row, certificate, first)
+    if first:
+        assert first[0] <= found.first[0] <= found.first[1] <= first[1]
+
+
+def test_the_answers_of_these_ways_are_those_expected():
+    firsts = [prove(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
+    assert [first is not None for first in firsts] == [True, False, True, True, True, False]
+    assert firsts[3][0] < 0.5 == firsts[3][1]
+    assert firsts[4] == (0.0, 0.0)
+
+
+def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
+    certificate = prove(GRAZING)[2]
+    assert certificate.double_root == 2  # √A at the waist
+    assert certificate.time == Fraction(1, 2)
+
+
+@pytest.mark.parametrize("row", [(*row[:4], *row[4:7], *row[4:7], *row[7:]) for row in TWO_POINTS[::3]])
+def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
+    row = tuple(map(float, row))
+    found, first, certificate = prove(row)
+    assert found.grazes
+    assert check_passage(row, certificate, first)
+
+
+def test_no_damaged_proof_of_a_clear_way_holds():
+    _, first, certificate = prove(OUTSIDE)
+    assert first is None
+    (multiplier, end), *_ = certificate.pieces
+    for pieces in (
+        (),
+        ((-multiplier, end), *certificate.pieces[1:]),
+        ((multiplier * 100, end), *certificate.pieces[1:]),
+        ((Fraction(0), end), *certificate.pieces[1:]),
+        certificate.pieces[:-1],
+        (*certificate.pieces[:-1], (certificate.pieces[-1][0], Fraction(99, 100))),
+        (*certificate.pieces, (multiplier, Fraction(2))),
+    ):
+        assert not check_passage(OUTSIDE, replace(certificate, pieces=pieces), None), pieces
+    assert not check_passage(THROUGH, certificate, None)
+    assert not check_passage(OUTSIDE, certificate, (0.5, 0.5))
+
+
+def test_no_piece_reaches_over_a_contact():
+    """The middle coefficient decides: φ is positive at both ends of [0, 1]."""
+    row = (2.0, 3.0, 1.0, 1.0, -4.0, 2.0, 0.0, 4.0, 2.0, 0.0)
+    for multiplier in (Fraction(1), Fraction(2), Fraction(3)):
+        assert clear_until(row, PassageCertificate(((multiplier, Fraction(1)),))) is None
+
+
+def test_no_damaged_proof_of_contact_holds():
+    _, first, certificate = prove(TUNNEL)
+    assert check_passage(TUNNEL, certificate, first)
+    for damaged in (
+        replace(certificate, points=certificate.points[:1]),
+        replace(certificate, points=()),
+        replace(certificate, points=(), double_root=Fraction(1)),
+        replace(certificate, time=Fraction(0)),
+        replace(certificate, time=certificate.time + 1),
+        replace(certificate, time=None),
+    ):
+        assert contact_at(TUNNEL, damaged) is None
+        assert not check_passage(TUNNEL, damaged, first)
+    assert not check_passage(TUNNEL, certificate, (first[1] * 1.5, first[1] * 2))
+    assert not check_passage(TUNNEL, certificate, (first[0] / 2, first[0]))
+    assert not check_passage(TUNNEL, replace(certificate, pieces=certificate.pieces[:1]), first)
