@@ -16,7 +16,7 @@ from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Sizes
 from hypcheck.geometry.rows import Floats, Rows
-from hypcheck.implementations import alternatives
+from hypcheck.implementations import alternatives, ways
 from hypcheck.implementations.alternatives import dual_positions
 from hypcheck.implementations.description import EVERYWHERE, Description, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
@@ -141,6 +141,63 @@ def _nearest(rows: Rows) -> Answers:
     return positions(np.ascontiguousarray(rows)).position
 
 
+SAMPLES = (4, 16, 64, 256)
+"""Positions of a way at which a sampling method looks."""
+
+WAY_ROWS = 200
+"""A method that takes a millisecond for a way is asked so many of a family."""
+
+
+@cache
+def passage_methods() -> dict[str, Method]:
+    """Every built-in method that answers the question passage, by its name."""
+    looks = [(count, partial(ways.sampled, count=count)) for count in SAMPLES]
+    sampling = [
+        _passage_method(f"passage-sampled-{count}", f"exact positions at {count} times", look) for count, look in looks
+    ]
+    hits = Method(
+        "passage-certified",
+        "steps in floats that the exact kernel certifies, exact where they come to nothing",
+        "passage",
+        "float64",
+        ways.certified,
+        EVERYWHERE,
+        exact=True,
+        measured=True,
+    )
+    methods = [
+        _passage_method("passage-exact", "roots and steps in integers", ways.exact, exact=True, max_rows=WAY_ROWS),
+        hits,
+        *sampling,
+        _passage_method("passage-advancement", "conservative advancement by the centre's distance", ways.advanced),
+        _passage_method("passage-capsule", "a swept ball in the spheroid's place, advanced alike", ways.capsule),
+    ]
+    return {method.name: method for method in methods}
+
+
+def _passage_method(
+    name: str,
+    title: str,
+    timed: Callable[[Rows], tuple[Answers, Floats]],
+    *,
+    exact: bool = False,
+    max_rows: int | None = None,
+) -> Method:
+    domain = EVERYWHERE if exact else Domain()
+    return Method(
+        name,
+        title,
+        "passage",
+        "float64",
+        lambda rows: timed(rows)[0],
+        domain,
+        exact=exact,
+        max_rows=max_rows,
+        measured=True,
+        timed=timed,
+    )
+
+
 PRECISIONS = ("float32", "float64")
 
 FCL_ROWS = 12
@@ -199,16 +256,18 @@ def methods_without_meshes() -> dict[str, Method]:
 
 @cache
 def builtin_methods() -> dict[str, Method]:
-    """Every built-in method by its name, as `builtin:NAME` has it."""
+    """Every built-in method that answers about positions by its name, as `builtin:NAME` has it."""
     naive = [_fcl_method(*each) for each in NAIVE_FCL] if fcl_trouble() is None else []
     return methods_without_meshes() | {method.name: method for method in naive}
 
 
 def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist."""
-    method = methods_without_meshes().get(name) or builtin_methods().get(name)  # FCL is loaded only on request
+    method = methods_without_meshes().get(name) or passage_methods().get(name)
+    method = method or builtin_methods().get(name)  # FCL is loaded only on request
     if method is None:
-        raise InputError(f"there is no built-in method {name!r}; {suggestion(name, builtin_methods())}")
+        known = [*builtin_methods(), *passage_methods()]
+        raise InputError(f"there is no built-in method {name!r}; {suggestion(name, known)}")
     return method
 
 
@@ -232,10 +291,13 @@ class BuiltinSession:
             domain=self.method.domain,
             binary=True,
             time=True,
+            times=self.method.timed is not None,
         )
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
         """The method's answers."""
+        if self.method.timed is not None:
+            return GivenAnswers(*self.method.timed(rows))
         return GivenAnswers(self.method.answer(rows))
 
     def time(

@@ -31,7 +31,8 @@ class Method:
     """A method under test.
 
     `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `answer`
-    maps valid rows, float64 (n, 7), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes and no. `exact`
+    maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes
+    and no. `timed` stands in its place where a method also gives the times of hits. `exact`
     marks a method that is never wrong. `max_rows` limits the rows of each family for a slow one. `measured` marks a
     method that only `bench` uses: its errors are no finding of `verify`.
     """
@@ -45,6 +46,7 @@ class Method:
     exact: bool = False
     max_rows: int | None = None
     measured: bool = False
+    timed: Callable[[Rows], tuple[Answers, Floats]] | None = field(default=None, repr=False)
 
 
 CHUNK = 8192

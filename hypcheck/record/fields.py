@@ -9,6 +9,7 @@ from typing import Annotated, Any, Protocol, TypeVar
 
 from msgspec import UNSET, Meta, Struct, UnsetType, convert, to_builtins
 
+from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.messages import shortened
 
 FARTHEST = 9999
@@ -97,6 +98,13 @@ InvalidRow = Annotated[
 ]
 """Like a row, but NaN and infinities are allowed: rows that must be refused."""
 
+Centre = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
+"""x, y, z of the end of a way, which stands beside a row whose centre is its start."""
+
+InvalidCentre = Annotated[
+    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=3, max_length=3)
+]
+
 Axis = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
 """axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
 
@@ -108,9 +116,9 @@ Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
 """The two numbers of a bin, its cases, and how many of them did not end as right."""
 
 Truth = Annotated[int, Meta(ge=-1, le=1)]
-Question = Annotated[str, one_of("position", "exterior", "interior", "contact")]
+Question = Annotated[str, one_of("position", "exterior", "interior", "contact", "passage")]
 Precision = Annotated[str, one_of("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")]
-Mistake = Annotated[str, one_of("false-clear", "false-contact", "wrong-side")]
+Mistake = Annotated[str, one_of("false-clear", "false-contact", "wrong-side", "late", "early")]
 
 
 class LinePart(Struct, frozen=True, kw_only=True):
@@ -126,18 +134,21 @@ class _CasePart(Protocol):
     @property
     def row(self) -> tuple[str, ...]: ...
     @property
+    def end(self) -> tuple[str, ...] | UnsetType: ...
+    @property
     def axis(self) -> tuple[str, ...] | UnsetType: ...
 
 
 def numbers_of(case: _CasePart) -> tuple[str, ...]:
-    """All numbers of a case's row, seven, or ten of a tilted spheroid."""
-    return (*case.row, *(case.axis or ()))
+    """All numbers of a case's row: of a position, then the end of a way, then the axis of a tilted spheroid."""
+    return (*case.row, *(case.end or ()), *(case.axis or ()))
 
 
-def row_fields(row: Sequence[float]) -> dict[str, Any]:
-    """The fields row and axis of a row of seven or ten numbers."""
+def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
+    """The fields row, end and axis of a row of this layout."""
     digits = tuple(value.hex() for value in row)
-    return {"row": digits[:7], "axis": digits[7:] or UNSET}
+    upright = len(layout.upright)
+    return {"row": digits[:7], "end": digits[7:upright] or UNSET, "axis": digits[upright:] or UNSET}
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):

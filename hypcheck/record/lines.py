@@ -7,7 +7,8 @@ History of SCHEMA: 1.0.0, the first; 1.1.0 adds the lines of a benchmark, and nu
 declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions and what is absent, compiled or refused;
 1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
 scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
-adds the axis of tilted spheroids, and that an implementation takes them.
+adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
+way, and times of first contact with the mistakes late and early.
 """
 
 from __future__ import annotations
@@ -20,10 +21,12 @@ from hypcheck.record.fields import (
     Amount,
     Axis,
     Bin,
+    Centre,
     Count,
     Counts,
     Interval,
     InvalidAxis,
+    InvalidCentre,
     InvalidRow,
     Limits,
     LinePart,
@@ -41,7 +44,7 @@ from hypcheck.record.fields import (
     require_possible,
 )
 
-SCHEMA = "1.5.0"
+SCHEMA = "1.6.0"
 """The version of the records that are written."""
 
 
@@ -130,6 +133,7 @@ class DisagreementPart(LinePart, frozen=True, kw_only=True):
     oracle: str
     case: str
     row: Row
+    end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
     exact: str
     opinion: str
@@ -169,10 +173,15 @@ class DriftLine(RecordLine, frozen=True, kw_only=True):
 
 
 class WrongAnswer(LinePart, frozen=True, kw_only=True):
-    """A wrong or tolerated answer that is kept."""
+    """A wrong or tolerated answer that is kept.
+
+    Of a way, since 1.6.0, the row begins with its start and `end` is the other; `time` is a wrong time, `first` are
+    bounds of the first contact, and the backward error is that of the spheroid's size, or of a time in radii travelled.
+    """
 
     case: str
     row: Row
+    end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: int
@@ -180,6 +189,8 @@ class WrongAnswer(LinePart, frozen=True, kw_only=True):
     status: str
     backward_error: Unsigned
     backward_error_u: Unsigned
+    time: float | UnsetType = UNSET
+    first: Interval | UnsetType = UNSET
 
 
 class FaultPart(LinePart, frozen=True, kw_only=True):
@@ -187,6 +198,7 @@ class FaultPart(LinePart, frozen=True, kw_only=True):
 
     case: str
     row: InvalidRow
+    end: InvalidCentre | UnsetType = UNSET
     axis: InvalidAxis | UnsetType = UNSET
     status: str
     reason: str
@@ -246,7 +258,10 @@ class DomainPart(LinePart, frozen=True, kw_only=True):
 
 
 class DescriptionPart(LinePart, frozen=True, kw_only=True):
-    """What an implementation says of itself, or is taken for; `tilt`, since 1.5.0, where it is asked in ten numbers."""
+    """What an implementation says of itself, or is taken for.
+
+    `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact.
+    """
 
     name: str
     version: str
@@ -258,6 +273,7 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
     binary: bool
     time: bool
     tilt: bool | UnsetType = UNSET
+    times: bool | UnsetType = UNSET
 
 
 class Retest(LinePart, frozen=True, kw_only=True):

@@ -8,8 +8,10 @@ from msgspec import UNSET, Meta, UnsetType
 
 from hypcheck.record.fields import (
     Axis,
+    Centre,
     Count,
     InvalidAxis,
+    InvalidCentre,
     InvalidRow,
     LinePart,
     Mistake,
@@ -48,12 +50,14 @@ class PendingCases(LinePart, frozen=True, kw_only=True):
     """Cases that were answered and wait for their retest.
 
     `chunk`: the family, the seed (None: frozen vectors), the first case, the one after the last, and how many are
-    measured. `indices`: stretches [first, last + 1) within the chunk. `answers`: an int8 each, as hexadecimal digits.
+    measured. `indices`: stretches [first, last + 1) within the chunk. `answers`: an int8 each, as hexadecimal digits;
+    `times`: a little-endian float64 each.
     """
 
     chunk: tuple[str, Total | None, Total, Total, Total]
     indices: list[tuple[Total, Total]]
     answers: Annotated[str, Meta(pattern="^([0-9a-f]{2})*$")]
+    times: Annotated[str, Meta(pattern="^([0-9a-f]{16})*$")] | UnsetType = UNSET
 
 
 class SavedAnswer(LinePart, frozen=True, kw_only=True):
@@ -62,12 +66,14 @@ class SavedAnswer(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: Row
+    end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: Annotated[int, Meta(ge=-128, le=127)]
     mistake: Mistake
     status: str
     error: Unsigned
+    time: float | None = None
 
 
 class SavedFault(LinePart, frozen=True, kw_only=True):
@@ -76,6 +82,7 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     place: Place
     case: str
     row: InvalidRow
+    end: InvalidCentre | UnsetType = UNSET
     axis: InvalidAxis | UnsetType = UNSET
     status: str
     reason: str

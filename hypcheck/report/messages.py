@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from msgspec import UnsetType
+from msgspec import UNSET, UnsetType
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
@@ -80,6 +80,14 @@ def classify_command(row: Sequence[float]) -> str:
     return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
 
 
+def error_text(case: WrongAnswer) -> str:
+    """How wrong an answer is: "wrong by 12 u"; of a time, the first contact and the way to it."""
+    if case.time is UNSET or case.first is UNSET:
+        return f"wrong by {figure(float(case.backward_error_u))} u"
+    radii = figure(float(case.backward_error))
+    return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the way from there"
+
+
 def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
     """A sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
 
@@ -120,6 +128,8 @@ def description_text(description: DescriptionPart) -> str:
         parts.append("refuses invalid rows")
     if description.tilt:
         parts.append("takes tilted spheroids")
+    if description.times:
+        parts.append("gives times of first contact")
     return ", ".join(parts)
 
 

@@ -1,4 +1,4 @@
-"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.2.0.json beside this file."""
+"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.3.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ from hypcheck.report.model import (
 )
 from hypcheck.report.verdict import failures, verdict
 
-SCHEMA = "1.2.0"
+SCHEMA = "1.3.0"
 
 Fields = dict[str, Any]
 
@@ -60,6 +60,7 @@ Distance = Annotated[
 Units = Annotated[Unsigned, Meta(description="A backward error in units u of the declared precision.")]
 CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]
 Exact = Annotated[bool, Meta(description="It promises never to be wrong; the run fails where it is.")]
+TimeMistakes = Annotated[int, Meta(ge=0, description="Of times of first contact, since 1.3.0; present if not 0.")]
 Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
 """Types with the descriptions that the schema gives."""
 
@@ -107,6 +108,8 @@ class Mistakes(LinePart, frozen=True, kw_only=True, rename="kebab"):
     false_clear: Count
     false_contact: Count
     wrong_side: Count
+    late: TimeMistakes | UnsetType = UNSET
+    early: TimeMistakes | UnsetType = UNSET
 
 
 class FamilySummary(LinePart, frozen=True, kw_only=True):
@@ -349,10 +352,15 @@ def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], wors
     return {
         "asked": asked,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
-        "mistakes": Mistakes(**{name: mistakes.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}),
+        "mistakes": _mistakes(mistakes),
         "worst_backward_error_u": worst_error_u(worst),
         "worst_case": None if worst is None else worst.case,
     }
+
+
+def _mistakes(counted: dict[str, int]) -> Mistakes:
+    found = {name: counted.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}
+    return Mistakes(**{name: number for name, number in found.items() if number or name not in ("late", "early")})
 
 
 def _method(each: MeasuredMethod) -> MethodSummary:

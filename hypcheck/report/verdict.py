@@ -18,7 +18,7 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
-from hypcheck.report.messages import Replays, classify_command, figure, from_hex, listed, with_interval
+from hypcheck.report.messages import Replays, classify_command, error_text, figure, from_hex, listed, with_interval
 from hypcheck.report.model import (
     ImplementationTotal,
     MeasuredMethod,
@@ -33,6 +33,7 @@ from hypcheck.report.model import (
     worst_error_u,
 )
 from hypcheck.runs.judge import UNANSWERED, in_words
+from hypcheck.runs.judges import judge_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,9 +286,9 @@ def _broken_promise(name: str, line: GroupLine, status: str, number: int, replay
     if fault is not None:
         message += f"; {fault.case}: {fault.reason}"
     elif first is not None:
-        said = in_words(first.answer, line.question)
-        message += f"; {first.case} is {Position(first.truth).label}; answered: {said}"
-        message += f" ({first.mistake}, wrong by {figure(float(first.backward_error_u))} u)"
+        asked = judge_of(line.question)
+        message += f"; {first.case} is {asked.truth_in_words(first.truth)}; answered: {asked.in_words(first.answer)}"
+        message += f" ({first.mistake}, {error_text(first)})"
     case = first if fault is None else fault
     if case is None:
         return Failure("implementation", name, family, status, message)

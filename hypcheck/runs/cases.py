@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Position
-from hypcheck.geometry.rows import Floats, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, Floats, Layout, Positions, Rows
 from hypcheck.runs import judge
+from hypcheck.runs.judges import truth_of
 from hypcheck.runs.tally import CasePlace
 from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
@@ -137,7 +138,7 @@ class CaseChunk:
 
 @dataclass(frozen=True)
 class ChunkCases:
-    """The cases of a chunk: rows (n, 7 or 10), the same column by column, and the exact positions, int8 (n,)."""
+    """The cases of a chunk: rows, the same column by column, and the exact positions or hits, int8 (n,)."""
 
     chunk: CaseChunk
     rows: Rows
@@ -186,7 +187,8 @@ def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
 def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
     """The cases of each chunk, decided together, which takes less time if chunks are small."""
     made = [(chunk, _columns(chunk)) for chunk in some]
-    decided = iter(_decided([columns for chunk, columns in made if chunk.seed is not None]))
+    layouts = {_family(chunk.family).layout for chunk, _ in made if chunk.seed is not None}  # one: of one question
+    decided = iter(_decided([columns for chunk, columns in made if chunk.seed is not None], *layouts or {PAIRS}))
     found = []
     for chunk, columns in made:
         if chunk.seed is None:
@@ -197,13 +199,13 @@ def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
     return tuple(found)
 
 
-def _decided(drawn: list[Floats]) -> list[Positions]:
-    """The exact positions of each of these, given by columns."""
+def _decided(drawn: list[Floats], layout: Layout) -> list[Positions]:
+    """The exact positions of each of these, given by columns, or what is true about ways."""
     if len({len(columns) for columns in drawn}) > 1:  # of upright and of tilted spheroids
-        return [judge.exact_positions(columns.T) for columns in drawn]
+        return [truth_of(columns.T, layout) for columns in drawn]
     if not drawn:
         return []
-    together = judge.exact_positions(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T)
+    together = truth_of(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T, layout)
     return np.split(together, np.cumsum([columns.shape[1] for columns in drawn[:-1]]))
 
 
@@ -230,7 +232,8 @@ def first_unfrozen(family: Family, seed: int) -> int:
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
     """floor(log2) of the distance to the nearest other position, for the (ascending) indices that record it.
 
-    Frozen vectors hold their distance. It is not recorded for tilted spheroids, because to prove it takes too long.
+    Frozen vectors hold their distance. It is recorded neither for tilted spheroids,
+    because to prove it takes too long, nor for ways.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
     if len(made.columns) > len(COLUMNS):

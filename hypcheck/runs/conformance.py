@@ -113,7 +113,7 @@ def _implementation_run(
                     progress.keep(run.state)
                 lines.add(run.state, recorder, finished=False)
                 raise
-        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt)
+        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt, layout=used.asked.layout)
         require_all_tallied(run.state.total.tallies, planned)
         lines.add(run.state, recorder, finished=True)
 

@@ -20,9 +20,9 @@ from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
 from hypcheck.record.lines import GroupLine, ImplementationLine
-from hypcheck.runs import judge
 from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
-from hypcheck.runs.judge import UNANSWERED, Mistake, Status
+from hypcheck.runs.judge import DANGEROUS, UNANSWERED, Mistake, Status
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
@@ -57,7 +57,8 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     if len(tallied) < len(groups):
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if families.MARK in family and not plan.filtered}
-    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied, tilt=whole.used.tilt is True)
+    layout = QUESTIONS[whole.used.question].layout
+    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied, tilt=whole.used.tilt is True, layout=layout)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:
         trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)
@@ -217,7 +218,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     trouble = _of_sums(family, _Sums.of_tally(tally))
     if trouble:
         return trouble
-    if tally.dangerous > min(counts[Status.WRONG.value], tally.mistakes.get(Mistake.FALSE_CLEAR.value, 0)):
+    if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
     faults = _UNANSWERED | ({Status.WRONG.value} if family in frozen.INVALID_METADATA else set())
     kept = Counter(fault.status for fault in tally.unanswered)
@@ -232,10 +233,11 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
     """Whether a worst case is judged now as the record has it."""
     rows, answers = np.array([case.row]), np.array([case.answer], dtype=np.int8)
-    truth = judge.exact_positions(rows)
-    for judged in judge.wrong_cases(rows, truth, answers, rules.criterion):
+    asked, times = judge_of(rules.criterion.question), None if case.time is None else np.array([case.time])
+    wrong = np.flatnonzero(asked.is_wrong(rows, asked.truth(rows), answers, times, rules.criterion))
+    for judged in asked.judged(rows, answers, times, wrong, rules.criterion):
         status = Status.WRONG if case.status == Status.EXCUSED else Status(case.status)
-        error = judge.measured(judged, rules.criterion.question)
+        error = asked.measured(judged, rules.criterion)
         recorded = (case.truth, case.mistake, status, case.error)
         return recorded == (int(judged.truth), judged.mistake.value, judged.status, error)
     return False

@@ -256,7 +256,7 @@ class FindingCluster:
     tolerated: int = 0
 
 
-ClusterKey = tuple[Mistake, Position, str]
+ClusterKey = tuple[Mistake, int, str]
 """The kind of a wrong answer: the mistake, the truth, and the kind of the row's place."""
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from hypcheck.geometry.pair import columns_of
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import FindingCluster, Hunt, HuntFinding, HuntTarget
-from hypcheck.runs.judge import Status, in_words
+from hypcheck.runs.judge import Status
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.minimise import Minimised
 from hypcheck.tables.numbers import hex_of
 
@@ -68,10 +69,14 @@ def _cluster(number: int, cluster: FindingCluster, target: HuntTarget) -> Iterat
 
 def _finding(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     case = finding.case
-    answer = in_words(case.answer, target.criterion.question)
+    asked = judge_of(target.criterion.question)
+    answer = asked.in_words(case.answer)
     yield _titled("row", f"{decimals(case.row)}  ({', '.join(columns_of(case.row))})")
     yield _titled("hex", ",".join(map(hex_of, case.row)))
-    yield _titled("truth", f"{case.truth.label}; answered: {answer} ({case.mistake.value}, wrong by {_u(finding)})")
+    yield _titled(
+        "truth",
+        f"{asked.truth_in_words(case.truth)}; answered: {answer} ({case.mistake.value}, wrong by {_u(finding)})",
+    )
     yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 
 

@@ -67,6 +67,12 @@ class Mistake(str, Enum):
     FALSE_CLEAR = "false-clear"  # dangerous: something is touched
     FALSE_CONTACT = "false-contact"  # an invisible wall
     WRONG_SIDE = "wrong-side"
+    LATE = "late"  # of a time: dangerous, the contact was before
+    EARLY = "early"
+
+
+DANGEROUS = (Mistake.FALSE_CLEAR, Mistake.LATE)
+"""Mistakes after which a program goes on although something is touched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,16 +102,18 @@ class WrongCase:
     """A wrong answer: its index in the batch, the row, the truth, the answer, the kind of mistake, and its size.
 
     `exponent` is floor(log2) of the backward error (−inf: it is 0; inf: no change is enough); for a tilted spheroid it
-    is log2 of an estimate. measured() gives the number itself.
+    is log2 of an estimate. measured() gives the number itself. `time` is that of a way's first contact, if it is what
+    is wrong.
     """
 
     index: int
     row: tuple[float, ...]
-    truth: Position
+    truth: int
     answer: int
     mistake: Mistake
     status: Status
     exponent: float
+    time: float | None = None
 
 
 def expected(positions: Positions, question: str) -> NDArray[np.int8]:

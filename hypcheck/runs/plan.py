@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
@@ -94,34 +95,46 @@ def check_cluster_address(address: str) -> None:
 
 
 def planned_cases(
-    plan: ConformancePlan, domain: Domain | None = None, *, refuses: bool = False, tilt: bool = False
+    plan: ConformancePlan,
+    domain: Domain | None = None,
+    *,
+    refuses: bool = False,
+    tilt: bool = False,
+    layout: Layout = PAIRS,
 ) -> dict[str, int]:
     """The number of cases of each family for one implementation, skipped cases included.
 
     A domain with fixed sizes has families of its own. An implementation that `refuses` is asked the invalid rows too,
-    one that takes `tilt` the families of tilted spheroids. Raises InputError naming a family that does not exist.
+    one that takes `tilt` the families of tilted spheroids; one whose rows have another layout is asked the families of
+    that. Raises InputError naming a family that does not exist.
     """
-    cases = {family.name: frozen_count(family.name) + plan.count for family in chosen_families(plan, tilt=tilt)}
-    if not plan.filtered:
+    cases = {
+        family.name: frozen_count(family.name) + plan.count
+        for family in chosen_families(plan, tilt=tilt, layout=layout)
+    }
+    if not plan.filtered and layout is PAIRS:
         cases |= {chunk.family: len(chunk) for chunk in searched_chunks()}
         settings = domain.settings if domain is not None else ()
         cases |= {family.name: plan.count for family in fixed_sizes.families_for(settings)}
-    cases |= {each.family: len(each) for each in invalid_rows(refuses=refuses, tilt=tilt)}
+    cases |= {each.family: len(each) for each in invalid_rows(refuses=refuses, tilt=tilt, layout=layout)}
     return {family: number for family, number in cases.items() if number}
 
 
-def invalid_rows(*, refuses: bool, tilt: bool) -> tuple[InvalidRows, ...]:
-    """The invalid rows that an implementation is asked: those of ten numbers too if it takes `tilt`."""
+def invalid_rows(*, refuses: bool, tilt: bool, layout: Layout = PAIRS) -> tuple[InvalidRows, ...]:
+    """The invalid rows that an implementation is asked: with an axis too if it takes `tilt`; of ways there are none."""
+    if layout is not PAIRS:
+        return ()
     names = (frozen.INVALID_NAME, frozen.TILTED_INVALID_NAME) if tilt else (frozen.INVALID_NAME,)
     return tuple(map(InvalidRows, names)) if refuses else ()
 
 
-def chosen_families(plan: ConformancePlan, *, tilt: bool = False) -> tuple[Family, ...]:
-    """The families of the plan, without those of tilted spheroids unless an implementation takes `tilt`.
+def chosen_families(plan: ConformancePlan, *, tilt: bool = False, layout: Layout = PAIRS) -> tuple[Family, ...]:
+    """The families of the plan whose rows have that layout, those of tilted spheroids only if it takes `tilt`.
 
     Raises InputError naming one that does not exist.
     """
-    return tuple(family for family in select(plan.families, tilted=True) if tilt or not family.tilted)
+    named = select(plan.families, tilted=True, layout=None)
+    return tuple(family for family in named if (tilt or not family.tilted) and family.layout is layout)
 
 
 def planned_size(plan: ConformancePlan) -> int:
@@ -140,15 +153,21 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     """The steps for an implementation that is judged by this description.
 
-    Raises InputError if the plan names families of tilted spheroids alone, and the implementation takes none.
+    Raises InputError if the plan names only families that the implementation is not about: those of tilted spheroids
+    where it takes none, or those of the other layout.
     """
-    families = chosen_families(plan, tilt=used.tilt)
+    layout = used.asked.layout
+    families = chosen_families(plan, tilt=used.tilt, layout=layout)
+    if not families and not chosen_families(plan, tilt=True, layout=layout):
+        raise InputError(f"{', '.join(plan.families)}: no case of these is about the question {used.question!r}")
     if not families:
         raise InputError(
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
             'description must say "tilt": true'
         )
-    return steps_of_chunks(_chunks(plan, families, used.domain), invalid_rows(refuses=used.refuses, tilt=used.tilt))
+    return steps_of_chunks(
+        _chunks(plan, families, used.domain), invalid_rows(refuses=used.refuses, tilt=used.tilt, layout=layout)
+    )
 
 
 def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure, ...]) -> JudgingRules:
@@ -160,7 +179,7 @@ def _chunks(plan: ConformancePlan, families: tuple[Family, ...], domain: Domain)
     """The chunks of a run; a domain with fixed sizes has families of its own."""
     for family in families:
         yield from family_chunks(family, plan.seed, plan.count)
-    if plan.filtered:
+    if plan.filtered or any(family.layout is not PAIRS for family in families):
         return
     yield from searched_chunks()
     for family in fixed_sizes.families_for(domain.settings):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import Indices
+from hypcheck.geometry.rows import Floats, Indices
 from hypcheck.implementations.description import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -21,6 +21,7 @@ from hypcheck.record.lines import Retest
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
 from hypcheck.runs.judge import Criterion, Status, WrongCase
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
 from hypcheck.runs.tally import STATUS_CODES, CasePlace, Tally, counts_of
@@ -33,12 +34,14 @@ from hypcheck.vectors.frozen import InvalidRowFile
 class PendingRetest:
     """Cases that were answered and will be asked again before they are judged.
 
-    `indices` (n,) are their places in the chunk, ascending; `answers`, int8 (n,), are the first answers.
+    `indices` (n,) are their places in the chunk, ascending; `answers`, int8 (n,), are the first answers, and `times`
+    (n,) those of hits, if the implementation gives any.
     """
 
     chunk: CaseChunk
     indices: NDArray[np.intp]
     answers: NDArray[np.int8]
+    times: Floats | None = None
 
 
 NO_RETEST = Retest(asked=0, within=0, beyond=0)
@@ -135,7 +138,13 @@ class InvalidRows:
 def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
     made = cases_of_chunk(chunk)
-    inside = claimed(made.by_column, rules.domain, rules.criterion.precision, extreme=is_extreme(chunk.family))
+    inside = claimed(
+        made.by_column,
+        rules.domain,
+        rules.criterion.precision,
+        extreme=is_extreme(chunk.family),
+        layout=judge_of(rules.criterion.question).layout,
+    )
     indices = inside[: implementation.max_rows]
     rows = made.rows if len(indices) == len(made.rows) else made.rows[indices]
     answered = implementation.classify(rows)
@@ -146,7 +155,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))
     result = result_of_final(made, indices[settled], scored.part(settled), rules, skipped=len(made.rows) - len(indices))
-    return replace(result, pending=_pending(chunk, indices[kept], scored.answers[kept]), outcomes=answered.outcomes)
+    return replace(result, pending=_pending(chunk, indices[kept], scored.part(kept)), outcomes=answered.outcomes)
 
 
 def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed) -> CasesResult:
@@ -195,18 +204,18 @@ def _first_pending(chunk: CaseChunk, indices: Indices) -> int:
     return cut
 
 
-def _pending(chunk: CaseChunk, indices: Indices, answers: NDArray[np.int8]) -> tuple[PendingRetest, ...]:
+def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[PendingRetest, ...]:
     if not len(indices):
         return ()
     first, last = int(indices[0]), int(indices[-1]) + 1
-    return (PendingRetest(chunk.between(first, last), indices - first, answers),)
+    return (PendingRetest(chunk.between(first, last), indices - first, scored.answers, scored.times),)
 
 
 def _excused(case: WrongCase, name: str, family: str, rules: JudgingRules) -> tuple[WrongCase, list[int]]:
     """The case, EXCUSED if known failures cover it, and the numbers of these."""
     if case.status is not Status.WRONG or not rules.known:
         return case, []
-    error_u = judge.in_units(judge.measured(case, rules.criterion.question), rules.criterion.unit)
+    error_u = judge.in_units(judge_of(rules.criterion.question).measured(case, rules.criterion), rules.criterion.unit)
     covering = [number for number, entry in enumerate(rules.known) if entry.covers(name, family, error_u)]
     return (replace(case, status=Status.EXCUSED) if covering else case), covering
 

@@ -16,10 +16,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from msgspec import structs
+from msgspec import UNSET, structs
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
@@ -62,8 +63,9 @@ Json = dict[str, Any]
 def recorded_description(description: Description) -> DescriptionPart:
     """An implementation's description as the record has it."""
     told = asdict(description)
-    if not description.tilt:  # as in records from before there was tilt
-        del told["tilt"]
+    for name in ("tilt", "times"):
+        if not told[name]:  # as in records from before there was such a key
+            del told[name]
     return decoded(told, DescriptionPart)
 
 
@@ -73,6 +75,7 @@ class ProgressWriter:
     def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int) -> None:
         self._recorder = recorder
         self._number, self._declared, self._cases = number, recorded_description(declared), cases
+        self._layout = declared.asked.layout
         self._due = time.monotonic() + PROGRESS_EVERY_S
 
     def offer(self, state: RunState) -> None:
@@ -90,7 +93,7 @@ class ProgressWriter:
                 number=self._number,
                 declared=self._declared,
                 cases=self._cases,
-                state=saved_state(state),
+                state=saved_state(state, self._layout),
                 program=code_fingerprint(),
             )
         )
@@ -217,11 +220,11 @@ def _shown(value: object) -> str:
     return "missing" if value is None else json.dumps(value, ensure_ascii=False)
 
 
-def saved_state(state: RunState) -> SavedState:
-    """The state as a line of progress has it."""
+def saved_state(state: RunState, layout: Layout = PAIRS) -> SavedState:
+    """The state as a line of progress has it, its rows of that layout."""
     left = state.left
     allowance = SavedAllowance(restarts=left.restarts, faults=left.faults, over=left.over, hangs=left.hangs)
-    return SavedState(done=state.done, left=allowance, total=saved_result(state.total))
+    return SavedState(done=state.done, left=allowance, total=saved_result(state.total, layout))
 
 
 def restored_state(content: SavedState) -> RunState:
@@ -232,14 +235,11 @@ def restored_state(content: SavedState) -> RunState:
     return RunState(Allowance(**structs.asdict(content.left)), content.done, restored_result(content.total))
 
 
-def saved_result(result: CasesResult) -> SavedResult:
-    """The result as a line of progress has it."""
+def saved_result(result: CasesResult, layout: Layout = PAIRS) -> SavedResult:
+    """The result as a line of progress has it, its rows of that layout."""
     return SavedResult(
-        tallies={family: _saved_tally(tally) for family, tally in result.tallies.items()},
-        open=[
-            PendingCases(chunk=astuple(each.chunk), indices=_runs(each.indices), answers=each.answers.tobytes().hex())
-            for each in result.pending
-        ],
+        tallies={family: _saved_tally(tally, layout) for family, tally in result.tallies.items()},
+        open=[_saved_open(each) for each in result.pending],
         again=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
         excusing=sorted(result.excusing),
@@ -259,6 +259,15 @@ def restored_result(content: SavedResult) -> CasesResult:
     )
 
 
+def _saved_open(each: PendingRetest) -> PendingCases:
+    return PendingCases(
+        chunk=astuple(each.chunk),
+        indices=_runs(each.indices),
+        answers=each.answers.tobytes().hex(),
+        times=UNSET if each.times is None else each.times.astype("<f8").tobytes().hex(),
+    )
+
+
 def _restored_open(content: PendingCases) -> PendingRetest:
     """Pending cases; their indices are made only if there are as many answers."""
     chunk = CaseChunk(*content.chunk)
@@ -267,10 +276,13 @@ def _restored_open(content: PendingCases) -> PendingRetest:
     ascending = ends == sorted(ends) and all(first < last for first, last in content.indices)
     if not content.indices or not ascending or sum(last - first for first, last in content.indices) != len(answers):
         raise ValueError(f"{chunk.family} has {len(answers)} answers, which do not match its pending cases")
-    return PendingRetest(chunk, np.concatenate([np.arange(*run) for run in content.indices]), answers)
+    times = None if content.times is UNSET else np.frombuffer(bytes.fromhex(content.times), dtype="<f8")
+    if times is not None and len(times) != len(answers):
+        raise ValueError(f"{chunk.family} has {len(times)} times for {len(answers)} answers")
+    return PendingRetest(chunk, np.concatenate([np.arange(*run) for run in content.indices]), answers, times)
 
 
-def _saved_tally(tally: Tally) -> SavedTally:
+def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
     return SavedTally(
         asked=tally.asked,
         counts=dict(tally.counts),
@@ -279,8 +291,8 @@ def _saved_tally(tally: Tally) -> SavedTally:
         octaves={exponent: dict(counts) for exponent, counts in tally.exponents.items()},
         size_bins=tally.size_bins.as_lists(),
         place_bins=tally.place_bins.as_lists(),
-        worst=[SavedAnswer(**_saved_case(case)) for case in tally.worst],
-        faults=[SavedFault(**_saved_case(case)) for case in tally.unanswered],
+        worst=[SavedAnswer(**_saved_case(case, layout)) for case in tally.worst],
+        faults=[SavedFault(**_saved_case(case, layout)) for case in tally.unanswered],
     )
 
 
@@ -298,12 +310,12 @@ def _restored_tally(content: SavedTally) -> Tally:
     )
 
 
-def _saved_case(case: WorstCase | UnansweredCase) -> Json:
-    return {**asdict(case), **row_fields(case.row)}
+def _saved_case(case: WorstCase | UnansweredCase, layout: Layout) -> Json:
+    return {**asdict(case), **row_fields(case.row, layout)}
 
 
 def _restored_case(case: SavedAnswer | SavedFault) -> Json:
-    told = {name: value for name, value in structs.asdict(case).items() if name != "axis"}
+    told = {name: value for name, value in structs.asdict(case).items() if name not in ("end", "axis")}
     return {**told, "row": tuple(map(float.fromhex, numbers_of(case)))}
 
 

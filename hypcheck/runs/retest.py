@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows, with_axis
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, with_axis
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
-from hypcheck.runs import judge
 from hypcheck.runs.cases import ChunkCases, cases_of_chunks
 from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
 from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
@@ -81,7 +81,7 @@ class RetestTask:
 
 @dataclass(frozen=True)
 class _Sample:
-    """The cases of a round in arrays: rows (n, 7 or 10), positions and first answers (n,).
+    """The cases of a round in arrays: rows, positions or hits, and first answers with their times, (n,) each.
 
     `moments` (n,) are the moments of cases that follow an object, and −1 of all others.
     """
@@ -89,7 +89,7 @@ class _Sample:
     made: tuple[ChunkCases, ...]
     rows: Rows
     truth: Positions
-    before: NDArray[np.int8]
+    before: Answered
     moments: NDArray[np.int64]
 
 
@@ -101,7 +101,7 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: J
     """Ask the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
     if not asked.pending:
         return CasesResult()
-    sample, changes, outcomes = _sample(asked.pending), ChangedAnswers(), set[Outcome]()
+    sample, changes, outcomes = _sample(asked.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
     implementation.use_fresh_process()
     asking = retest_questions(
         sample.truth, sample.moments, lambda: implementation.proven_batch, rules.seed, asked.number, asked.part
@@ -110,11 +110,11 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: J
         answered = implementation.classify(sample.rows[places], batch=batch)
         outcomes |= answered.outcomes
         status = status_of(answered)
-        for offset in np.flatnonzero((answered.answers != sample.before[places]) | ~answered.answered).tolist():
+        for offset in np.flatnonzero(_differs(sample.before, places, answered) | ~answered.answered).tolist():
             place = int(places[offset])
             if changes.get(place, (Status.TOLERATED, ""))[0] is Status.TOLERATED:
                 if answered.answered[offset]:
-                    changes[place] = _change(sample, place, int(answered.answers[offset]), rules.criterion)
+                    changes[place] = _change(sample, place, answered, offset, rules.criterion)
                 else:
                     reason = f"when asked again: {answered.reasons.get(offset, '')}"
                     changes[place] = STATUSES[status[offset]], reason
@@ -126,25 +126,38 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: J
 
 def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) -> CasesResult:
     """Judge pending cases by their first answers, for a run that was interrupted before their retest."""
-    return _judged(some, _sample(some), {}, rules) if some else CasesResult()
+    return _judged(some, _sample(some, rules.criterion), {}, rules) if some else CasesResult()
 
 
-def _sample(some: tuple[PendingRetest, ...]) -> _Sample:
+def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
     made = cases_of_chunks(each.chunk for each in some)
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,
-        _stacked([part.rows[each.indices] for part, each in both]),
+        _stacked([part.rows[each.indices] for part, each in both], judge_of(criterion.question).layout),
         np.concatenate([part.positions[each.indices] for part, each in both]),
-        np.concatenate([each.answers for each in some]),
+        _first_answers(some),
         np.concatenate([_moments(each) for each in some]),
     )
 
 
-def _stacked(parts: list[Rows]) -> Rows:
-    """All rows, of ten numbers each where some of them are of tilted spheroids."""
+def _first_answers(some: tuple[PendingRetest, ...]) -> Answered:
+    times = [each.times for each in some if each.times is not None]
+    return Answered.of(np.concatenate([each.answers for each in some]), np.concatenate(times) if times else None)
+
+
+def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
+    """A mask of the answers, or of the times of hits, that are not those that were given before at these places."""
+    other = np.asarray(now.answers != before.answers[places])
+    if now.times is not None and before.times is not None:
+        other |= ~((now.times == before.times[places]) | (np.isnan(now.times) & np.isnan(before.times[places])))
+    return other
+
+
+def _stacked(parts: list[Rows], layout: Layout) -> Rows:
+    """All rows, with an axis each where some of them are of tilted spheroids."""
     widths = {part.shape[1] for part in parts}
-    return np.concatenate(parts if len(widths) == 1 else [with_axis(part) for part in parts])
+    return np.concatenate(parts if len(widths) == 1 else [with_axis(part, layout) for part in parts])
 
 
 def _moments(each: PendingRetest) -> NDArray[np.int64]:
@@ -153,15 +166,23 @@ def _moments(each: PendingRetest) -> NDArray[np.int64]:
     return (each.chunk.start + each.indices) % each.chunk.movement
 
 
-def _change(sample: _Sample, place: int, answer: int, criterion: Criterion) -> tuple[Status, str]:
-    """The status of a case whose answer differs from the first, and the reason."""
-    pair = np.array([sample.before[place], answer], dtype=np.int8)
+def _change(sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion) -> tuple[Status, str]:
+    """The status of a case whose answer, at an offset among others, differs from the first, and the reason."""
+    before, asked = sample.before, judge_of(criterion.question)
+    pair = np.array([before.answers[place], answered.answers[offset]], dtype=np.int8)
+    times = None
+    if before.times is not None and answered.times is not None:
+        times = np.array([before.times[place], answered.times[offset]])
     if CANNOT_SAY not in pair:
         twice = np.stack([sample.rows[place]] * 2)
-        wrong = judge.wrong_cases(twice, np.repeat(sample.truth[place], 2), pair, criterion)
-        if all(case.status is Status.TOLERATED for case in wrong):
+        wrong = np.flatnonzero(asked.is_wrong(twice, np.repeat(sample.truth[place], 2), pair, times, criterion))
+        if all(case.status is Status.TOLERATED for case in asked.judged(twice, pair, times, wrong, criterion)):
             return Status.TOLERATED, ""
-    reason = f"answered {pair[0]} at first and {pair[1]} when asked again, in another order and batch"
+    first, then = (
+        f"{answer}" if times is None or answer != 1 else f"{answer} at time {time!r}"
+        for answer, time in zip(pair.tolist(), [None, None] if times is None else times.tolist(), strict=True)
+    )
+    reason = f"answered {first} at first and {then} when asked again, in another order and batch"
     return Status.NONDETERMINISTIC, reason
 
 
@@ -174,7 +195,9 @@ def _judged(
     for made, each in zip(sample.made, some, strict=True):
         stop = start + len(each.indices)
         part = as_slice(each.indices)
-        scored = score(made.by_column[part], made.positions[part], Answered.of(each.answers), rules.criterion)
+        scored = score(
+            made.by_column[part], made.positions[part], Answered.of(each.answers, each.times), rules.criterion
+        )
         scored = scored.without({place - start: lost[place] for place in lost if start <= place < stop})
         results.append(result_of_final(made, each.indices, scored, rules))
         start = stop

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
-from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.tally import (
     STATUS_CODES,
     STATUSES,
@@ -56,11 +57,11 @@ class CaseSource(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Rows (n, 7) with their true positions (n,), and the answers of one implementation.
+    """Rows (n, 7) with their true positions (n,), or ways with their true hits, and the answers of one implementation.
 
     `answers` (n,) are CANNOT_SAY for rows without a valid answer. `status` (n,) holds STATUS_CODES; it is WRONG for
     each wrong answer, which `judged` may find within the tolerance. `reasons` has a sentence for each row without a
-    valid answer.
+    valid answer. `times` (n,) are those of hits, if it gives any.
     """
 
     criterion: Criterion
@@ -69,6 +70,7 @@ class Score:
     answers: NDArray[np.int8]
     status: StatusCodes
     reasons: Mapping[int, str]
+    times: Floats | None = None
 
     @cached_property
     def wrong(self) -> Indices:
@@ -83,7 +85,7 @@ class Score:
 
     @property
     def mistakes(self) -> Counter[Mistake]:
-        """The number of wrong answers by kind of mistake."""
+        """The number of wrong answers about positions by kind of mistake."""
         found: Counter[Mistake] = Counter()
         pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
         for (position, answer), number in Counter(pairs).items():
@@ -92,7 +94,8 @@ class Score:
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
         """The wrong answers, or those at the given indices, each with its backward error and whether it passes."""
-        return judge.judged(self.rows, self.answers, self.wrong if wrong is None else wrong, self.criterion)
+        places = self.wrong if wrong is None else wrong
+        return judge_of(self.criterion.question).judged(self.rows, self.answers, self.times, places, self.criterion)
 
     def part(self, places: Indices) -> Score:
         """The score of the rows at these ascending indices."""
@@ -107,6 +110,7 @@ class Score:
             self.answers[chosen],
             self.status[chosen],
             {place: self.reasons[before] for place, before in found if before in self.reasons},
+            None if self.times is None else self.times[chosen],
         )
 
     def without(self, lost: Mapping[int, tuple[Status, str]]) -> Score:
@@ -139,8 +143,8 @@ class Score:
         return Tally(
             asked=len(self.rows),
             counts=counts_of(status) | ({Status.SKIPPED.value: skipped} if skipped else {}),
-            mistakes={mistake.value: number for mistake, number in self.mistakes.items()},
-            dangerous=sum(case.status is Status.WRONG and case.mistake is Mistake.FALSE_CLEAR for case in cases),
+            mistakes=dict(Counter(case.mistake.value for case in cases)),
+            dangerous=sum(case.status is Status.WRONG and case.mistake in DANGEROUS for case in cases),
             exponents=by_exponent(exponents, status[: len(exponents)]),
             size_bins=tally.by_size(self.rows, amiss),
             place_bins=tally.by_place(self.rows, amiss),
@@ -164,7 +168,8 @@ class Score:
                 answer=case.answer,
                 mistake=case.mistake.value,
                 status=case.status.value,
-                error=judge.measured(case, self.criterion.question),
+                error=judge_of(self.criterion.question).measured(case, self.criterion),
+                time=case.time,
             )
             for case in chosen
         )
@@ -172,10 +177,11 @@ class Score:
 
 
 def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
-    """The score of rows (n, 7) with these true positions, int8 (n,)."""
-    status = status_of(answered)
-    status[judge.is_wrong(truth, answered.answers, criterion.question)] = STATUS_CODES[Status.WRONG]
-    return Score(criterion, rows, truth, answered.answers, status, answered.reasons)
+    """The score of rows with these true positions or hits, int8 (n,)."""
+    status, times = status_of(answered), answered.times
+    wrong = judge_of(criterion.question).is_wrong(rows, truth, answered.answers, times, criterion)
+    status[wrong] = STATUS_CODES[Status.WRONG]
+    return Score(criterion, rows, truth, answered.answers, status, answered.reasons, times)
 
 
 def status_of(answered: Answered) -> StatusCodes:

@@ -16,12 +16,14 @@ import numpy as np
 from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Mask, Rows
+from hypcheck.geometry.rows import Layout, Mask, Rows
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.passages import first_contact
 
 Integers = NDArray[np.int64]
 
@@ -66,7 +68,7 @@ def by_size(rows: Rows, amiss: Mask) -> Histogram:
 
 
 def by_place(rows: Rows, amiss: Mask) -> Histogram:
-    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR."""
+    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; of ways, where they begin."""
     with np.errstate(all="ignore"):
         across, along = _eighths(_radius(rows), rows[:, 0]), _eighths(np.abs(rows[:, 6]), rows[:, 1])
     return _counted(across, along, amiss)
@@ -138,7 +140,7 @@ CasePlace = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class WorstCase:
-    """A wrong or tolerated answer that is kept with its row; `error` is its backward error."""
+    """A wrong or tolerated answer that is kept with its row; `error` is its backward error, `time` a wrong time."""
 
     place: CasePlace
     case: str
@@ -148,6 +150,7 @@ class WorstCase:
     mistake: str
     status: str
     error: float
+    time: float | None = None
 
     @property
     def rank(self) -> tuple[bool, float, CasePlace]:
@@ -220,6 +223,7 @@ def group_line(
     failing: list[str] | UnsetType = UNSET,
 ) -> GroupLine:
     """The record's line; for an implementation under test with its SPEC and the statuses that fail the run."""
+    layout = QUESTIONS[criterion.question].layout
     return GroupLine(
         method=method,
         spec=spec,
@@ -234,19 +238,19 @@ def group_line(
         octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
-        worst=[_worst_line(case, criterion) for case in tallied.worst],
-        faults=UNSET if failing is UNSET else _unanswered_lines(tallied),
+        worst=[_worst_line(case, criterion, layout) for case in tallied.worst],
+        faults=UNSET if failing is UNSET else _unanswered_lines(tallied, layout),
         failing=failing,
     )
 
 
-def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
+def _unanswered_lines(tallied: Tally, layout: Layout) -> list[lines.FaultPart]:
     """The unanswered cases of the record's line: the first of each status, then the first up to UNANSWERED_KEPT."""
     first = {fault.status: fault for fault in reversed(tallied.unanswered)}.values()
     others = [fault for fault in tallied.unanswered if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
     return [
-        lines.FaultPart(case=fault.case, **row_fields(fault.row), status=fault.status, reason=fault.reason)
+        lines.FaultPart(case=fault.case, **row_fields(fault.row, layout), status=fault.status, reason=fault.reason)
         for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
 
@@ -286,14 +290,16 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, .
     return tuple(kept)
 
 
-def _worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
+def _worst_line(case: WorstCase, criterion: Criterion, layout: Layout) -> lines.WrongAnswer:
     return lines.WrongAnswer(
         case=case.case,
-        **row_fields(case.row),
+        **row_fields(case.row, layout),
         truth=case.truth,
         answer=case.answer,
         mistake=case.mistake,
         status=case.status,
         backward_error=Unsigned(case.error),
         backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
+        time=UNSET if case.time is None else case.time,
+        first=UNSET if case.time is None else first_contact(case.row),
     )

@@ -20,11 +20,11 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
-from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows
+from hypcheck.geometry.rows import PAIRS, FixedSizes, Floats, Layout, Range, Rows
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact
 from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
+from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, ways
 from hypcheck.vectors.draw import Draw, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
@@ -269,6 +269,11 @@ FAMILIES: dict[str, Family] = {
 TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted_families.TILTED_FAMILIES}
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
+WAY_FAMILIES: dict[str, Family] = {family.name: family for family in ways.WAY_FAMILIES}
+"""Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
+
+_ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""
 
@@ -287,14 +292,19 @@ class CaseId:
     index: int
 
 
-def select(patterns: Sequence[str] = (), *, tilted: bool = False) -> tuple[Family, ...]:
+def select(patterns: Sequence[str] = (), *, tilted: bool = False, layout: Layout | None = PAIRS) -> tuple[Family, ...]:
     """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
 
-    With `tilted` those of tilted spheroids are among them. A glob reaches every family whose name it matches, the
+    Only those of rows with this layout, or of all layouts where it is None. With `tilted` those of tilted spheroids are
+    among them. A glob reaches every family whose name it matches, the
     extreme ones too: "*" is all; "extreme" is all of the extreme ones. Raises InputError for a pattern that names
     nothing, with the names nearest to it, or nothing but tilted spheroids where these are not wanted.
     """
-    known = {**FAMILIES, **TILTED_FAMILIES} if tilted else FAMILIES
+    known = {
+        name: family
+        for name, family in _ALL.items()
+        if (tilted or not family.tilted) and layout in (None, family.layout)
+    }
     if not patterns:
         return tuple(family for family in known.values() if not family.extreme)
     chosen: set[str] = set()
@@ -304,6 +314,8 @@ def select(patterns: Sequence[str] = (), *, tilted: bool = False) -> tuple[Famil
             raise InputError(
                 f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
             )
+        if not named and _named(pattern, WAY_FAMILIES):
+            raise InputError(f"{pattern!r} names ways, which only the question passage is about")
         if not named:
             raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
         chosen |= named
@@ -318,7 +330,7 @@ def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
 
 def family_of(name: str) -> Family:
     """The family of exactly this name, one for given sizes (razor@2.0,…) too. Raises InputError where there is none."""
-    family = family_at(name) if MARK in name else FAMILIES.get(name, TILTED_FAMILIES.get(name))
+    family = family_at(name) if MARK in name else _ALL.get(name)
     if family is None:
         raise InputError(f"there is no family {name!r}; {_advice(name)}")
     return family
@@ -350,8 +362,10 @@ def parse_case_id(text: str) -> CaseId:
 
 
 def row_of(text: str) -> Pair | TiltedPair:
-    """The pair that a case id names. Raises InputError as parse_case_id does."""
+    """The pair that a case id names. Raises InputError as parse_case_id does, and where it names a way."""
     case = parse_case_id(text)
+    if case.family.layout is not PAIRS:
+        raise InputError(f"case {text!r} is a way between two positions, not one position")
     number, place = divmod(case.index, BLOCK)
     row = case.family.block(case.seed, number)[place].tolist()
     return TiltedPair.from_row(row) if case.family.tilted else Pair.from_row(row)
@@ -362,4 +376,4 @@ def _asks_for(pattern: str, family: Family) -> bool:
 
 
 def _advice(name: str) -> str:
-    return suggestion(name, [*FAMILIES, *TILTED_FAMILIES, EXTREME])
+    return suggestion(name, [*_ALL, EXTREME])

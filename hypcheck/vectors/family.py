@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair, Position
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.rows import PAIRS, Layout, Positions, Rows
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.draw import Draw, Maker
@@ -53,19 +53,20 @@ class Family(FamilyDescription):
     """One trap, and a generator of rows that lead into it.
 
     `by_place`: the generator works place by place, so that it can make several blocks at one go. `movement`: so many
-    consecutive rows follow one object from moment to moment; 1 where none do. `tilted`: rows have ten numbers, the
-    axis of the spheroid behind the other seven.
+    consecutive rows follow one object from moment to moment; 1 where none do. `layout` says what rows are about, a
+    position or a way. `tilted`: they have three numbers more, the axis of the spheroid behind the others.
     """
 
     make: Maker = field(repr=False)
     by_place: bool = False
     movement: int = 1
     tilted: bool = False
+    layout: Layout = PAIRS
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The names of the numbers of a row, seven or ten."""
-        return TILTED_COLUMNS if self.tilted else COLUMNS
+        """The names of the numbers of a row."""
+        return self.layout.tilted if self.tilted else self.layout.upright
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7 or 10), all valid."""

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import UNSET
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import PAIRS, WAYS
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import Record
 from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
 from hypcheck.record.measurements import (
@@ -48,7 +49,8 @@ from hypcheck.report.model import (
     worst_error_u,
 )
 from hypcheck.report.plots.colours import MISTAKES, STEPS
-from hypcheck.runs.judge import Status
+from hypcheck.runs.judge import Mistake, Status
+from hypcheck.runs.judges import judge_of
 
 MOST_CASES = 12
 """Cases of one implementation that are shown, the worst first; the record keeps up to three for each family."""
@@ -96,19 +98,28 @@ def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
     """Families by status, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
     named = [] if len(found) == 1 else [Column("method")]
-    errors = map(number, ("false clear", "false contact", "wrong side", "worst error in u"))
+    mistakes = _mistakes(found)
+    errors = map(number, (*(name.replace("-", " ") for name in mistakes), "worst error in u"))
     rows = [
-        (*([TableCell(Code(each.name))] if named else []), *_status_row(group, seen))
+        (*([TableCell(Code(each.name))] if named else []), *_status_row(group, seen, mistakes))
         for each in found
         for group in each.groups
     ]
     return table("families", (*named, "family", number("asked"), *map(number, seen), *errors), rows)
 
 
-def _status_row(group: GroupLine, seen: Sequence[str]) -> tuple[TableCell, ...]:
+def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
+    """The kinds of mistakes that can be made about the questions of these methods."""
+    layouts = {QUESTIONS[each.question].layout for each in found}
+    of_positions = [Mistake.WRONG_SIDE] if PAIRS in layouts else []
+    of_times = [Mistake.LATE, Mistake.EARLY] if WAYS in layouts else []
+    return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
+
+
+def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> tuple[TableCell, ...]:
     error = worst_error_u(worst_case(group.worst))
     failing = _BAD if group.failing is UNSET else group.failing
-    mistakes = [count(group.mistakes.get(name, 0)) for name in ("false-clear", "false-contact", "wrong-side")]
+    mistakes = [count(group.mistakes.get(name, 0)) for name in names]
     return (
         TableCell(Code(group.family)),
         count(group.asked),
@@ -145,7 +156,7 @@ def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replay
     return (
         TableCell(Code(case.case)),
         TableCell(Code(each.name)),
-        TableCell(Position(case.truth).label),
+        TableCell(judge_of(group.question).truth_in_words(case.truth)),
         TableCell(str(case.answer)),
         TableCell(case.mistake),
         TableCell(figure(error), error),

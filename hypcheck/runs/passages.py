@@ -1,0 +1,134 @@
+"""Judging answers about ways: contact or clear by the spheroid's size, times by the first contact.
+
+A wrong answer is measured by the least relative change of b and d together that makes it right
+(truth/passage_error.py). A time is right from the first contact of the spheroid grown by the tolerance to that of the
+spheroid shrunk by it; a wrong one is measured by the way between it and the first contact, in spheroid radii:
+(Δx² + Δy²)/b² + Δz²/d² is the square of the whole way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Floats, Indices, Mask, Positions, Rows
+from hypcheck.implementations.ways import rough_exponent
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.truth import passage_error
+from hypcheck.truth.swept import Passage
+
+Row = tuple[float, ...]
+
+_REMEMBERED = 1 << 16
+
+CLEAR, HIT = 0, 1
+LABELS = {CLEAR: "clear on the way", HIT: "in contact on the way"}
+
+
+@lru_cache(_REMEMBERED)
+def passage_of(row: Row) -> Passage:
+    """What happens on a way; remembered, since the truth is asked for before and after the answers."""
+    return passage_error.scaled_passage(row)
+
+
+@lru_cache(_REMEMBERED)
+def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | None]:
+    return passage_error.time_window(row, change)
+
+
+class PassageJudge:
+    """How answers to the question passage are judged."""
+
+    layout = WAYS
+
+    def truth(self, rows: Rows) -> Positions:
+        """1 for contact on the way, 0 for none: int8 (n,)."""
+        return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
+
+    def is_wrong(
+        self, rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
+    ) -> Mask:
+        """A mask (n,) of the wrong answers, and of the right ones with a time that is not."""
+        wrong = np.asarray((answers != truth) & (answers != CANNOT_SAY))
+        if times is not None:
+            for place in np.flatnonzero((answers == HIT) & (truth == HIT)).tolist():
+                wrong[place] = not time_is_right(tuple(rows[place].tolist()), float(times[place]), criterion)
+        return wrong
+
+    def judged(
+        self, rows: Rows, answers: NDArray[np.int8], times: Floats | None, wrong: Indices, criterion: Criterion
+    ) -> Iterator[WrongCase]:
+        """The wrong answers at these indices, judged in order."""
+        for index in wrong.tolist():
+            row, answer = tuple(rows[index].tolist()), int(answers[index])
+            if passage_of(row).hit == bool(answer) and times is not None:
+                yield _wrong_time(index, row, float(times[index]))
+            else:
+                yield _wrong_hit(index, row, answer, criterion)
+
+    def measured(self, case: WrongCase, criterion: Criterion) -> float:  # noqa: ARG002 - the same in all
+        """The size error of a wrong answer, to 1 %: a lower end unless it is tolerated; of a wrong time, radii."""
+        if case.time is not None:
+            return radii_off(case.row, case.time)
+        error = passage_error.size_error(case.row, bool(case.answer))
+        return error.lower if case.status in (Status.WRONG, Status.EXCUSED) else error.upper
+
+    def truth_in_words(self, truth: int) -> str:
+        """The truth in words."""
+        return LABELS[truth]
+
+    def in_words(self, answer: int) -> str:
+        """An answer in words, or its number if it is none."""
+        return LABELS.get(answer, str(answer))
+
+
+def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
+    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a way with contact."""
+    found = passage_of(row)
+    if found.first_lower <= time <= found.first_upper:
+        return True
+    change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
+    if not change:
+        return False
+    earliest, latest = _window(row, change)
+    exact = Fraction(time)
+    return earliest is not None and earliest <= exact and (latest is None or exact <= latest)
+
+
+def first_contact(row: Row) -> tuple[float, float]:
+    """Bounds of the time of the first contact."""
+    found = passage_of(row)
+    return found.first_lower, found.first_upper
+
+
+def radii_off(row: Row, time: float) -> float:
+    """The way between a time and the first contact, in spheroid radii."""
+    lower, upper = first_contact(row)
+    return max(lower - time, time - upper, 0.0) * way_in_radii(row)
+
+
+def way_in_radii(row: Row) -> float:
+    """The length of the way in spheroid radii, those along the axis and across it each in their own."""
+    b, d = row[2:4]
+    x, y, z = (end - start for start, end in zip(row[4:7], row[7:10], strict=True))
+    return math.hypot(x / b, y / b, z / d)
+
+
+def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
+    mistake = Mistake.LATE if time > first_contact(row)[1] else Mistake.EARLY
+    off = radii_off(row, time)
+    exponent = math.floor(math.log2(off)) if 0 < off < math.inf else (-math.inf if not off else math.inf)
+    return WrongCase(index, row, HIT, HIT, mistake, Status.WRONG, exponent, time)
+
+
+def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion) -> WrongCase:
+    change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
+    within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
+    mistake = Mistake.FALSE_CONTACT if answer else Mistake.FALSE_CLEAR
+    status = Status.TOLERATED if within else Status.WRONG
+    return WrongCase(index, row, 1 - answer, answer, mistake, status, rough_exponent(np.array([row])))
