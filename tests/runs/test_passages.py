@@ -1,0 +1,135 @@
+"""Judging of answers about ways: wrong implementations are rejected for what they do, right ones pass."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.implementations.questions import Answered
+from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.runs.judges import judge_of
+from hypcheck.runs.passages import passage_of, radii_off
+from hypcheck.runs.score import score
+from hypcheck.vectors.families import WAY_FAMILIES
+from tests.tools.mutants import passages
+
+CRITERION = Criterion("passage")
+BODY = (1.0, 2.0, 1.0, 1.0)
+"""A ball that touches the waist from outside where its centre is 2 from the axis; its ring has the radius 2.5."""
+
+BY_HAND = {
+    "touches at the start alone": ((2.0, 0.0, 0.0), (5.0, 0.0, 0.0), 0.0),
+    "touches at the end alone": ((5.0, 0.0, 0.0), (2.0, 0.0, 0.0), 1.0),
+    "grazes in the middle": ((2.0, -3.0, 0.0), (2.0, 3.0, 0.0), 0.5),
+    "passes just outside": ((2.0 + 2.0**-40, -3.0, 0.0), (2.0 + 2.0**-40, 3.0, 0.0), None),
+    "crosses the ring": ((4.0, 0.0, 0.0), (2.25, 0.0, 0.0), None),
+    "stays in contact": ((1.5, 0.0, 0.0), (1.5, 0.0, 0.0), 0.0),
+    "stays clear": ((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), None),
+    "runs into the waist": ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.5),
+    "goes through and out again": ((6.0, 0.0, 0.0), (-10.0, 0.0, 0.0), 0.25),
+}
+"""Ways of BODY: start, end, and the first contact, worked out by hand."""
+
+
+def by_hand():
+    return np.array([[*BODY, *start, *end] for start, end, _ in BY_HAND.values()])
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """Ways by hand and of the families, and ways within a hyperboloid."""
+    made = [family.rows(1, 24) for family in WAY_FAMILIES.values() if not family.tilted]
+    inside = [[2.0, 17.8, 0.25, 0.15, *ends] for ends in ((0.0, 0.0, -9.0, 0.0, 0.0, 9.0), (0.5, 0, 1, 0.5, 1, 1))]
+    return np.concatenate([by_hand(), inside, *made])
+
+
+def judged(rows, answer, criterion=CRITERION):
+    hits, times = answer(rows)
+    judge = judge_of("passage")
+    scored = score(rows, judge.truth(rows), Answered.of(np.asarray(hits, dtype=np.int8), times), criterion)
+    return list(scored.judged())
+
+
+@pytest.mark.parametrize("name", BY_HAND)
+def test_first_contact_of_ways_worked_out_by_hand_is_known(name):
+    start, end, first = BY_HAND[name]
+    found = passage_of((*BODY, *start, *end))
+    assert found.hit == (first is not None)
+    if first is not None:
+        assert found.first_lower <= first <= found.first_upper <= found.first_lower + 2.0**-52
+
+
+@pytest.mark.parametrize("answer", passages.WRONG, ids=lambda each: each.__name__)
+def test_wrong_implementation_of_ways_is_rejected(answer, rows):
+    tolerance = Fraction(0 if answer in passages.BEYOND_TOLERANCE_0 else 8)
+    cases = judged(rows, answer, Criterion("passage", tolerance=tolerance))
+    assert any(case.status is Status.WRONG for case in cases)
+
+
+@pytest.mark.parametrize("answer", passages.BEYOND_TOLERANCE_0, ids=lambda each: each.__name__)
+def test_clear_where_the_surface_is_only_touched_is_tolerated(answer, rows):
+    cases = judged(rows, answer)
+    assert cases
+    assert {case.status for case in cases} == {Status.TOLERATED}
+
+
+@pytest.mark.parametrize("answer", passages.RIGHT, ids=lambda each: each.__name__)
+def test_right_implementation_of_ways_passes_without_any_tolerance(answer, rows):
+    assert judged(rows, answer, Criterion("passage", tolerance=Fraction(0))) == []
+
+
+def test_there_are_20_wrong_implementations_and_3_right_ones():
+    assert len(passages.WRONG) >= 20
+    assert len(passages.RIGHT) == 3
+    assert all(each.__doc__ and each.__doc__.endswith(".") for each in (*passages.WRONG, *passages.RIGHT))
+
+
+@pytest.mark.parametrize(
+    ("name", "hit", "time", "mistake", "status"),
+    [
+        ("runs into the waist", 0, math.nan, Mistake.FALSE_CLEAR, Status.WRONG),
+        ("grazes in the middle", 0, math.nan, Mistake.FALSE_CLEAR, Status.TOLERATED),
+        ("passes just outside", 1, 0.5, Mistake.FALSE_CONTACT, Status.WRONG),
+        ("stays clear", 1, 0.0, Mistake.FALSE_CONTACT, Status.WRONG),
+        ("runs into the waist", 1, 0.501, Mistake.LATE, Status.WRONG),
+        ("runs into the waist", 1, 0.499, Mistake.EARLY, Status.WRONG),
+    ],
+)
+def test_mistake_and_status_of_an_answer(name, hit, time, mistake, status):
+    start, end, _ = BY_HAND[name]
+    (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([hit], np.array([time])))
+    assert (case.mistake, case.status) == (mistake, status)
+
+
+def test_time_of_a_graze_is_right_as_long_as_the_grown_spheroid_touches():
+    start, end, _ = BY_HAND["grazes in the middle"]
+    rows = np.array([[*BODY, *start, *end]])
+    near, far = 0.5 + 2.0**-27, 0.5 + 1e-3
+    assert judged(rows, lambda _: ([1], np.array([0.5 - 2.0**-27]))) == []
+    assert judged(rows, lambda _: ([1], np.array([near]))) == []
+    (case,) = judged(rows, lambda _: ([1], np.array([0.5 - 1e-3])))
+    assert case.mistake is Mistake.EARLY
+    assert judged(rows, lambda _: ([1], np.array([far]))) == []  # shrunk, it never touches: no time is too late
+    exact = Criterion("passage", tolerance=Fraction(0))
+    assert [case.mistake for case in judged(rows, lambda _: ([1], np.array([near])), exact)] == [Mistake.LATE]
+
+
+def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_the_way():
+    judge = judge_of("passage")
+    start, end, _ = BY_HAND["stays clear"]
+    (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([1], np.array([0.0])))
+    assert judge.measured(case, CRITERION) == math.inf  # from 3 to 1 it must be twice as large
+    start, end, _ = BY_HAND["passes just outside"]
+    (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([1], np.array([0.5])))
+    assert judge.measured(case, CRITERION) == pytest.approx(2.0**-40, rel=0.02)
+    assert case.exponent == pytest.approx(-40, abs=0.5)
+    row = (*BODY, *BY_HAND["runs into the waist"][0], *BY_HAND["runs into the waist"][1])
+    assert radii_off(row, 0.75) == pytest.approx(1.0)  # a quarter of a way of 4 radii
+    assert radii_off(row, 0.25) == pytest.approx(1.0)
+
+
+def test_answer_that_cannot_say_is_not_wrong(rows):
+    assert judged(rows, lambda some: (np.full(len(some), 2), np.full(len(some), np.nan))) == []
