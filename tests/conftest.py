@@ -29,7 +29,7 @@ gc.disable()
 SLOW = {
     "": "processes wheel",
     "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
-    "cli": "completion detach exits settings startup",
+    "cli": "completion detach exits pytest_plugin settings startup",
     "derivation": "formulas proofs repaired_formulas rounding",
     "implementations": "commands fcl_naive functions libraries processes",
     "kernel": "header parallel_lines printing_languages sanitizers",

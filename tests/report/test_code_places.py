@@ -164,7 +164,7 @@ def test_verify_writes_all_three_for_a_wrong_function_at_its_line(tmp_path, monk
         "artifactLocation": {"uri": "mine.py", "uriBaseId": "%SRCROOT%"},
         "region": {"startLine": 8},
     }
-    assert "replay: hypcheck replay ring/" in run["results"][0]["message"]["text"]
+    assert "replay: hypcheck replay ring-0000 python:mine.py:position" in run["results"][0]["message"]["text"]
     (issue, *_) = json.loads((tmp_path / "out" / "gl-code-quality-report.json").read_bytes())
     assert issue["location"] == {"path": "mine.py", "lines": {"begin": 8}}
     assert json.loads((tmp_path / "out" / "badge.json").read_bytes())["color"] == "red"

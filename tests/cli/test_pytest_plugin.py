@@ -1,0 +1,81 @@
+"""A marked test of a user's own pytest fails where `hypcheck verify` does, with the worst case and its replay."""
+
+from __future__ import annotations
+
+from hypcheck.cli import pytest_plugin
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.report.messages import figure
+from hypcheck.report.verdict import failures
+
+pytest_plugins = ["pytester"]
+
+MINE = """
+import hypcheck
+
+
+def exact(rows):
+    return hypcheck.classify(rows)
+
+
+def clears_contacts(rows):
+    found = hypcheck.classify(rows)
+    return found + (found == 0)
+"""
+
+SUITE = """
+import pytest
+
+FEW = {"families": ["ring", "tangent*"], "count": 0}
+
+
+@pytest.mark.hypcheck("python:mine.py:exact", **FEW)
+def test_right():
+    print("its body ran")
+
+
+@pytest.mark.hypcheck("python:mine.py:clears_contacts", **FEW)
+def test_wrong():
+    print("its body ran")
+
+
+@pytest.mark.hypcheck()
+def test_without_spec(): ...
+
+
+@pytest.mark.hypcheck("python:mine.py:exact", tolerence=3)
+def test_misspelt(): ...
+
+
+def test_without_marker(): ...
+"""
+
+
+def test_a_users_pytest_fails_where_the_gate_fails_and_says_how_to_see_it(pytester):
+    pytester.makepyfile(mine=MINE, test_mine=SUITE)
+    result = pytester.runpytest_subprocess("-rP", "--strict-markers")
+    result.assert_outcomes(passed=2, failed=3)
+    text = result.stdout.str()
+    assert text.count("its body ran") == 1
+    (replay,) = [line for line in text.splitlines() if line.startswith("replay: ")]
+    assert replay.startswith("replay: hypcheck replay tangent")
+    assert replay.endswith(" python:mine.py:clears_contacts")
+    assert "hypcheck: FAILED with exit code 1: " in text
+    assert "no implementation is named" in text
+    assert "there is no option '--tolerence'; did you mean --tolerance?" in text
+
+
+def test_the_case_that_is_shown_has_the_greatest_error_of_the_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(MINE, encoding="utf-8")
+    words = ["python:mine.py:clears_contacts", "--families", "tangent*,near*", "--count", "0", "--out", "out"]
+    assert main(["verify", *words]) == 1
+    record = read(tmp_path / "out")
+    worst = pytest_plugin._worst(record, failures(record))
+    errors = [float(case.backward_error_u) for group in record.lines if group.type == "group" for case in group.worst]
+    assert f"wrong by {figure(max(errors))} u" in worst.message
+
+
+def test_options_of_the_marker_are_words_of_the_command_line():
+    options = {"max_abstained": 3, "deterministic": True, "fail_on": None, "families": ("a", "b*")}
+    assert list(pytest_plugin._words(options)) == ["--max-abstained", "3", "--deterministic", "--families", "a,b*"]
