@@ -1,0 +1,163 @@
+"""The tools that read the GitHub action and the pre-commit hook accept them, and both run what they promise."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from ruamel.yaml import YAML
+
+from hypcheck.cli.verify import verify
+
+ROOT = Path(__file__).parents[1]
+ACTION = ROOT / "action.yml"
+HOOKS = ROOT / ".pre-commit-hooks.yaml"
+PAGE = ROOT / "docs" / "ci.md"
+TOOLS = Path(sys.executable).parent
+
+RECORDER = '#!/bin/sh\nprintf "%s\\n" "$0" "$@" >> "$TOLD"\n'
+"""A program that writes its own name and its arguments to a file, a line each."""
+
+TAGS = 'rules:\n  unpinned-uses:\n    config:\n      policies:\n        "*": ref-pin\n'
+"""Actions may be named by a tag, as in the workflows that `hypcheck init` writes."""
+
+
+def loaded(path):
+    return YAML(typ="safe").load(path)
+
+
+def tool(*words, cwd=ROOT):
+    ended = subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False)
+    return ended.returncode, ended.stdout + ended.stderr
+
+
+def snippet(begins):
+    """The indented block of the page whose first line begins so."""
+    blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    (found,) = [block for block in blocks if block.strip().startswith(begins)]
+    return "".join(line.removeprefix("    ") for line in found.splitlines(keepends=True))
+
+
+def step_run(name, folder, **given):
+    """The lines that programs recorded while the step's script ran with these inputs as its environment."""
+    (step,) = [each for each in loaded(ACTION)["runs"]["steps"] if each.get("name", "").startswith(name)]
+    told = folder / "told"
+    for program in ("hypcheck/bin/hypcheck", "hypcheck/bin/python", "python3"):
+        path = folder / program
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(RECORDER, encoding="utf-8")
+        path.chmod(0o755)
+    inputs = {variable: given.get(variable, "") for variable in step["env"]}
+    path = f"{folder}{os.pathsep}{os.environ['PATH']}"
+    environment = {**inputs, "PATH": path, "TOLD": str(told), "RUNNER_TEMP": str(folder)}
+    script = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
+    subprocess.run(script, env=environment, check=True, cwd=folder)
+    return told.read_text(encoding="utf-8").replace(f"{folder}/", "").splitlines()
+
+
+def test_the_action_fits_the_published_schema_of_actions():
+    command = [TOOLS / "check-jsonschema", "--builtin-schema", "vendor.github-actions"]
+    assert tool(*command, ACTION) == (0, "ok -- validation done\n")
+
+
+def test_an_action_with_a_misspelt_key_is_noticed(tmp_path):
+    wrong = tmp_path / "action.yml"
+    wrong.write_text(ACTION.read_text(encoding="utf-8").replace("shell: bash", "shel: bash"), encoding="utf-8")
+    code, _ = tool(TOOLS / "check-jsonschema", "--builtin-schema", "vendor.github-actions", wrong)
+    assert code == 1
+
+
+def test_the_action_and_the_hook_pass_the_security_audit(tmp_path):
+    for file in (ACTION, HOOKS):
+        shutil.copy(file, tmp_path)
+    (tmp_path / "zizmor.yml").write_text(TAGS, encoding="utf-8")
+    command = [TOOLS / "zizmor", "--offline", "--no-progress", "--strict-collection", "--collect", "all"]
+    code, text = tool(*command, "--config", "zizmor.yml", ".", cwd=tmp_path)
+    assert code == 0, text
+    unsafe = ACTION.read_text(encoding="utf-8").replace(
+        '"$RUNNER_TEMP/hypcheck/bin/hypcheck" verify', "${{ inputs.spec }}"
+    )
+    (tmp_path / "action.yml").write_text(unsafe, encoding="utf-8")
+    code, text = tool(*command, "--config", "zizmor.yml", ".", cwd=tmp_path)
+    assert code != 0
+    assert "template-injection" in text
+
+
+def test_pre_commit_reads_the_hook():
+    assert tool(TOOLS / "pre-commit", "validate-manifest", HOOKS)[0] == 0
+
+
+def test_the_hook_runs_verify_and_never_the_self_check():
+    (hook,) = loaded(HOOKS)
+    assert hook["entry"] == "env CI=true hypcheck verify"
+
+
+def test_inputs_reach_verify_as_single_words(tmp_path):
+    given = {
+        "SPEC": "command:./mine --fast; rm -rf x",
+        "FAMILIES": "ring,tang*",
+        "TOLERANCE": "16",
+        "OUT": "my reports",
+    }
+    assert step_run("Verify", tmp_path, **given) == [
+        "hypcheck/bin/hypcheck",
+        *("verify", "--out", "my reports", "--families", "ring,tang*", "--tolerance", "16"),
+        *("--", "command:./mine --fast; rm -rf x"),
+    ]
+
+
+def test_inputs_that_are_left_out_leave_the_defaults_of_verify(tmp_path):
+    assert step_run("Verify", tmp_path, OUT="out") == ["hypcheck/bin/hypcheck", "verify", "--out", "out"]
+
+
+def test_options_that_the_action_names_are_options_of_verify():
+    named = set(re.findall(r"(?<![\w-])--(out|families|tolerance|\w+)(?= \"\$)", ACTION.read_text(encoding="utf-8")))
+    known = {name.removeprefix("--") for option in verify.params for name in option.opts}
+    assert {"out", "families", "tolerance"} == named
+    assert named <= known
+
+
+@pytest.mark.parametrize(
+    ("given", "what"),
+    [({"ACTION": "/an action"}, "/an action[report]"), ({"VERSION": "0.2.0"}, "hypcheck[report]==0.2.0")],
+)
+def test_the_action_installs_its_own_version_or_the_one_that_is_named(tmp_path, given, what):
+    lines = step_run("Install", tmp_path, **given)
+    assert lines[:4] == ["python3", "-m", "venv", "--system-site-packages"]
+    assert lines[5:8] == ["hypcheck/bin/python", "-m", "pip"]
+    assert lines[-1] == what
+
+
+def test_the_workflow_of_the_page_uses_inputs_that_the_action_has(tmp_path):
+    steps = YAML(typ="safe").load(snippet("- uses: OWNER/hypcheck"))
+    assert set(steps[0]["with"]) <= set(loaded(ACTION)["inputs"])
+
+
+@pytest.mark.skipif(shutil.which("actionlint") is None, reason="actionlint is not on the PATH")
+def test_actionlint_passes_a_workflow_that_uses_the_action(tmp_path):
+    workflow = tmp_path / ".github" / "workflows" / "gate.yml"
+    workflow.parent.mkdir(parents=True)
+    shutil.copy(ACTION, tmp_path)
+    assert tool("git", "init", "-q", cwd=tmp_path)[0] == 0
+    step = snippet("- uses: OWNER/hypcheck").replace("OWNER/hypcheck@v0.2.0", "./")
+    head = "on: push\njobs:\n  gate:\n    runs-on: ubuntu-latest\n    steps:\n      - uses: actions/checkout@v4\n"
+    workflow.write_text(head + "".join(f"      {line}" for line in step.splitlines(keepends=True)), encoding="utf-8")
+    assert tool("actionlint", cwd=tmp_path) == (0, "")
+
+
+def test_the_pipeline_of_the_page_fits_the_published_schema_of_gitlab(tmp_path):
+    (tmp_path / ".gitlab-ci.yml").write_text(snippet("hypcheck:"), encoding="utf-8")
+    command = [TOOLS / "check-jsonschema", "--builtin-schema", "vendor.gitlab-ci"]
+    assert tool(*command, tmp_path / ".gitlab-ci.yml")[0] == 0
+
+
+def test_pre_commit_reads_the_configuration_of_the_page(tmp_path):
+    config = tmp_path / ".pre-commit-config.yaml"
+    config.write_text(snippet("repos:"), encoding="utf-8")
+    assert tool(TOOLS / "pre-commit", "validate-config", config)[0] == 0
+    assert loaded(config)["repos"][0]["hooks"][0]["id"] == loaded(HOOKS)[0]["id"]
