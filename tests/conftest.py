@@ -50,6 +50,7 @@ SLOW = {
     "tools/fuzz": "fuzz",
     "tools/mutants": "mutants",
     "tools/soak": "soak",
+    "truth/tilted": "float_boxes",
     "truth": "mesh swept nearest nearest_bounds roots_table",
     "vectors": "razor",
     "vectors/frozen": "cases_cli files labels reading",

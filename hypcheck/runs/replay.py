@@ -24,7 +24,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
 from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
-from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import Score, score, status_of
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import number_of_text
@@ -227,12 +227,12 @@ def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:
 
 
 def _tilted_truth_of(pair: TiltedPair) -> ProvedTruth:
-    from hypcheck.truth.tilted.backward_error import bracket  # noqa: PLC0415 - loads mpmath
+    from hypcheck.truth.tilted.backward_error import quick_bracket  # noqa: PLC0415 - loads mpmath
 
     told = answer(pair)
     if not isinstance(told, TiltedAnswer):
         raise TypeError("a pair that is upright is decided as that")
-    brackets = {other: bracket(pair.row, told.decision, other) for other in _others(told.decision.position)}
+    brackets = {other: quick_bracket(pair.row, told.decision, other) for other in _others(told.decision.position)}
     flips = {other: (each.lower, each.upper) for other, each in brackets.items()}
     return ProvedTruth(pair, told.decision, told.certificate, flips)
 
@@ -245,7 +245,7 @@ def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, crit
     """The judged answer to the row alone; NONDETERMINISTIC if the answer changes in a batch of many copies."""
     positions = np.array([truth.decision.position], dtype=np.int8)
     scored = score(rows, positions, implementation.classify(rows, batch=1), criterion)
-    alone, answer = _alone(scored), int(scored.answers[0])
+    alone, answer = _alone(scored, truth), int(scored.answers[0])
     if alone.answer is None:
         return alone
     again = implementation.classify(np.repeat(rows, REPEATED_ROWS, axis=0), batch=REPEATED_ROWS)
@@ -260,16 +260,25 @@ def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, crit
     return ReplayJudgement(Status.NONDETERMINISTIC, answer, reason, alone.mistake, alone.error, alone.error_u)
 
 
-def _alone(scored: Score) -> ReplayJudgement:
+def _alone(scored: Score, truth: ProvedTruth) -> ReplayJudgement:
     """The judgement of the one row of a score."""
     status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
     if not scored.answered[0]:
         return ReplayJudgement(status, None, scored.reasons.get(0, ""))
     for case in scored.judged():
-        error = judge.measured(case, scored.criterion.question)
+        error = _error(case, truth, scored.criterion.question)
         in_units = judge.in_units(error, scored.criterion.unit)
         return ReplayJudgement(case.status, answer, mistake=case.mistake, error=error, error_u=in_units)
     return ReplayJudgement(status, answer)
+
+
+def _error(case: WrongCase, truth: ProvedTruth, question: str) -> float:
+    """The backward error; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
+    ends = [truth.flips[target] for target in judge.right_positions(Position(case.truth), case.answer, question)]
+    pairs = [each for each in ends if isinstance(each, tuple)]
+    if not pairs:
+        return judge.measured(case, question)
+    return min(low if case.status is Status.WRONG else high for low, high in pairs)
 
 
 def _refused(implementation: Implementation, rows: Rows) -> ReplayJudgement:

@@ -155,7 +155,7 @@ class Score:
     def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> tuple[WorstCase, ...]:
         ranked = sorted(wrong, key=lambda case: (_exponent_first(case), case.index))
         chosen = ranked[:WORST_KEPT]
-        if chosen and math.isfinite(chosen[-1].exponent):
+        if chosen and math.isfinite(chosen[-1].exponent) and not chosen[-1].least:
             # Cases with the same exponent as the last one kept are compared by their exact numbers.
             last = _exponent_first(chosen[-1])
             chosen += [case for case in ranked[WORST_KEPT:] if _exponent_first(case) == last]

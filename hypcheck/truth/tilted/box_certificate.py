@@ -10,9 +10,10 @@ certificate is cut in halves along the number that costs most.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
@@ -52,14 +53,17 @@ Box = list[tuple[Fraction, Fraction]]
 
 
 class Form:
-    """The two surfaces for fixed sizes, in intervals; centre C and axis v are given as intervals each time.
+    """The two surfaces for fixed sizes, in numbers of one kind, such as intervals; centre C and axis v are given later.
+
+    Numbers of other kinds serve as well: float64 intervals of many rows (float_boxes.py), and floats, for a hint.
 
     Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) stands for M wherever it can: its entries change with the axis as much as the
     spheroid does, those of M much more where the spheroid is thin.
     """
 
-    def __init__(self, sizes: Row) -> None:
-        alpha, gamma, b, d = map(_interval, sizes)
+    def __init__(self, sizes: Intervals, root: Callable[[Any], Any] = iv.sqrt) -> None:
+        alpha, gamma, b, d = sizes
+        self.root = root
         self.D = [1 / alpha**2, 1 / alpha**2, -1 / gamma**2]
         self.b2, self.d2 = b**2, d**2
 
@@ -73,37 +77,41 @@ class Form:
 
     def sigma(self, v: Intervals) -> list[Intervals]:
         """Σ."""
-        factor = (self.d2 - self.b2) / _dot(v, v)
+        factor = (self.d2 - self.b2) / dot(v, v)
         return [[(i == j) * self.b2 + factor * v[i] * v[j] for j in range(3)] for i in range(3)]
 
     def sigma_times(self, v: Intervals, q: Intervals) -> Intervals:
         """Σ q, from the parts of q along v and across."""
-        along = self.d2 * _dot(v, q) / _dot(v, v)
-        return [self.b2 * p + along * each for p, each in zip(_across(v, q), v, strict=True)]
+        along = self.d2 * dot(v, q) / dot(v, v)
+        return [self.b2 * p + along * each for p, each in zip(across(v, q), v, strict=True)]
 
     def width(self, v: Intervals, q: Intervals) -> ivmpf:
         """√(qᵀ Σ q): how far the spheroid reaches along q, times |q|."""
-        cross = _cross(v, q)
-        return iv.sqrt((self.b2 * _squares(cross) + self.d2 * _dot(v, q) ** 2) / _squares(v))
+        aside = cross(v, q)
+        return self.root((self.b2 * squares(aside) + self.d2 * dot(v, q) ** 2) / squares(v))
 
     def by_axis(self, v: Intervals, q: Intervals, n: Intervals) -> Intervals:
         """The derivatives of nᵀ Σ q by the axis."""
-        square = _dot(v, v)
-        q_part, n_part = (self.d2 - self.b2) * _dot(v, n) / square, (self.d2 - self.b2) * _dot(v, q) / square
-        return [q_part * a + n_part * b for a, b in zip(_across(v, q), _across(v, n), strict=True)]
+        square = dot(v, v)
+        q_part, n_part = (self.d2 - self.b2) * dot(v, n) / square, (self.d2 - self.b2) * dot(v, q) / square
+        return [q_part * a + n_part * b for a, b in zip(across(v, q), across(v, n), strict=True)]
 
-    def nearest(self, at: ivmpf, C: Intervals, v: Intervals) -> tuple[Intervals, list[Intervals]] | None:
-        """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
-        square = _dot(v, v)
+    def pencil(self, at: ivmpf, v: Intervals) -> tuple[list[Intervals], list[Intervals], Intervals]:
+        """M, the adjugate of M + λD, and its leading minors, the determinant last."""
+        square = dot(v, v)
         excess = (1 / self.d2 - 1 / self.b2) / square
         M = [[(i == j) / self.b2 + excess * v[i] * v[j] for j in range(3)] for i in range(3)]
         G = [[M[i][j] + (i == j) * at * self.D[i] for j in range(3)] for i in range(3)]
-        adjugate = [_cross(G[1], G[2]), _cross(G[2], G[0]), _cross(G[0], G[1])]
-        determinant = _dot(G[0], adjugate[0])
-        if min(_low(G[0][0]), _low(adjugate[2][2]), _low(determinant)) <= 0:
+        adjugate = [cross(G[1], G[2]), cross(G[2], G[0]), cross(G[0], G[1])]
+        return M, adjugate, [G[0][0], adjugate[2][2], dot(G[0], adjugate[0])]
+
+    def nearest(self, at: ivmpf, C: Intervals, v: Intervals) -> tuple[Intervals, list[Intervals]] | None:
+        """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
+        M, adjugate, minors = self.pencil(at, v)
+        if min(map(_low, minors)) <= 0:
             return None
-        inverse = [[_dot(row, column) / determinant for column in M] for row in adjugate]
-        return [_dot(row, C) for row in inverse], inverse
+        inverse = [[dot(row, column) / minors[2] for column in M] for row in adjugate]
+        return [dot(row, C) for row in inverse], inverse
 
 
 _SHARES = (Fraction(1), 1 - Fraction(1, 1 << 20), Fraction(1, 2))
@@ -118,7 +126,7 @@ class State:
     """
 
     def __init__(self, sizes: Row, rest: Row, goal: Goal) -> None:
-        self.form, self.side = Form(sizes), int(goal.side)
+        self.form, self.side = Form(list(map(_interval, sizes))), int(goal.side)
         self.C, self.v = [_interval(each) for each in rest[:3]], [_interval(each) for each in rest[3:]]
         hint, found = multiplier((*sizes, *rest)), None
         for share in _SHARES if hint * self.side > 0 else ():
@@ -148,11 +156,11 @@ class State:
 
     def size_derivatives(self) -> list[mpf]:
         """The margin's derivatives by the logarithms of the sizes."""
-        squares = [self.factor * a * b for a, b in zip(self.n, self.X, strict=True)]
-        square = 2 * self.at**2 / _dot(self.v, self.v)
-        thick = square * self.form.b2 * _squares(_cross(self.v, self.n))
-        along = square * self.form.d2 * _dot(self.v, self.n) ** 2
-        return [_middle(each) for each in (squares[0] + squares[1], squares[2], thick, along)]
+        terms = [self.factor * a * b for a, b in zip(self.n, self.X, strict=True)]
+        square = 2 * self.at**2 / dot(self.v, self.v)
+        thick = square * self.form.b2 * squares(cross(self.v, self.n))
+        along = square * self.form.d2 * dot(self.v, self.n) ** 2
+        return [_middle(each) for each in (terms[0] + terms[1], terms[2], thick, along)]
 
 
 def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
@@ -206,8 +214,8 @@ def _reach(form: Form, at: ivmpf, C: Intervals, v: Intervals, X0: Intervals, R: 
     rest = [C[i] - X0[i] - at * image[i] for i in range(3)]
     sigma = form.sigma(v)
     columns = [[(i == j) + at * sigma[i][j] * form.D[j] for i in range(3)] for j in range(3)]
-    shift = [_size(_dot(row, rest)) for row in R]
-    defect = [[_size((i == j) - _dot(R[i], columns[j])) for j in range(3)] for i in range(3)]
+    shift = [_size(dot(row, rest)) for row in R]
+    defect = [[_size((i == j) - dot(R[i], columns[j])) for j in range(3)] for i in range(3)]
     tiny = plain.mpf(2) ** -200
     least = max(shift) * tiny + max(map(_size, X0)) * tiny**2
     reach = [2 * each + least for each in shift]
@@ -248,7 +256,7 @@ def _shares_of_radius(worst: State, q: Intervals) -> Iterator[mpf]:
     yield (1 + min(_size(worst.at * width), one)) / 2
     way = [each / width for each in form.sigma_times(worst.v, q)]
     bend = form.gradient(way)
-    turn = _middle(-_dot(bend, worst.C)) / (_middle(_dot(bend, way)) or one)
+    turn = _middle(-dot(bend, worst.C)) / (_middle(dot(bend, way)) or one)
     if 0 < turn < 1:
         yield turn
 
@@ -261,7 +269,7 @@ def _outward(
     way0 = [scale0 * each for each in form.sigma_times(v0, q)]
     way = [scale * each for each in form.sigma_times(v, q)]
     n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
-    fall = _dot(n, way) * (scale / iv.mpf(rho)) ** 2 / 2
+    fall = dot(n, way) * (scale / iv.mpf(rho)) ** 2 / 2
     by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
     return way0, way, [scale * a - fall * b for a, b in by_axis]
 
@@ -324,22 +332,24 @@ def _size(enclosure: ivmpf) -> mpf:
     return max(abs(_low(enclosure)), abs(_high(enclosure)))
 
 
-def _dot(p: Intervals, q: Intervals) -> ivmpf:
+def dot(p: Intervals, q: Intervals) -> ivmpf:
+    """p·q."""
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
-def _squares(p: Intervals) -> ivmpf:
+def squares(p: Intervals) -> ivmpf:
     """p·p, not below 0."""
     return p[0] ** 2 + p[1] ** 2 + p[2] ** 2
 
 
-def _across(v: Intervals, q: Intervals) -> Intervals:
+def across(v: Intervals, q: Intervals) -> Intervals:
     """The part of q across v, (v × q) × v/(v·v)."""
-    square = _squares(v)
-    return [each / square for each in _cross(_cross(v, q), v)]
+    square = squares(v)
+    return [each / square for each in cross(cross(v, q), v)]
 
 
-def _cross(p: Intervals, q: Intervals) -> Intervals:
+def cross(p: Intervals, q: Intervals) -> Intervals:
+    """p × q."""
     return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 
 

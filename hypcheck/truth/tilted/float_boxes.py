@@ -1,0 +1,395 @@
+"""Certificates over boxes of changes for many rows at once, in float64 intervals.
+
+The proofs are those of box_certificate.py. Each end of an interval is rounded outward after each operation, so that
+what is certified here is proved. What is not, as near to contact or of very stiff sizes, is left to 256 bits there.
+
+NaN, which overflow leaves, compares as no proof. Only sums, products, quotients and roots are asked of numpy, each of
+which IEEE 754 rounds correctly, so that the next float on either side bounds the exact result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import COLUMNS, SIZES
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.truth.tilted.box_certificate import Form, Goal, dot
+
+LEAST = -46
+"""Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""
+
+_LADDER = np.ldexp(np.exp2(np.arange(8) / 8), np.arange(LEAST, 0)[:, None]).ravel()
+"""The changes that are tried, ascending: eight to an octave."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Enclosures:
+    """An interval for each of n numbers, ends (n,); NaN where nothing is known."""
+
+    low: Floats
+    high: Floats
+
+    __array_ufunc__: ClassVar[None] = None  # so that an array on the left leaves the operation to this class
+
+    def __add__(self, other: Number) -> Enclosures:
+        other = _enclosed(other)
+        return Enclosures(_down(self.low + other.low), _up(self.high + other.high))
+
+    def __neg__(self) -> Enclosures:
+        return Enclosures(-self.high, -self.low)
+
+    def __sub__(self, other: Number) -> Enclosures:
+        return self + -_enclosed(other)
+
+    def __rsub__(self, other: Number) -> Enclosures:
+        return _enclosed(other) + -self
+
+    def __mul__(self, other: Number) -> Enclosures:
+        other = _enclosed(other)
+        one, two = self.low * other.low, self.low * other.high
+        three, four = self.high * other.low, self.high * other.high
+        low = np.minimum(np.minimum(one, two), np.minimum(three, four))
+        return Enclosures(_down(low), _up(np.maximum(np.maximum(one, two), np.maximum(three, four))))
+
+    def __truediv__(self, other: Number) -> Enclosures:
+        other = _enclosed(other)
+        across_zero = (other.low <= 0) & (other.high >= 0)
+        low = np.where(across_zero, -np.inf, _down(1 / other.high))
+        return self * Enclosures(low, np.where(across_zero, np.inf, _up(1 / other.low)))
+
+    def __rtruediv__(self, other: Number) -> Enclosures:
+        return _enclosed(other) / self
+
+    def __pow__(self, power: int) -> Enclosures:
+        if power != 2:
+            raise ValueError("only squares are needed")
+        largest = self.size
+        least = np.where((self.low <= 0) & (self.high >= 0), 0.0, np.minimum(np.abs(self.low), np.abs(self.high)))
+        return Enclosures(np.maximum(_down(least * least), 0.0), _up(largest * largest))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    @property
+    def size(self) -> Floats:
+        """The largest absolute value in each."""
+        return np.asarray(np.maximum(np.abs(self.low), np.abs(self.high)))
+
+    def root(self) -> Enclosures:
+        """The square root; each is taken to hold no number below 0 that matters."""
+        return Enclosures(np.maximum(_down(np.sqrt(np.maximum(self.low, 0.0))), 0.0), _up(np.sqrt(self.high)))
+
+
+Number: TypeAlias = Enclosures | Floats | float
+
+
+def _enclosed(value: Number) -> Enclosures:
+    return value if isinstance(value, Enclosures) else Enclosures(np.asarray(value), np.asarray(value))
+
+
+def _down(values: Floats) -> Floats:
+    return np.asarray(np.nextafter(values, -np.inf))
+
+
+def _up(values: Floats) -> Floats:
+    return np.asarray(np.nextafter(values, np.inf))
+
+
+Vectors = list[Any]
+"""Three numbers of n rows each, floats or enclosures."""
+
+_SAFE = 1 + 2.0**-40
+"""More than the rounding of a sum of a few positive products."""
+
+_NOTHING = 1e-300
+"""More than what underflow loses, lengths being about 1."""
+
+_AT_ONCE = 4096
+"""Rows of one pass, which bounds memory."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Boxes:
+    """Sizes (4, n) at their best corner for a goal, and the ends (6, n) of centres and axes; the goals (n,)."""
+
+    sizes: Floats
+    low: Floats
+    high: Floats
+    side: Floats
+    leave: Mask
+
+    def __getitem__(self, chosen: Mask | NDArray[np.intp]) -> Boxes:
+        return Boxes(
+            self.sizes[:, chosen], self.low[:, chosen], self.high[:, chosen], self.side[chosen], self.leave[chosen]
+        )
+
+    @property
+    def middle(self) -> Floats:
+        """Centres and axes in the middle, rounded."""
+        return self.low / 2 + self.high / 2
+
+    @property
+    def radii(self) -> Floats:
+        """How far it is from the rounded middle to the ends, at least."""
+        middle = self.middle
+        return _up(np.maximum(self.high - middle, middle - self.low))
+
+
+def lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
+    """For each row (n, 10) a change that is proved not to attain its goal, float64 (n,): a lower end; 0 where none is.
+
+    It is a power of 2^(1/8) below 1, and nearly the largest that one certificate excludes.
+    """
+    parts = [slice(start, start + _AT_ONCE) for start in range(0, len(rows), _AT_ONCE)]
+    return np.concatenate([_lower_ends(rows[part], goals[part]) for part in parts]) if parts else np.empty(0)
+
+
+def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
+    """By search among the steps of the ladder; of few rows many steps are tried at a time, which costs as much."""
+    low, high = np.full(len(rows), -1), np.full(len(rows), len(_LADDER))
+    active = np.arange(len(rows))
+    while len(active):
+        between = np.arange(1, max(2, _AT_ONCE // (16 * len(active))))
+        tried = low[active, None] + between * (high - low)[active, None] // (between[-1] + 1)
+        tried = np.clip(tried, low[active, None] + 1, high[active, None] - 1)
+        owners = np.repeat(active, len(between))
+        held = excluded(rows[owners], [goals[each] for each in owners.tolist()], _LADDER[tried.ravel()])
+        held = held.reshape(tried.shape)
+        low[active] = np.where(held, tried, low[active, None]).max(axis=1)
+        above = (tried > low[active, None]) & ~held
+        high[active] = np.where(above, tried, high[active, None]).min(axis=1)
+        active = active[high[active] - low[active] > 1]
+    return np.where(low >= 0, _LADDER[np.maximum(low, 0)], 0.0)
+
+
+def excluded(rows: Rows, goals: Sequence[Goal], changes: Floats, cuts: int = 0) -> Mask:
+    """Where certificates are found that no change up to `changes` (n,), each below 1, attains the goal."""
+    with np.errstate(all="ignore"):
+        return _certified(_boxes(_normalised(rows), goals, changes), cuts)
+
+
+def _normalised(rows: Rows) -> Rows:
+    """The same pairs with lengths and axes about 1; NaN where float64 does not hold these exactly."""
+    exponents = np.empty(rows.shape, dtype=np.int64)
+    for part in (slice(0, len(COLUMNS)), slice(len(COLUMNS), None)):
+        exponents[:, part] = np.frexp(np.abs(rows[:, part]).max(axis=1))[1][:, None]
+    scaled = np.ldexp(rows, -exponents)
+    return np.where(np.ldexp(scaled, exponents) == rows, scaled, np.nan)
+
+
+def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
+    """All changes of the rows up to `change` (n,), rounded outward."""
+    signs = np.array([goal.sizes for goal in goals], dtype=np.float64).reshape(-1, len(SIZES)).T
+    grown, shrunk = _up(1 + change), _down(1 - change)
+    sizes = rows[:, : len(SIZES)].T
+    moved = np.where(signs > 0, _up(sizes * grown), _down(sizes * shrunk))
+    rest = rows[:, len(SIZES) :].T
+    way = np.where(rest == 0, 0.0, _up(np.abs(rest) * change))
+    low, high = (np.where(way == 0, rest, each) for each in (_down(rest - way), _up(rest + way)))
+    side = np.array([int(goal.side) for goal in goals], dtype=np.float64)
+    return Boxes(moved, low, high, side, np.array([goal.leave for goal in goals], dtype=np.bool_))
+
+
+def _certified(boxes: Boxes, cuts: int) -> Mask:
+    """Which goals are shown not to be attained in their boxes, (n,), each box cut up to so many times."""
+    held = np.ones(len(boxes.side), dtype=np.bool_)
+    owners = np.arange(len(boxes.side))
+    for left in range(cuts, -1, -1):
+        proved, pull = _held(boxes)
+        if not left:
+            held[owners[~proved]] = False
+            break
+        boxes, owners, pull = boxes[~proved], owners[~proved], pull[:, ~proved]
+        if not len(owners):
+            break
+        boxes, owners = _halves(boxes, pull), np.concatenate([owners, owners])
+    return held
+
+
+def _halves(boxes: Boxes, pull: Floats) -> Boxes:
+    """Each box in two, cut across the number that costs most."""
+    middle, chosen = boxes.middle, np.argmax(np.abs(pull) * boxes.radii, axis=0)
+    cut = chosen == np.arange(len(pull))[:, None]
+    return Boxes(
+        np.concatenate([boxes.sizes] * 2, axis=1),
+        np.concatenate([boxes.low, np.where(cut, middle, boxes.low)], axis=1),
+        np.concatenate([np.where(cut, middle, boxes.high), boxes.high], axis=1),
+        np.concatenate([boxes.side] * 2),
+        np.concatenate([boxes.leave] * 2),
+    )
+
+
+def _held(boxes: Boxes) -> tuple[Mask, Floats]:
+    """Which goals one certificate excludes in each box, (n,); and how the margin changes with each number, (6, n)."""
+    sign = np.where(boxes.leave, -1.0, 1.0)
+    pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
+    worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
+    held = np.zeros(len(sign), dtype=np.bool_)
+    for proof, chosen in ((_stays_clear, np.flatnonzero(boxes.leave)), (_stays_off, np.flatnonzero(~boxes.leave))):
+        if len(chosen):
+            held[chosen] = proof(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
+    return held, pull
+
+
+_SHARES = (1.0, 1 - 2.0**-20, 0.5)
+
+
+class _Margin:
+    """box_certificate.State of n rows in plain floats: where to look for a proof, itself none."""
+
+    def __init__(self, sizes: Floats, rest: Floats, side: Floats) -> None:
+        self.form, self.side = Form(list(sizes), np.sqrt), side
+        self.C, self.v = rest[:3], list(rest[3:])
+        hint, self.at, self.X = _multiplier(sizes, rest), np.zeros(len(side)), self.C
+        for share in _SHARES:
+            M, adjugate, minors = self.form.pencil(hint * share, self.v)
+            found = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
+            X = [dot(row, [dot(each, list(self.C)) for each in M]) / minors[2] for row in adjugate]
+            self.at, self.X = np.where(found, hint * share, self.at), np.where(found, np.stack(X), self.X)
+
+    def derivatives(self) -> Vectors:
+        """The margin's derivatives by the centre and the axis."""
+        n, factor = self.form.gradient(list(self.X)), 2 * np.where(self.at == 0, self.side, self.at)
+        by_axis = self.form.by_axis(self.v, n, n)
+        return [*(factor * each for each in n), *(-(self.at**2) * each for each in by_axis)]
+
+
+def _multiplier(sizes: Floats, rest: Floats) -> Floats:
+    """About the λ at which φ is largest, (n,): the root of φ's slope, from the odds of its way to its pole."""
+    alpha, gamma, b, d = sizes
+    x, y, z, v_x, v_y, v_z = rest
+    horizontal = np.hypot(v_x, v_y)
+    length = np.hypot(horizontal, v_z)
+    safe = np.where(horizontal == 0, 1.0, horizontal)
+    ahead, aside = np.where(horizontal == 0, (x, y), ((x * v_x + y * v_y) / safe, (y * v_x - x * v_y) / safe))
+    sine, cosine, radial, axial = horizontal / length, v_z / length, 1 / alpha**2, 1 / gamma**2
+    e, g = d**2 * (sine**2 * radial - cosine**2 * axial), b**2 * (cosine**2 * radial - sine**2 * axial)
+    f = b * d * sine * cosine * (radial + axial)
+    half, trace = (e - g) / 2, (e + g) / 2
+    root, minus_det = np.hypot(half, f), (b * d / (alpha * gamma)) ** 2
+    size = np.sqrt(trace**2 + minus_det)
+    positive = np.where(trace > 0, trace + size, minus_det / (size - trace))
+    one, two = np.where(half > 0, (root + half, f), (f, root - half))
+    one = np.where((one == 0) & (two == 0), 1.0, one)
+    along, across_it = (ahead * sine + z * cosine) / d, (ahead * cosine - z * sine) / b
+    square = one**2 + two**2
+    P1, P2, Q = (
+        (aside / b) ** 2,
+        (along * one + across_it * two) ** 2 / square,
+        (across_it * one - along * two) ** 2 / square,
+    )
+    return _root((alpha / b) ** 2, 1 / positive, positive / minus_det, P1, P2, Q)
+
+
+def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) -> Floats:
+    """The root of A1 P1/(A1 + λ)² + A2 P2/(A2 + λ)² − B Q/(B − λ)² − 1 between −min(A1, A2) and B, by bisection."""
+    least = np.minimum(A1, A2)
+    outside = P1 / A1 + P2 / A2 - Q / B - 1 > 0
+    end = np.where(outside, B, least)
+    low, high = np.full(len(A1), -300.0), np.full(len(A1), 60.0)
+    for _ in range(40):
+        middle = (low + high) / 2
+        odds = np.exp2(middle)
+        left = end / (1 + odds)
+        gone = left * odds
+        one, two, three = np.where(
+            outside, (A1 + gone, A2 + gone, left), (A1 - least + left, A2 - least + left, B + gone)
+        )
+        reached = (A1 * P1 / one**2 + A2 * P2 / two**2 - B * Q / three**2 - 1 > 0) != outside
+        low, high = np.where(reached, low, middle), np.where(reached, middle, high)
+    odds = np.exp2(low)
+    return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
+
+
+def _stays_clear(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:  # noqa: ARG001 - as _stays_off
+    """As box_certificate._stays_clear."""
+    form = Form([_enclosed(each) for each in boxes.sizes], Enclosures.root)
+    C0, v0 = _points(boxes.middle)
+    M, adjugate, minors = form.pencil(_enclosed(at), v0)
+    R = [[dot(row, column) / minors[2] for column in M] for row in adjugate]
+    X0 = [dot(row, C0) for row in R]
+    centre, v = _intervals(boxes)
+    reach, regular = _reach(form, at, centre, v, X0, R)
+    n0 = form.gradient(X0)
+    value = (at * form.width(v0, n0)) ** 2 - 1 + at * form.hyperboloid(X0)
+    n = form.gradient([a + Enclosures(-r, r) for a, r in zip(X0, reach, strict=True)])
+    slopes = [*(2 * at * each for each in n), *(_enclosed(at) ** 2 * each for each in form.by_axis(v, n, n))]
+    definite = np.min([each.low for each in minors], axis=0) > 0
+    return np.asarray((at != 0) & definite & regular & (value.low > _spread(slopes, boxes.radii)))
+
+
+def _reach(form: Form, at: Floats, C: Vectors, v: Vectors, X0: Vectors, R: list[Vectors]) -> tuple[list[Floats], Mask]:
+    """As box_certificate._reach, and where the reach is proved."""
+    image = form.sigma_times(v, form.gradient(X0))
+    shift = [dot(row, [C[i] - X0[i] - at * image[i] for i in range(3)]).size for row in R]
+    sigma = form.sigma(v)
+    columns = [[float(i == j) + at * sigma[i][j] * form.D[j] for i in range(3)] for j in range(3)]
+    defect = [[(float(i == j) - dot(R[i], columns[j])).size for j in range(3)] for i in range(3)]
+    least = np.max([each.size for each in X0], axis=0) * 2.0**-60 + _NOTHING
+    reach, regular = [2 * each + least for each in shift], np.zeros(len(at), dtype=np.bool_)
+    for _ in range(3):
+        needed = [_SAFE * (shift[i] + sum(defect[i][j] * reach[j] for j in range(3))) + _NOTHING for i in range(3)]
+        regular |= np.all([a < b for a, b in zip(needed, reach, strict=True)], axis=0)
+        reach = [np.where(regular, b, 2 * a + least) for a, b in zip(needed, reach, strict=True)]
+    return reach, regular
+
+
+def _stays_off(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
+    """As box_certificate._stays_off."""
+    form = Form([_enclosed(each) for each in boxes.sizes], Enclosures.root)
+    (C0, v0), (centre, v), radii, side = _points(boxes.middle), _intervals(boxes), boxes.radii, boxes.side
+    zero = [_enclosed(np.zeros(len(at)))] * 3
+    held = _crosses(form, side, (C0, zero), (centre, zero), zero, radii)
+    plain = Form(list(boxes.sizes), np.sqrt)
+    q = [-side * each for each in plain.gradient(list(X))]
+    axis = list(boxes.middle[3:])
+    width = plain.width(axis, q)
+    way = [each / width for each in plain.sigma_times(axis, q)]
+    bend = plain.gradient(way)
+    turn = -dot(bend, list(C)) / dot(bend, way)
+    q = [_enclosed(each) for each in q]
+    for rho in (np.ones(len(at)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)):
+        scale0, scale = (rho / form.width(each, q) for each in (v0, v))
+        way0, over = ([s * each for each in form.sigma_times(a, q)] for s, a in ((scale0, v0), (scale, v)))
+        n = form.gradient([a + b for a, b in zip(centre, over, strict=True)])
+        fall = dot(n, over) * (scale / rho) ** 2 / 2
+        by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
+        held |= _crosses(form, side, (C0, way0), (centre, over), [scale * a - fall * b for a, b in by_axis], radii)
+    return held
+
+
+def _crosses(
+    form: Form,
+    side: Floats,
+    middle: tuple[Vectors, Vectors],
+    box: tuple[Vectors, Vectors],
+    by_axis: Vectors,
+    radii: Floats,
+) -> Mask:
+    """As box_certificate._crosses."""
+    height = side * form.hyperboloid([a + b for a, b in zip(*middle, strict=True)])
+    n = form.gradient([a + b for a, b in zip(*box, strict=True)])
+    slopes = [*(2 * each for each in n), *(2 * each for each in by_axis)]
+    return np.asarray(height.high + _spread(slopes, radii) < 0)
+
+
+def _spread(slopes: Vectors, radii: Floats) -> Floats:
+    """More than a function can change from the middle of a box to anywhere in it."""
+    total: Floats = np.zeros(radii.shape[1])
+    for slope, radius in zip(slopes, radii, strict=True):
+        total = total + slope.size * radius
+    return _SAFE * total + _NOTHING
+
+
+def _points(numbers: Floats) -> tuple[Vectors, Vectors]:
+    points = [_enclosed(each) for each in numbers]
+    return points[:3], points[3:]
+
+
+def _intervals(boxes: Boxes) -> tuple[Vectors, Vectors]:
+    whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
+    return whole[:3], whole[3:]

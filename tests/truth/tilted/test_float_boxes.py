@@ -1,0 +1,120 @@
+"""Lower ends of the backward error that float64 intervals prove, against exact decisions and the frozen brackets."""
+
+from __future__ import annotations
+
+import operator
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.truth.tilted import exact, float_boxes
+from hypcheck.truth.tilted.backward_error import goal_of, is_limit, is_out_of_reach, lower_ends, quick_bracket
+from hypcheck.truth.tilted.float_boxes import Enclosures
+from hypcheck.truth.tilted.pair import TiltedLengths
+from hypcheck.vectors import frozen
+from tests.tilted_fractions import exact_position
+from tests.tools.tilted_agreement import rows
+
+FAMILIES = ("tilted-uniform", "tilted-near-contact", "tilted-tangent", "tilted-stiff", "tilted-twins", "extreme-tilted")
+
+
+def tilted_cases(name):
+    return [case for case in frozen.load_tilted(name).cases if any(case.row[7:9]) and case.row[2] != case.row[3]]
+
+
+@pytest.mark.parametrize("operation", [operator.add, operator.sub, operator.mul, operator.truediv])
+def test_enclosures_hold_the_exact_result_of_each_pair_of_their_numbers(operation):
+    draw = random.Random(1)  # noqa: S311
+    for _ in range(200):
+        ends = [sorted(draw.choice((draw.uniform(-2, 2), draw.gauss(0, 1e-160), 0.0)) for _ in "ab") for _ in "ab"]
+        with np.errstate(all="ignore"):
+            found = operation(*(Enclosures(np.array([low]), np.array([high])) for low, high in ends))
+        for one in map(Fraction, ends[0]):
+            for other in map(Fraction, ends[1]):
+                if operation is operator.truediv and ends[1][0] <= 0 <= ends[1][1]:
+                    assert (found.low[0], found.high[0]) == (-np.inf, np.inf) or np.isnan(found.low[0])
+                else:
+                    assert Fraction(found.low[0]) <= operation(one, other) <= Fraction(found.high[0])
+
+
+def test_enclosures_hold_squares_and_roots():
+    with np.errstate(all="ignore"):
+        around = Enclosures(np.array([-0.1]), np.array([0.3]))
+        square = around**2
+        root = (around + 1).root()
+    assert square.low[0] == 0
+    assert Fraction(square.high[0]) >= Fraction(0.3) ** 2
+    assert Fraction(root.low[0]) ** 2 <= 1 + Fraction(-0.1)
+    assert Fraction(root.high[0]) ** 2 >= 1 + Fraction(0.3)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_found_where_the_error_is_large(name):
+    cases = tilted_cases(name)
+    compared = found = 0
+    for answer in Position:
+        some = [case for case in cases if case.position is not answer]
+        truths = [exact.decide(TiltedLengths.of(case.row)) for case in some]
+        ends = lower_ends([case.row for case in some], truths, [[answer]] * len(some))
+        for case, end in zip(some, ends, strict=True):
+            assert end <= case.flips[answer].upper
+            if 1e-9 < case.flips[answer].lower < 1:
+                compared += 1
+                found += end > case.flips[answer].lower / 2
+    assert compared > 20
+    assert found >= 0.85 * compared
+
+
+def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
+    draw = random.Random(5)  # noqa: S311
+    for _, row in rows(["uniform", "near", "stiff"], 12, seed=7):
+        truth = exact.decide(TiltedLengths.of(row))
+        for answer in set(Position) - {truth.position}:
+            if is_limit(truth, answer) or is_out_of_reach(row, goal_of(truth.position, answer)):
+                continue
+            (low,) = map(Fraction, lower_ends([row], [truth], [[answer]]))
+            for _ in range(8 if low else 0):
+                signs = [Fraction(draw.choice((-1, 1, draw.uniform(-1, 1)))) for _ in row]
+                position = exact_position([Fraction(a) * (1 + s * low) for a, s in zip(row, signs, strict=True)])
+                assert position == truth.position if answer is Position.CONTACT else position != answer
+
+
+def test_many_rows_have_the_same_lower_ends_as_each_alone():
+    cases = tilted_cases("tilted-symmetric")[:40]
+    goals = [goal_of(case.position, Position(1 if case.position is not Position.EXTERIOR else 0)) for case in cases]
+    array = np.array([case.row for case in cases])
+    together = float_boxes.lower_ends(array, goals)
+    assert together.tolist() == [float_boxes.lower_ends(array[i : i + 1], goals[i : i + 1])[0] for i in range(40)]
+    assert np.count_nonzero(together) > 30
+
+
+def test_rows_that_float64_cannot_scale_exactly_have_no_lower_end():
+    row = np.array([[1e300, 1e300, 1e-320, 2e-320, 2e300, 0.0, 0.0, 1.0, 0.0, 1.0]])
+    assert float_boxes.lower_ends(row, [goal_of(Position.EXTERIOR, Position.CONTACT)]).tolist() == [0.0]
+
+
+def test_more_cuts_never_lose_a_proof():
+    cases = [case for case in tilted_cases("tilted-uniform") if case.position is Position.EXTERIOR][:20]
+    goals = [goal_of(Position.EXTERIOR, Position.CONTACT)] * len(cases)
+    changes = np.array([case.flips[Position.CONTACT].upper * 0.7 for case in cases])
+    held = [float_boxes.excluded(np.array([case.row for case in cases]), goals, changes, cuts) for cuts in (0, 5)]
+    assert held[1][held[0]].all()
+    assert held[1].sum() >= held[0].sum()
+
+
+def test_quick_bracket_agrees_with_the_frozen_one_and_is_narrow_where_first_derivatives_tell():
+    narrow = 0
+    cases = tilted_cases("tilted-uniform")[:4] + tilted_cases("tilted-near-contact")[:6]
+    for case in cases:
+        truth = exact.decide(TiltedLengths.of(case.row))
+        for answer, known in case.flips.items():
+            found = quick_bracket(case.row, truth, answer)
+            assert found.lower <= known.upper
+            assert known.lower <= found.upper
+            if found.upper < 1e-6:
+                narrow += 1
+                assert found.upper <= 1.26 * found.lower
+    assert narrow >= 3
