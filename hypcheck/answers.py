@@ -16,6 +16,7 @@ from hypcheck.answer import measured_clearance, require_agreement
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import Rows, require_valid
+from hypcheck.kernel.classify import kernel
 from hypcheck.processes import in_order, usable_processors
 from hypcheck.tables.chunk import Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
@@ -24,6 +25,7 @@ from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, reading, same_file, writing
 from hypcheck.truth import exact, float_filter, nearest
 from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted import nearest_arrays
 from hypcheck.truth.tilted.pair import TiltedPair
 
 
@@ -53,7 +55,10 @@ def answers(rows: Rows) -> TableAnswers:
 
 
 def _answers_of_ten(rows: Rows) -> TableAnswers:
-    """Those of rows with an axis: upright ones together, the others pair by pair."""
+    """Those of rows with an axis: upright ones together; of the others pair by pair what floats leave uncertain.
+
+    A certain row is no tangency. Its position is that of the kernel, which knows nothing of distances.
+    """
     require_valid(rows)
     count = len(rows)
     found = TableAnswers(np.empty(count, dtype=np.int8), np.zeros(count, dtype=np.bool_), np.empty(count))
@@ -62,7 +67,19 @@ def _answers_of_ten(rows: Rows) -> TableAnswers:
         upright = answers(rows[~leans][:, : len(COLUMNS)])
         found.positions[~leans], found.tangent[~leans] = upright.positions, upright.tangent
         found.clearance[~leans] = upright.clearance
-    for index in np.flatnonzero(leans).tolist():
+    measured, places = nearest_arrays.distances(rows[leans]), np.flatnonzero(leans)
+    certain = places[measured.certain]
+    found.positions[certain] = kernel().answer_rows(rows[certain], "position", 1)[0]
+    found.tangent[certain], found.clearance[certain] = False, measured.clearance[measured.certain]
+    sides = measured.position[measured.certain]
+    for place in np.flatnonzero(found.positions[certain] != sides).tolist():
+        index = int(certain[place])
+        require_agreement(
+            tuple(rows[index].tolist()),
+            (int(found.positions[index]), False),
+            (int(sides[place]), float(found.clearance[index])),
+        )
+    for index in places[~measured.certain].tolist():
         pair = TiltedPair.from_row(rows[index].tolist())
         decision = tilted_exact.decide(pair.lengths)
         found.positions[index], found.tangent[index] = decision.position, decision.tangent

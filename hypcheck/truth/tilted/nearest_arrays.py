@@ -1,0 +1,270 @@
+"""The nearest point for arrays of tilted spheroids: the clearance rounded to float64, where an error bound allows it.
+
+nearest.py answers a pair in intervals; here any λ and any point X near the nearest one, both found in float64 and taken
+as given, enclose the same distance. With s(X) = (X − C)ᵀM(X − C) − 1, G = M + λD ≥ μ > 0, r = G X − M C and L = s(X) +
+λ h(X), which is a convex function of X with the minimum φ(λ) at X̂ = X − G⁻¹r:
+
+    sup φ ≥ φ(λ) = L − rᵀG⁻¹r ≥ L − |r|²/μ
+    sup φ ≤ s(X′) = φ(λ) + (X′ − X̂)ᵀG(X′ − X̂) ≤ L + tr(G) (|h|/|n| + |r|/μ)²
+
+for a point X′ of the hyperboloid with |X′ − X| ≤ |h|/|n|. There is one on the line along n = D X where |h| max|D| <
+|n|²: h(X − (h/|n|²) n) has not the sign of h. Both ends are off by squares of small numbers, so that L, in
+double-double, is the distance to some thirty digits. G ≥ μ is shown by Sylvester's minors of G − 2μ.
+
+Rounding (η = double_double.ERROR bounds an operation, u = 2⁻⁵³):
+    v × w within 5η|v||w|, v·w within 4η|v||w|, their squares within 14η|v|²|w|², v² within 3η, so with three more
+    operations s + 1 = |v × w|²/(v² b²) + (v·w)²/(v² d²) within 20η|w|²(1/b² + 1/d²);
+    h within 7η(1 + X²/α² + Y²/α² + Z²/γ²); L one operation for each of two sums and a product more: 32 η covers it all;
+    r in float64: M w within 24u|w|(1/b² + 1/d²), λ D X within 4u|λ||D X|, their sum one more: 32 u;
+    an entry of G within 10u of 1/b² + 1/d² + |λ|(1/α² + 1/γ²), so G within 30u of it, 64 u with that of G − 2μ;
+    the minors within 4u and 16u of the same expressions with all signs +.
+Lengths lie in 2^±100 or are 0, so that nothing overflows and no underflow matters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
+from hypcheck.truth import double_double
+from hypcheck.truth.double_double import DoubleDouble
+
+CHUNK = 4096
+_RANGE = (2.0**-100, 2.0**100)
+_U = 2.0**-53
+_TURNS, _STEPS = 60, 3
+_LEAST_SQUARE = 2.0**-10
+"""Nearer to the hyperboloid, in squares of radii, a bound of φ says too little of √(1 + φ)."""
+
+_ROUNDED = 2.0**-90
+"""The error of L against its terms: 32 η = 2⁻⁹⁷ would do. This also holds the intervals of nearest.py, which begin with
+100 bits, so that what rounds alike over the whole of it is what nearest.py answers."""
+
+Triple = tuple[Floats, Floats, Floats]
+
+
+@dataclass(frozen=True, slots=True)
+class TiltedDistances:
+    """For n rows: the clearance, float64 (n,), the position, int8 (n,), and where both are certain, bool (n,)."""
+
+    clearance: Floats
+    position: Positions
+    certain: Mask
+
+
+def distances(rows: Rows) -> TiltedDistances:
+    """Of valid rows (n, 10) as far as double-double arithmetic can tell; a tangency is never certain."""
+    found = TiltedDistances(np.zeros(len(rows)), np.zeros(len(rows), np.int8), np.zeros(len(rows), np.bool_))
+    for start in range(0, len(rows), CHUNK):
+        places = start + np.flatnonzero(_inside(rows[start : start + CHUNK]))
+        if len(places):
+            with np.errstate(all="ignore"):
+                found.clearance[places], found.position[places], found.certain[places] = _decided(rows[places])
+    return found
+
+
+def _inside(rows: Rows) -> Mask:
+    """A mask of the rows whose lengths are ordinary numbers, and whose axis is one that scaling keeps exact."""
+    size = np.abs(rows)
+    lengths = np.where(size[:, :7] > 0, size[:, :7], 1.0)
+    axis = np.where(size[:, 7:] > 0, size[:, 7:], size[:, 7:].max(axis=1, keepdims=True))
+    ordinary = (lengths >= _RANGE[0]) & (lengths <= _RANGE[1])
+    return np.asarray(ordinary.all(axis=1) & (axis.min(axis=1) >= 2.0**-100 * axis.max(axis=1)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Pairs:
+    """Columns of the rows: 1/b², 1/d² and 1/α², 1/γ² in float64, the axis with its largest number in [1/2, 1)."""
+
+    sizes: Floats
+    centre: Triple
+    axis: Triple
+    thick: Floats
+    long: Floats
+    D: Triple
+
+    @classmethod
+    def of(cls, rows: Rows) -> _Pairs:
+        """The columns of rows (n, 10)."""
+        alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
+        exponents = np.frexp(np.max(np.abs(axis), axis=0))[1]
+        v_x, v_y, v_z = (np.ldexp(each, -exponents) for each in axis)
+        across, up = 1 / (alpha * alpha), 1 / (gamma * gamma)
+        sizes = np.stack([alpha, gamma, b, d])
+        return cls(sizes, (x, y, z), (v_x, v_y, v_z), 1 / (b * b), 1 / (d * d), (across, across, -up))
+
+
+def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
+    pairs = _Pairs.of(rows)
+    X, at = _polished(pairs, *_start(rows, pairs))
+    L, below, above = _enclosed(pairs, X, at)
+    clear, contact = L[0] - 1.001 * below > 0, L[0] + 1.001 * above < 0
+    position = np.where(clear, np.sign(at), 0).astype(np.int8)
+    squared = double_double.add_float(L, 1.0)
+    divisor = double_double.add_float(double_double.square_root(squared), 1.0)
+    high, low = double_double.divide(L, divisor)
+    error = np.maximum(below, above) / np.sqrt(squared[0]) + 8 * double_double.ERROR * np.abs(high)
+    reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± reach
+    rounds_alike = (high + (low + reach) == high) & (high + (low - reach) == high)
+    return high, position, (clear | contact) & rounds_alike & (squared[0] > _LEAST_SQUARE)
+
+
+def _start(rows: Rows, pairs: _Pairs) -> tuple[Triple, Floats]:
+    """X and λ by eigenvectors and bisection: a hint, of which nothing is proved."""
+    b, d = (pairs.sizes[k][:, None, None] for k in (2, 3))
+    unit = np.stack(pairs.axis, axis=1)
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    along = unit[:, :, None] * unit[:, None, :]
+    root = b * np.eye(3) + (d - b) * along
+    values, vectors = np.linalg.eigh(root @ (np.stack(pairs.D, axis=1)[:, :, None] * root))
+    inverse = np.eye(3) / b + (1 / d - 1 / b) * along
+    own = (np.swapaxes(vectors, 1, 2) @ (inverse @ rows[:, 4:7, None]))[:, :, 0]
+    poles, squares = 1 / values.T, (own * own).T
+    low, high = -poles[2], -poles[0]
+    for _ in range(_TURNS):
+        middle = (low + high) / 2
+        rising = sum(pole * square / (pole + middle) ** 2 for pole, square in zip(poles, squares, strict=True)) > 1
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    at = (low + high) / 2
+    near = own * (poles / (poles + at)).T
+    x, y, z = (root @ (vectors @ near[:, :, None]))[:, :, 0].T
+    return (x, y, z), at
+
+
+def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
+    """Newton's steps for r = 0 and h = 0 in float64, from a hint to a better one."""
+    for _ in range(_STEPS):
+        residual, n = _residual(pairs, X, at)
+        (a00, a01, a02, a11, a12, a22), determinant = _adjugate(_matrix(pairs, at))
+
+        def solved(q: Triple, a: tuple[Floats, ...] = (a00, a01, a02, a11, a12, a22)) -> Triple:
+            p0 = a[0] * q[0] + a[1] * q[1] + a[2] * q[2]
+            p1 = a[1] * q[0] + a[3] * q[1] + a[4] * q[2]
+            return p0, p1, a[2] * q[0] + a[4] * q[1] + a[5] * q[2]
+
+        of_n, of_r = solved(n), solved(residual)
+        height = _height(pairs, X)[0][0]
+        step = (determinant * height / 2 - _dot(n, of_r)) / _dot(n, of_n)
+        x, y, z = (x - (r + step * k) / determinant for x, r, k in zip(X, of_r, of_n, strict=True))
+        X, at = (x, y, z), at + step
+    return X, at
+
+
+def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Floats, Floats]:
+    """L, how far below it sup φ is at most, and how far above; inf where the bounds do not hold."""
+    _, _, b, d = pairs.sizes
+    height, terms = _height(pairs, X)
+    w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
+    v = tuple((each, np.zeros_like(each)) for each in pairs.axis)
+    across = _sum_of_squares([_cross(v, w, k) for k in range(3)])
+    along = double_double.square(_sum([double_double.multiply(p, q) for p, q in zip(v, w, strict=True)]))
+    axis_square = _sum_of_squares(v)
+    parts = [
+        double_double.divide(part, double_double.multiply(axis_square, double_double.two_square(size)))
+        for part, size in ((across, b), (along, d))
+    ]
+    by_height = double_double.multiply((at, np.zeros_like(at)), height)
+    L = double_double.add(double_double.add_float(_sum(parts), -1.0), by_height)
+
+    residual, n = _residual(pairs, X, at)
+    way = np.sqrt(sum(each[0] * each[0] for each in w))
+    stretch, tilt = pairs.thick + pairs.long, np.abs(at)
+    length = np.sqrt(_dot(n, n))
+    rounded = _ROUNDED * (way * way * stretch + 1 + tilt * terms)
+    off = np.sqrt(_dot(residual, residual)) + 32 * _U * (way * stretch + tilt * length)
+    least = _least_eigenvalue(pairs, at)
+    trace = 2 * stretch + tilt * (2 * pairs.D[0] - pairs.D[2])
+    beside = 1.001 * (np.abs(height[0]) + _ROUNDED * terms) / length
+    meets = 1.01 * beside * np.maximum(pairs.D[0], -pairs.D[2]) < length
+    below = rounded + 1.01 * off * off / least
+    above = rounded + 1.01 * trace * (beside + off / least) ** 2
+    return L, np.where(least > 0, below, np.inf), np.where((least > 0) & meets, above, np.inf)
+
+
+def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
+    """A number below all eigenvalues of M + λD, by the minors of a smaller matrix; 0 where these show none."""
+    matrix = _matrix(pairs, at)
+    scale = pairs.thick + pairs.long + np.abs(at) * (pairs.D[0] - pairs.D[2])
+    adjugate, determinant = _adjugate(matrix)
+    guess = determinant / (adjugate[0] + adjugate[3] + adjugate[5])  # at most the least, at least a third of it
+    g00, g01, g02, g11, g12, g22 = matrix
+    g00, g11, g22 = (each - guess / 2 for each in (g00, g11, g22))
+    minor, minor_terms = g00 * g11 - g01 * g01, np.abs(g00 * g11) + g01 * g01
+    _, determinant = _adjugate((g00, g01, g02, g11, g12, g22))
+    terms = (
+        np.abs(g00) * (np.abs(g11 * g22) + g12 * g12)
+        + np.abs(g01) * (np.abs(g01 * g22) + np.abs(g12 * g02))
+        + np.abs(g02) * (np.abs(g01 * g12) + np.abs(g11 * g02))
+    )
+    definite = (g00 > 0) & (minor > 4 * _U * minor_terms) & (determinant > 16 * _U * terms)
+    return np.where(definite & (guess > 256 * _U * scale), guess / 4, 0.0)
+
+
+def _matrix(pairs: _Pairs, at: Floats) -> tuple[Floats, ...]:
+    """The upper half of M + λD: 00, 01, 02, 11, 12, 22."""
+    v = pairs.axis
+    excess, own = (pairs.long - pairs.thick) / _dot(v, v), [pairs.thick + at * D for D in pairs.D]
+    return tuple(excess * v[i] * v[j] + (own[i] if i == j else 0.0) for i in range(3) for j in range(i, 3))
+
+
+def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
+    """The upper half of a symmetric matrix's adjugate, and its determinant."""
+    g00, g01, g02, g11, g12, g22 = matrix
+    a00, a01, a02 = g11 * g22 - g12 * g12, g02 * g12 - g01 * g22, g01 * g12 - g02 * g11
+    adjugate = (a00, a01, a02, g00 * g22 - g02 * g02, g01 * g02 - g00 * g12, g00 * g11 - g01 * g01)
+    return adjugate, g00 * a00 + g01 * a01 + g02 * a02
+
+
+def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:
+    """r = M (X − C) + λ D X and n = D X."""
+    w0, w1, w2 = (x - c for x, c in zip(X, pairs.centre, strict=True))
+    v = pairs.axis
+    square, dot = _dot(v, v), _dot(v, (w0, w1, w2))
+    c0, c1, c2 = w1 * v[2] - w2 * v[1], w2 * v[0] - w0 * v[2], w0 * v[1] - w1 * v[0]  # w × v
+    across = (v[1] * c2 - v[2] * c1, v[2] * c0 - v[0] * c2, v[0] * c1 - v[1] * c0)  # v × (w × v)
+    n0, n1, n2 = (D * x for D, x in zip(pairs.D, X, strict=True))
+    r0, r1, r2 = (
+        (part * pairs.thick + own * dot * pairs.long) / square + at * n
+        for part, own, n in zip(across, v, (n0, n1, n2), strict=True)
+    )
+    return (r0, r1, r2), (n0, n1, n2)
+
+
+def _height(pairs: _Pairs, X: Triple) -> tuple[DoubleDouble, Floats]:
+    """h(X), and the sum of the magnitudes of its terms."""
+    alpha, gamma = pairs.sizes[0], pairs.sizes[1]
+    x, y, z = (
+        double_double.square(double_double.quotient_of_floats(each, size))
+        for each, size in zip(X, (alpha, alpha, gamma), strict=True)
+    )
+    value = double_double.add_float(double_double.subtract(double_double.add(x, y), z), -1.0)
+    return value, x[0] + y[0] + z[0] + 1.0
+
+
+def _subtracted(first: Floats, second: Floats) -> DoubleDouble:
+    """The difference of two float64, exactly."""
+    zero = np.zeros_like(first)
+    return double_double.subtract((first, zero), (second, zero))
+
+
+def _cross(v: tuple[DoubleDouble, ...], w: tuple[DoubleDouble, ...], k: int) -> DoubleDouble:
+    """A component of v × w."""
+    i, j = (k + 1) % 3, (k + 2) % 3
+    return double_double.subtract(double_double.multiply(v[i], w[j]), double_double.multiply(v[j], w[i]))
+
+
+def _sum_of_squares(numbers: list[DoubleDouble] | tuple[DoubleDouble, ...]) -> DoubleDouble:
+    return _sum([double_double.square(each) for each in numbers])
+
+
+def _sum(numbers: list[DoubleDouble]) -> DoubleDouble:
+    total = numbers[0]
+    for each in numbers[1:]:
+        total = double_double.add(total, each)
+    return total
+
+
+def _dot(p: Triple, q: Triple) -> Floats:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

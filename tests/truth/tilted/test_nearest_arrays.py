@@ -1,0 +1,88 @@
+"""Distances of many tilted spheroids in double-double: certain ones are those of the intervals, digit by digit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.answer import DisagreementError
+from hypcheck.answers import answers
+from hypcheck.truth.tilted import nearest_arrays
+from hypcheck.truth.tilted.nearest import nearest
+from hypcheck.truth.tilted.nearest_arrays import distances
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors.families import TILTED_FAMILIES
+
+
+def by_intervals(rows):
+    return [nearest(TiltedPair.from_row(row)) for row in rows.tolist()]
+
+
+@pytest.mark.parametrize("name", TILTED_FAMILIES)
+def test_certain_clearances_and_positions_are_those_of_the_intervals(name):
+    rows = TILTED_FAMILIES[name].rows(7, 40)
+    found = distances(rows)
+    for number, each in enumerate(by_intervals(rows)):
+        if found.certain[number]:
+            assert (found.clearance[number], found.position[number]) == (each.clearance, each.position)
+
+
+@pytest.mark.parametrize(("name", "share"), [("tilted-tower", 0.99), ("tilted-uniform", 0.6), ("tilted-ring", 0.9)])
+def test_most_rows_of_ordinary_sizes_are_certain(name, share):
+    assert distances(TILTED_FAMILIES[name].rows(7, 400)).certain.mean() > share
+
+
+@pytest.mark.parametrize("name", ["tilted-tangent", "extreme-tilted"])
+def test_tangencies_and_extreme_lengths_are_never_certain(name):
+    assert not distances(TILTED_FAMILIES[name].rows(7, 400)).certain.any()
+
+
+def test_a_clearance_is_enclosed_whatever_multiplier_and_point_are_given(monkeypatch):
+    rows = TILTED_FAMILIES["tilted-tower"].rows(7, 200)
+    right, exact = nearest_arrays._polished, np.array([each.clearance for each in by_intervals(rows[:60])])
+
+    def worse(pairs, X, at):
+        (x, y, z), at = right(pairs, X, at)
+        return (x * (1 + 1e-6), y, z * (1 - 1e-6)), at * (1 + 1e-6)
+
+    monkeypatch.setattr(nearest_arrays, "_polished", worse)
+    found = distances(rows)
+    assert not found.certain.any()
+    pairs = nearest_arrays._Pairs.of(rows[:60])
+    L, below, above = nearest_arrays._enclosed(pairs, *worse(pairs, *nearest_arrays._start(rows[:60], pairs)))
+    assert (L[0] - below <= (1 + exact) ** 2 - 1).all()
+    assert ((1 + exact) ** 2 - 1 <= L[0] + above).all()
+
+
+def test_the_least_eigenvalue_is_bounded_from_below():
+    rows = TILTED_FAMILIES["tilted-uniform"].rows(7, 500)
+    pairs = nearest_arrays._Pairs.of(rows)
+    with np.errstate(all="ignore"):
+        found = nearest_arrays._start(rows, pairs)[1]
+    for share in (0.25, 0.5, 0.999):
+        at = share * np.where(np.isfinite(found), found, 0.0)
+        half = nearest_arrays._matrix(pairs, at)
+        full = np.array([[half[k] for k in line] for line in ((0, 1, 2), (1, 3, 4), (2, 4, 5))]).transpose(2, 0, 1)
+        least, bound = np.linalg.eigvalsh(full)[:, 0], nearest_arrays._least_eigenvalue(pairs, at)
+        assert (bound <= least).all()
+        assert np.median(bound / least) > 0.15
+
+
+def test_a_matrix_that_is_not_definite_has_no_bound():
+    rows = TILTED_FAMILIES["tilted-uniform"].rows(7, 200)
+    pairs = nearest_arrays._Pairs.of(rows)
+    beyond = np.where(np.arange(200) % 2, 1.01 * (rows[:, 1] / rows[:, 2:4].min(axis=1)) ** 2, -1e9)
+    assert (nearest_arrays._least_eigenvalue(pairs, beyond) == 0).all()
+
+
+def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_refused(monkeypatch):
+    rows = TILTED_FAMILIES["tilted-tower"].rows(7, 30)
+    expected = answers(rows)
+    each = by_intervals(rows)
+    assert expected.clearance.tolist() == [one.clearance for one in each]
+    assert expected.positions.tolist() == [one.position for one in each]
+    right = nearest_arrays.distances(rows)
+    wrong = nearest_arrays.TiltedDistances(right.clearance, (right.position == 0).astype(np.int8), right.certain)
+    monkeypatch.setattr(nearest_arrays, "distances", lambda _rows: wrong)
+    with pytest.raises(DisagreementError):
+        answers(rows)
