@@ -24,17 +24,17 @@ from numpy.typing import NDArray
 from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import WORKLOADS, BenchPlan, Workload, chosen_names
+from hypcheck.bench.tilted_workloads import workloads_of
 from hypcheck.geometry.rows import Floats, Positions, Rows
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.questions import Answered
 from hypcheck.processes import one_each, perform
-from hypcheck.record.fields import Unsigned
+from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
-from hypcheck.truth import float_filter
 
 if sys.platform != "win32":
     import resource
@@ -79,18 +79,19 @@ class MethodAnswers:
 
 def chosen_workloads(plan: BenchPlan) -> list[Workload]:
     """The workloads of the plan. Raises InputError naming one that does not exist."""
-    return [WORKLOADS[name] for name in chosen_names(list(WORKLOADS), plan.workloads, "workload")]
+    known = workloads_of(plan)
+    return [known[name] for name in chosen_names(list(known), plan.workloads, "workload")]
 
 
 def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
     """The truth of each workload; the distances are computed in pieces, on all processors."""
     for workload in chosen_workloads(plan):
-        rows = workload.rows(plan.seed, plan.amounts.judged)
+        rows = workload.rows(plan.seed, workload.judged(plan))
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
         exponents = np.empty(len(rows))
         for (start, piece), found in perform(_exponents, pieces, executor):
             exponents[start : start + len(piece)] = found
-        yield WorkloadTruth(workload, rows, float_filter.positions(rows), exponents)
+        yield WorkloadTruth(workload, rows, judge.exact_positions(rows), exponents)
 
 
 def _exponents(piece: tuple[int, Rows]) -> Floats:
@@ -106,7 +107,7 @@ def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
 
 
 def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload: Workload) -> MethodAnswers:
-    rows = _rows(workload.name, plan.seed, plan.amounts.judged)
+    rows = _rows(workload, plan.seed, workload.judged(plan))
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
     return MethodAnswers(
@@ -121,9 +122,9 @@ def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload
 
 
 @cache
-def _rows(workload: str, seed: int, count: int) -> Rows:
+def _rows(workload: Workload, seed: int, count: int) -> Rows:
     """A workload's rows, made once in a process; they must not be written to."""
-    rows = WORKLOADS[workload].rows(seed, count)
+    rows = workload.rows(seed, count)
     rows.flags.writeable = False
     return rows
 
@@ -131,8 +132,8 @@ def _rows(workload: str, seed: int, count: int) -> Rows:
 def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Rows:
     """The rows of a timed batch; none if the workload or the method is not timed."""
     if contender.accuracy_only or not workload.timed:
-        return np.empty((0, 7))
-    rows = _rows(workload.name, plan.seed, plan.amounts.timed)
+        return _rows(workload, plan.seed, 0)
+    rows = _rows(workload, plan.seed, plan.amounts.timed)
     if contender.tier == "foreign":
         rows = rows[contender.domain.holds(rows)]
     if contender.scenes is not None:
@@ -200,10 +201,10 @@ def _worst(scored: Score, exponents: Floats, given: MethodAnswers) -> list[Mista
     cases = [
         Mistaken(
             case=f"{given.workload}/{int(given.places[index])}",
-            row=tuple(value.hex() for value in row),
+            **row_fields(row),
             truth=int(scored.truth[index]),
             answer=answer,
-            flip_distance=Unsigned(judge.error_of(row, answer, scored.criterion.question)),
+            flip_distance=Unsigned(judge.about_error_of(row, answer, scored.criterion.question)),
         )
         for index in tried
         for row, answer in [(scored.rows[index].tolist(), int(scored.answers[index]))]

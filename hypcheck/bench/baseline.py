@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.foreign import ForeignMethod
-from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
 from hypcheck.record import RecordLine, read
@@ -63,15 +63,17 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
     options = record.header.options
     if options.get("command") != "bench":
         raise InputError(f"--baseline {path}: is a record of another command; it must be one of hypcheck bench")
-    if options.get("reference") != REFERENCE:
+    if options.get("reference") != plan.reference:
         told = options.get("reference")
-        raise InputError(f"--baseline {path}: its ratios are to {told!r}; this version's are to {REFERENCE!r}")
+        raise InputError(f"--baseline {path}: its ratios are to {told!r}; this version's are to {plan.reference!r}")
     if options.get("quick") != plan.quick:
         kind = "quick" if options.get("quick") else "full"
         raise InputError(f"--baseline {path}: is of a {kind} run; compare it with another {kind} one")
     baseline = speeds_of(record.lines)
     if not baseline.speeds:
-        raise InputError(f"--baseline {path}: holds no speed relative to {REFERENCE}; it proves nothing about speed")
+        raise InputError(
+            f"--baseline {path}: holds no speed relative to {plan.reference}; it proves nothing about speed"
+        )
     return baseline
 
 
@@ -105,7 +107,7 @@ def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:
     if foreign:
         return foreign
     if plan.methods:
-        return set(found) - {REFERENCE}
+        return set(found) - {plan.reference}
     return {name for name, each in found.items() if each.kind == "certified"}
 
 
@@ -121,8 +123,8 @@ def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[s
     """A line for each method, workload and mode that both runs timed."""
     for key in after.speeds:
         method, workload, mode = key
-        if key in before.speeds and method != REFERENCE:
-            change = change_of(before, after, key)
+        if key in before.speeds and method != plan.reference:
+            change = change_of(before, after, key, plan.reference)
             yield ComparisonLine(
                 method=method,
                 workload=workload,
@@ -137,9 +139,9 @@ def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[s
             )
 
 
-def change_of(before: Baseline, after: Baseline, key: SpeedKey) -> SpeedChange:
+def change_of(before: Baseline, after: Baseline, key: SpeedKey, reference: str) -> SpeedChange:
     """The change of one ratio."""
-    draws = [_medians(run, key, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
+    draws = [_medians(run, key, reference, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()
     change = after.ratios[key] / before.ratios[key]
@@ -147,6 +149,6 @@ def change_of(before: Baseline, after: Baseline, key: SpeedKey) -> SpeedChange:
     return SpeedChange(change, min(low, change), max(high, change), noise)
 
 
-def _medians(run: Baseline, key: SpeedKey, seed: int) -> NDArray[np.float64]:
-    reference = run.speeds[REFERENCE, key[1], key[2]].samples_ns
-    return resampled_medians(ratios(run.speeds[key].samples_ns, reference), seed)
+def _medians(run: Baseline, key: SpeedKey, reference: str, seed: int) -> NDArray[np.float64]:
+    compared = run.speeds[reference, key[1], key[2]].samples_ns
+    return resampled_medians(ratios(run.speeds[key].samples_ns, compared), seed)

@@ -79,10 +79,13 @@ class LoadedMethod(Protocol):
 
 @dataclass(frozen=True)
 class InPython:
-    """A function of rows in this process; `scene`, if there is one, is asked about rows that share their sizes."""
+    """A function of rows in this process; `scene`, if there is one, is asked about rows that share their sizes.
+
+    Of rows of ten, which share their axis too, it also gets that.
+    """
 
     function: Answering
-    scene: ByScene | None = None
+    scene: Callable[..., Answers] | None = None
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
@@ -115,8 +118,9 @@ class InPython:
         if self.scene is None or sizes is None:
             return lambda: self.function(rows)
         scene = self.scene
-        x, y, z = np.ascontiguousarray(rows[:, 4:].T)
-        return lambda: scene(sizes, x, y, z)
+        x, y, z = np.ascontiguousarray(rows[:, 4:7].T)
+        axes = [tuple(each) for each in rows[:1, 7:].tolist() if each]
+        return lambda: scene(sizes, x, y, z, *axes)
 
 
 @dataclass(frozen=True)

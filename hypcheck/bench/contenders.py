@@ -1,33 +1,27 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
-Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once for a
-scene, or once for each row.
+Methods in C are printed and compiled when bench starts. A run about spheroids that lean has contenders of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-
-import numpy as np
 
 from hypcheck.bench import foreign
 from hypcheck.bench.c_library import InC, bodies
 from hypcheck.bench.c_source import FAST
-from hypcheck.bench.contender import Contender, EmptyCall, InPython, InScalars, PreparedWork, of_method, one_by_one
-from hypcheck.bench.plan import REFERENCE, BenchPlan, chosen_names, scene_of
-from hypcheck.bench.timing import clocked
+from hypcheck.bench.contender import Contender, InPython, InScalars, of_method
+from hypcheck.bench.mesh_contenders import mesh_contenders
+from hypcheck.bench.plan import BenchPlan, chosen_names
+from hypcheck.bench.tilted_contenders import tilted_contenders
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.geometry.pair import Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual_by_scene
 from hypcheck.implementations.builtin import builtin_methods, fast_scene
-from hypcheck.implementations.description import Domain
-from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, SceneMesh, height_of, rows_by_sizes, scene_mesh
-from hypcheck.implementations.method import Answers, ByScene, Method, by_scene
+from hypcheck.implementations.method import ByScene, Method, by_scene
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 
@@ -151,117 +145,6 @@ def _without_format(name: str) -> str:
     return name.rpartition("-")[0] or name
 
 
-TRIANGLES = (100, 1_000, 10_000, 100_000)
-COAL_TRIANGLES = (10_000,)
-MOST_SCENES = 8
-"""Workloads with more different sizes are not asked: a mesh for one row is not built once."""
-
-MOST_QUICK = 1_000
-"""Larger meshes belong to full runs."""
-
-ONCE, FOR_EACH = "build once", "build each"
-_TITLES = {
-    "point": "distance from the centre to the scaled mesh",
-    "sphere": "unit sphere against the scaled mesh",
-    "ellipsoid": "ellipsoid against the mesh",
-}
-
-
-@dataclass(frozen=True)
-class InEngine:
-    """One pairing with meshes of about so many triangles, each built once and kept."""
-
-    engine: Engine
-    pairing: str
-    triangles: int
-    meshes: dict[tuple[Sizes, float], SceneMesh] = field(default_factory=dict)
-    trouble: str = ""
-
-    def answer(self, rows: Rows) -> Answers:
-        """Its answers, scene by scene; missing meshes are built and kept."""
-        found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
-        for sizes, places in rows_by_sizes(rows):
-            found[places] = self.mesh(sizes, rows[places]).positions(rows[places])
-        return found
-
-    def mesh(self, sizes: Sizes, rows: Rows) -> SceneMesh:
-        """The mesh of a scene."""
-        key = sizes, height_of(sizes, rows)
-        if key not in self.meshes:
-            self.meshes[key] = scene_mesh(self.engine, self.pairing, *key, self.triangles)
-        return self.meshes[key]
-
-    def batch(self, rows: Rows) -> PreparedWork:
-        """Every row, with meshes that exist."""
-        work = partial(self._ready(rows), rows)
-        return PreparedWork(len(rows), clocked(work), work)
-
-    def single(self, rows: Rows) -> PreparedWork:
-        """The same by a call for each row."""
-        return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
-
-    def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
-        sizes = scene_of(rows)
-        if sizes is not None:
-            return self.mesh(sizes, rows).positions
-        self.answer(rows)  # builds them
-        return self.answer
-
-    def build(self, rows: Rows) -> PreparedWork | None:
-        """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
-        sizes = scene_of(rows)
-        if sizes is None:
-            return None
-        known = np.array([self.mesh(sizes, rows).triangles])
-        make = partial(scene_mesh, self.engine, self.pairing, sizes, height_of(sizes, rows), self.triangles)
-        return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
-
-    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The empty call of a Python function."""
-        return None if mode == "build" else InPython(self.answer).empty(rows, mode)
-
-    def close(self) -> None:
-        """Release the meshes."""
-        self.meshes.clear()
-
-
-def mesh_contenders() -> Iterable[Contender]:
-    """Every pairing with every number of triangles."""
-    for pairing in PAIRINGS:
-        for triangles in TRIANGLES:
-            yield _built_once(FCL, pairing, triangles)
-    for pairing in PAIRINGS:
-        for triangles in COAL_TRIANGLES:
-            yield _built_once(COAL, pairing, triangles)
-    methods = builtin_methods()
-    for pairing in PAIRINGS:
-        if f"fcl-{pairing}-mesh" in methods:
-            found = of_method(methods[f"fcl-{pairing}-mesh"], "FCL", "mesh", judged=400, timed=8)
-            note = "the mesh covers the body's surroundings alone, and is built anew for each row"
-            yield replace(found, amortised=FOR_EACH, singles=8, needs=FCL.title, note=note, quick=False)
-
-
-def _built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
-    return Contender(
-        name=f"{engine.name}-{pairing}-{triangles}",
-        title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
-        tier="FCL",
-        kind="mesh",
-        precision="float64",
-        question="position",
-        domain=Domain(),
-        load=partial(InEngine, engine, pairing, triangles),
-        judged=3000 if triangles < 100_000 else 1200,
-        timed=256,
-        singles=32,
-        amortised=ONCE,
-        scenes=MOST_SCENES,
-        needs=engine.title,
-        note="the time of a row is without that of building",
-        quick=triangles <= MOST_QUICK,
-    )
-
-
 _SLOW = 1_000
 """A method that is judged on fewer rows is slow."""
 
@@ -274,7 +157,7 @@ def contenders(plan: BenchPlan) -> dict[str, Contender]:
     found |= others
     return {
         name: found[name]
-        for name in dict.fromkeys((REFERENCE, *names, *others))
+        for name in dict.fromkeys((plan.reference, *names, *others))
         if found[name].needs not in plan.missing and (found[name].quick or not plan.quick or plan.methods)
     }
 
@@ -286,6 +169,9 @@ def _quick(each: Contender) -> Contender:
 
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
     """Every method, chosen or not."""
+    if plan.tilted:
+        yield from tilted_contenders()
+        return
     yield from numpy_contenders()
     yield from c_contenders(plan.compiled)
     yield from mesh_contenders()

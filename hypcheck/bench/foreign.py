@@ -12,6 +12,7 @@ import numpy as np
 from hypcheck.bench.contender import Contender, EmptyCall, PreparedWork, of_method
 from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.bench.timing import Clocked, TimingRefusedError
+from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.description import Description
@@ -44,10 +45,15 @@ class ForeignMethod:
     timed: int
 
 
-def foreign_method(spec: str, limits: Limits, taken: Sequence[str]) -> ForeignMethod:
-    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is no SPEC."""
+def foreign_method(spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False) -> ForeignMethod:
+    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is no SPEC.
+
+    So it does if it would be asked about tilted spheroids, and its description does not say tilt.
+    """
     with open_implementation(spec, limits) as implementation:
         description = implementation.description
+        if tilted and not description.tilt:
+            raise InputError(f'{spec} answers rows of seven numbers alone: its description has no "tilt": true')
         took = _seconds_a_row(implementation)
     name = description.name if description.name not in taken else f"{description.name} ({spec})"
     return ForeignMethod(

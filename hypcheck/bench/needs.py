@@ -58,7 +58,8 @@ def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> Be
     found: list[foreign.ForeignMethod] = []
     for spec in plan.specs:
         try:
-            found.append(foreign.foreign_method(spec, plan.limits, [*contenders(plan), *(each.name for each in found)]))
+            taken = [*contenders(plan), *(each.name for each in found)]
+            found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
             not_started.append(str(error))

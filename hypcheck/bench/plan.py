@@ -27,6 +27,9 @@ from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
 REFERENCE = "table-2-float64"
 """All ratios are relative to the time of this method: the paper's own formula in numpy, which runs everywhere."""
 
+TILTED_REFERENCE = "eigh"
+"""The same where spheroids lean: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
+
 MAX_SLOWDOWN = 1.1
 """The slowdown that a baseline allows by default."""
 
@@ -79,7 +82,8 @@ class BenchPlan:
     `max_slowdown` times slower against the reference than there.
 
     `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
-    many trees, the savings of these scenes.
+    many trees, the savings of these scenes. `tilted` compares methods for spheroids whose axis leans; so does a scene
+    whose mover leans.
 
     Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
     that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).
@@ -98,6 +102,7 @@ class BenchPlan:
     max_slowdown: float = MAX_SLOWDOWN
     kernel: bool = False
     forest: bool = False
+    tilted: bool = False
     scenes: tuple[str, ...] = ()
     folder: Path = Path()
     compiled: Path | None = None
@@ -108,21 +113,27 @@ class BenchPlan:
     def __post_init__(self) -> None:
         alone = [name for name, given in (("--kernel", self.kernel), ("--forest", self.forest)) if given]
         alone += ["--scene"] if self.scenes else []
-        if alone and (len(alone) > 1 or self.specs or self.methods or self.workloads or self.baseline):
+        tilted = self.tilted and (self.kernel or self.forest)
+        if alone and (len(alone) > 1 or self.specs or self.methods or self.workloads or self.baseline or tilted):
             what = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}[alone[0]]
             raise InputError(f"{alone[0]} measures {what} and nothing else; it goes with no other choice")
 
     @property
     def whole(self) -> bool:
         """Whether the run measures everything, which takes minutes: nothing was chosen, and it is not quick."""
-        return not (self.quick or self.specs or self.methods or self.workloads or self.baseline)
+        return not (self.quick or self.specs or self.methods or self.workloads or self.baseline or self.tilted)
+
+    @property
+    def reference(self) -> str:
+        """The method that all ratios of this run are relative to."""
+        return TILTED_REFERENCE if self.tilted else REFERENCE
 
     @property
     def options(self) -> dict[str, Any]:
         """The plan as the record's header has it."""
         shown = {name: value for name, value in asdict(self).items() if name not in _FOUND_OUT}
         baseline = None if self.baseline is None else str(self.baseline)
-        return {"command": "bench", **shown, "baseline": baseline, "reference": REFERENCE}
+        return {"command": "bench", **shown, "baseline": baseline, "reference": self.reference}
 
 
 _FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
@@ -156,25 +167,32 @@ NEAR_GAPS = (-57, -2)
 
 @dataclass(frozen=True)
 class Workload:
-    """`rows(seed, n)` are n of its rows, float64 (n, 7). `timed`: methods are timed on it, not only judged."""
+    """`rows(seed, n)` are n of its rows, float64 (n, 7), or (n, 10) of spheroids that lean.
+
+    `timed`: methods are timed on it, not only judged. One in `share` of the rows that a run judges is judged.
+    """
 
     name: str
     title: str
     text: str
     rows: Callable[[int, int], Rows]
     timed: bool = True
+    share: int = 1
 
-    def scene(self, rows: Rows) -> tuple[float, float, float, float] | None:
-        """The sizes that all these rows share, or None."""
-        return scene_of(rows)
+    def judged(self, plan: BenchPlan) -> int:
+        """The number of rows of it that a fast method is asked."""
+        return plan.amounts.judged // self.share
 
 
 def scene_of(rows: Rows) -> tuple[float, float, float, float] | None:
-    """α, γ, b, d if all rows share them, else None."""
-    if not len(rows) or (rows[:, :4] != rows[0, :4]).any():
+    """α, γ, b, d if all rows share them, and the axis where they have one; else None."""
+    if not len(rows) or (np.delete(rows, _CENTRE, axis=1) != np.delete(rows[0], _CENTRE)).any():
         return None
     alpha, gamma, b, d = rows[0, :4].tolist()
     return alpha, gamma, b, d
+
+
+_CENTRE = slice(4, 7)
 
 
 def near_contact(seed: int, count: int) -> Rows:

@@ -14,7 +14,8 @@ from hypcheck.bench.contender import Contender
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
 from hypcheck.bench.plan import BenchPlan, scene_of
-from hypcheck.errors import Exit, NothingJudgedError, RunOutcome
+from hypcheck.bench.tilted_workloads import leaning_scenes
+from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome
 from hypcheck.implementations.meshes import FCL
 from hypcheck.processes import Advance, Stage, perform, processes, usable_processors
 from hypcheck.record import Recorder, RecordLine
@@ -65,8 +66,10 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
         return (_forest(plan, recorder, outcome),)
-    if plan.scenes:
+    leaning = leaning_scenes(plan.scenes)
+    if plan.scenes and not leaning and not plan.tilted:
         return (_scenes(plan, plan.scenes, recorder, outcome),)
+    plan = _tilted_plan(plan, leaning)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
     plan = needs_met(plan_with_needs(plan, recorder), recorder, outcome.because[Exit.NOT_STARTED])
@@ -75,18 +78,42 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
     if before is not None:
         require_common(before, gated(plan, run.found))
-    maps = len(error_maps.stability_methods(run.found)) + len(error_maps.place_methods(run.found))
     return (
         Stage("methods", 1, lambda advance: _introduce(run, advance)),
         Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
-        Stage("maps", maps, lambda advance: _map(run, advance)),
-        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
+        *(() if plan.tilted else _map_stages(run)),
         Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
         Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
-        Stage("meshes", error_maps.convergence_steps(plan) if run.meshes else 0, lambda advance: _refine(run, advance)),
-        Stage("memory", len(run.timed) if plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
+        *(() if plan.tilted else _mesh_and_memory_stages(run)),
         *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
     )
+
+
+def _map_stages(run: _Run) -> Sequence[Stage]:
+    maps = len(error_maps.stability_methods(run.found)) + len(error_maps.place_methods(run.found))
+    return (
+        Stage("maps", maps, lambda advance: _map(run, advance)),
+        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
+    )
+
+
+def _mesh_and_memory_stages(run: _Run) -> Sequence[Stage]:
+    meshes = error_maps.convergence_steps(run.plan) if run.meshes else 0
+    return (
+        Stage("meshes", meshes, lambda advance: _refine(run, advance)),
+        Stage("memory", len(run.timed) if run.plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
+    )
+
+
+def _tilted_plan(plan: BenchPlan, leaning: Sequence[str]) -> BenchPlan:
+    """The plan of a run about one scene that leans, or any other plan. Raises InputError for more scenes than one."""
+    if not plan.scenes:
+        return plan
+    if not leaning:
+        raise InputError(f"--tilted is about movers that lean, and none does in the scene {plan.scenes[0]!r}")
+    if len(plan.scenes) > 1:
+        raise InputError(f"the mover of the scene {leaning[0]!r} leans; measure that scene alone, with one --scene")
+    return replace(plan, tilted=True)
 
 
 def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
@@ -126,7 +153,7 @@ def _introduce(run: _Run, advance: Advance) -> None:
     for each in run.found.values():
         run.recorder.add(introduction(each))
     for workload in chosen_workloads(run.plan):
-        count = run.plan.amounts.timed if workload.timed else run.plan.amounts.judged
+        count = run.plan.amounts.timed if workload.timed else workload.judged(run.plan)
         run.recorder.add(
             WorkloadLine(
                 workload=workload.name,
@@ -199,7 +226,7 @@ def _measure(run: _Run, advance: Advance) -> None:
     run.recorder.add(
         ConditionsLine(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
     )
-    for line in speed.speed_lines(found):
+    for line in speed.speed_lines(found, run.plan.reference):
         run.recorder.add(line)
         run.speeds.append(line)
         if isinstance(line, RefusedLine):

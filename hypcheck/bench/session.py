@@ -11,7 +11,7 @@ from hypcheck.bench.accuracy import answers_print, chosen_workloads, timed_rows
 from hypcheck.bench.claims import CostClaim, cost_claims
 from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import REFERENCE, BenchPlan, Workload
+from hypcheck.bench.plan import BenchPlan, Workload
 from hypcheck.bench.timing import Samples, TimingEntry, measure
 from hypcheck.geometry.rows import Rows
 
@@ -22,10 +22,13 @@ MODES: Mapping[str, Callable[[LoadedMethod, Rows], PreparedWork | None]] = {
 }
 """The modes of timing a method: many rows by one call, rows one by one, and the building before."""
 
-REFERENCE_AGAIN = f"{REFERENCE} again"
+REFERENCE_AGAIN = "the reference again"
 """The reference a second time: its difference from the first is noise."""
 
-MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {"single": ("uniform", "near-contact"), "build": ("uniform",)}
+MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
+    "single": ("uniform", "near-contact"),
+    "build": ("uniform", "one-axis", "region"),
+}
 """The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
 
 BUILDS = 2
@@ -155,11 +158,12 @@ def _with_empty(here: _MeasuredTogether, name: str, empty: EmptyCall | None) -> 
 def _measured(session: MeasuringSession, here: _MeasuredTogether) -> Iterator[Measurement]:
     if not here.ready:
         return
-    todo = {**here.ready, **({REFERENCE_AGAIN: here.ready[REFERENCE]} if REFERENCE in here.ready else {})}
+    reference = session.plan.reference
+    todo = {**here.ready, **({REFERENCE_AGAIN: here.ready[reference]} if reference in here.ready else {})}
     samples = _rounds(session, here, {**todo, **here.empties})
     for name, ready in todo.items():
         found = samples[name]
-        empty = samples.get(here.empty_of.get(REFERENCE if name == REFERENCE_AGAIN else name, ""))
+        empty = samples.get(here.empty_of.get(reference if name == REFERENCE_AGAIN else name, ""))
         empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
         share = 1 if here.where[1] == "single" else 1 / ready.rows
         found.samples_ns = [sample - share * empty_ns for sample in found.samples_ns]
@@ -172,7 +176,7 @@ def _measured(session: MeasuringSession, here: _MeasuredTogether) -> Iterator[Me
 def _rounds(session: MeasuringSession, here: _MeasuredTogether, todo: Mapping[str, PreparedWork]) -> dict[str, Samples]:
     where, entries = here.where, []
     for name, each in todo.items():
-        total = here.sums.get(REFERENCE if name == REFERENCE_AGAIN else name)
+        total = here.sums.get(session.plan.reference if name == REFERENCE_AGAIN else name)
         total = int(each.answers().sum(dtype=np.int64)) if total is None else total
         loops, takes = session.loops.get((name, *where), (None, 1))
         entries.append(TimingEntry(name, each.rows, each.run, total, loops, takes))

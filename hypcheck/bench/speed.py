@@ -21,7 +21,7 @@ from hypcheck.bench.claims import (
     TRIGONOMETRIC,
     CostClaim,
 )
-from hypcheck.bench.plan import REFERENCE, BenchPlan
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.session import (
     COST_OF,
     EMPTY_CALL,
@@ -67,18 +67,18 @@ def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advan
     return found
 
 
-def speed_lines(found: Measurements) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
+def speed_lines(found: Measurements, reference: str) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
     """The record's lines: noise before the speeds that it belongs to; methods without a time last."""
     found = {key: parts for key, parts in found.items() if not key[1].startswith(COST_OF)}
     refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
     timed = {key: parts for key, parts in found.items() if key not in refused and key not in hidden}
     for name, workload, mode in timed:
-        if name == REFERENCE_AGAIN and (REFERENCE, workload, mode) in timed:
-            yield _noise(timed, workload, mode)
+        if name == REFERENCE_AGAIN and (reference, workload, mode) in timed:
+            yield _noise(timed, reference, workload, mode)
     for key in timed:
         if key[0] != REFERENCE_AGAIN and not key[0].startswith(EMPTY_CALL):
-            yield _speed_line(timed, key)
+            yield _speed_line(timed, reference, key)
     for (name, workload, mode), reason in hidden.items():
         if name != REFERENCE_AGAIN:
             yield UnmeasuredLine(method=name, workload=workload, mode=mode, reason=reason)
@@ -117,13 +117,13 @@ def _refusal(parts: list[Measurement]) -> str | None:
     return next((each.samples.refused for each in parts if each.samples.refused), None)
 
 
-def _speed_line(found: Measurements, key: MeasurementKey) -> SpeedLine:
+def _speed_line(found: Measurements, reference: str, key: MeasurementKey) -> SpeedLine:
     name, workload, mode = key
     parts = found[key]
     first = parts[0].samples
     samples = [possible for part in parts if (possible := _possible(part))]
     dropped = sum(len(part.samples.samples_ns) for part in parts) - sum(map(len, samples))
-    time, ratio = estimate(samples), _ratio(found, key)
+    time, ratio = estimate(samples), _ratio(found, reference, key)
     return SpeedLine(
         method=name,
         workload=workload,
@@ -142,19 +142,19 @@ def _speed_line(found: Measurements, key: MeasurementKey) -> SpeedLine:
     )
 
 
-def _ratio(found: Measurements, key: MeasurementKey) -> Estimate | None:
+def _ratio(found: Measurements, reference: str, key: MeasurementKey) -> Estimate | None:
     _, workload, mode = key
-    reference = found.get((REFERENCE, workload, mode))
-    if reference is None or _refusal(reference):
+    parts = found.get((reference, workload, mode))
+    if parts is None or _refusal(parts):
         return None
-    pairs = ratios(samples_of(found[key]), samples_of(reference))
+    pairs = ratios(samples_of(found[key]), samples_of(parts))
     return estimate(pairs) if any(pairs) else None
 
 
-def _noise(found: Measurements, workload: str, mode: str) -> NoiseLine:
-    ratio = _ratio(found, (REFERENCE_AGAIN, workload, mode))
+def _noise(found: Measurements, reference: str, workload: str, mode: str) -> NoiseLine:
+    ratio = _ratio(found, reference, (REFERENCE_AGAIN, workload, mode))
     if ratio is None:
-        raise ValueError(f"{REFERENCE_AGAIN} was measured in {workload}, {mode} without {REFERENCE}")
+        raise ValueError(f"{reference} was measured again in {workload}, {mode}, and not before")
     return NoiseLine(
         workload=workload,
         mode=mode,

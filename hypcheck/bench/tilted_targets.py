@@ -21,7 +21,8 @@ from hypcheck.bench.timing import (
     thread_clocked,
     times_as_fast,
 )
-from hypcheck.geometry.rows import Floats, Positions, Rows, tilted_rows
+from hypcheck.geometry.rows import Floats, Rows, tilted_rows
+from hypcheck.implementations.tilted_alternatives import by_eigenvectors
 from hypcheck.record.measurements import KernelLine
 
 MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
@@ -44,32 +45,8 @@ EIGH = KernelTarget(
 TOUCHING = KernelTarget(
     "near contact, leaning", "a leaning row within 1e-15 of contact, to an upright one", 8.0, at_most=True
 )
-
 _TURNS = 30
-
-
-def with_eigh(rows: Rows) -> Positions:
-    """Positions of rows (n, 10) as one writes them in numpy: eigenbasis, and the dual function's greatest value.
-
-    By bisection for its slope, which is safe from any start. Uncertified: near contact it is sometimes wrong.
-    """
-    alpha, gamma, b, d = rows[:, :4].T
-    axis = rows[:, 7:] / np.linalg.norm(rows[:, 7:], axis=1, keepdims=True)
-    along = axis[:, :, None] * axis[:, None, :]
-    root = b[:, None, None] * np.eye(3) + (d - b)[:, None, None] * along  # M^(-1/2)
-    diagonal = np.column_stack([alpha**-2, alpha**-2, -(gamma**-2)])
-    values, vectors = np.linalg.eigh(root @ (diagonal[:, :, None] * root))
-    inverse = np.eye(3) / b[:, None, None] + (1 / d - 1 / b)[:, None, None] * along
-    squares = np.einsum("nij,nj->ni", np.swapaxes(vectors, 1, 2) @ inverse, rows[:, 4:7]) ** 2
-    poles = 1 / values  # −B, then A1 and A2 with the nearer one last
-    low, high = -poles[:, 2], -poles[:, 0]
-    for _ in range(_TURNS):
-        middle = (low + high) / 2
-        rising = (poles * squares / (poles + middle[:, None]) ** 2).sum(axis=1) > 1
-        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
-    at = (low + high) / 2
-    phi = at * (squares / (poles + at[:, None])).sum(axis=1) - 1 - at
-    return np.where(phi > 0, np.sign(at), 0).astype(np.int8)
+"""Bisections of numpy's version: enough away from contact, and fewer than it would need there."""
 
 
 def axes(count: int) -> Floats:
@@ -125,7 +102,7 @@ def an_axis_each(rounds: int) -> Iterator[KernelLine]:
     upright = partial(hypcheck.classify_scene, TOWER_SIZES, *touching_columns(WORST), threads=1)
     entries = [
         TimingEntry("rows", CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1))),
-        TimingEntry("eigh", FEW, thread_clocked(partial(with_eigh, rows[:FEW]))),
+        TimingEntry("eigh", FEW, thread_clocked(partial(by_eigenvectors, rows[:FEW], _TURNS))),
         TimingEntry("touching", WORST, thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))),
         TimingEntry("upright", WORST, thread_clocked(upright)),
     ]

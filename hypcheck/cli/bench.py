@@ -31,8 +31,12 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 @click.option("--max-slowdown", type=NumberOption(1), help="What --baseline allows.  [default: 1.1]")
 @click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
+@click.option("--tilted", is_flag=True, help="Compare methods for spheroids whose axis leans.")
 @click.option(
-    "--scene", multiple=True, metavar="SCENE", help="Measure what this scene saves, and nothing else; any number."
+    "--scene",
+    multiple=True,
+    metavar="SCENE",
+    help="Measure what this scene saves, and nothing else; any number. If its mover leans: methods, on its rows.",
 )
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
@@ -40,6 +44,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     Every method is judged by the flip distance of the rows it answers wrongly, then timed in fresh processes, in rounds
     of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
+
+    With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
+    ratios are to another reference. So it is with a scene whose mover leans.
 
     With --baseline, times relative to the reference method are compared with those of an earlier record, of this
     machine or another; with --kernel, times of the fast path with its targets. Without them no time fails the run.
@@ -74,6 +81,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
         kernel=options["kernel"],
         forest=options["forest"],
+        tilted=options["tilted"],
         scenes=options["scene"],
     )
     _refuse_replacing(options["baseline"], options["out"])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair, Sizes
+from hypcheck.geometry.pair import Axis, Pair, Sizes
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations import alternatives, ways
 from hypcheck.implementations.alternatives import dual_positions
@@ -226,13 +226,13 @@ def _fcl_method(name: str, title: str, answer: Callable[[Rows], Answers]) -> Met
 
 
 def fast_positions(rows: Rows) -> Answers:
-    """Positions (n,) of rows (n, 7) by the kernel in use, on one thread."""
+    """Positions (n,) of rows (n, 7) or (n, 10) by the kernel in use, on one thread."""
     return kernel().answer_rows(np.ascontiguousarray(rows), "position", 1)[0]
 
 
-def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-    """Positions of one spheroid's centres (n,) by the kernel in use, on one thread."""
-    return kernel().answer_scene(sizes, (x, y, z), "position", 1)[0]
+def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None = None) -> Answers:
+    """Positions of one spheroid's centres (n,) by the kernel in use, on one thread; without an axis it is upright."""
+    return kernel().answer_scene(sizes, (x, y, z), "position", 1, axis)[0]
 
 
 def _fast_method(name: str, where: str, answer: Callable[[Rows], Answers]) -> Method:

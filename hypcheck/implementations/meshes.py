@@ -20,18 +20,24 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass
 from math import cos, hypot, isqrt, pi, sqrt
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.geometry.pair import COLUMNS, Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.implementations.method import Answers
 from hypcheck.truth.mesh import Triangles, Vertices, availability, fcl_module, mesh_object, require_fcl
 
-Touches = Callable[[float, float, float], bool]
-"""Whether the body with this centre touches the mesh."""
+
+class Touches(Protocol):
+    """Whether the body with this centre touches the mesh; `turn` (3, 3) turns its axis of revolution away from z."""
+
+    def __call__(self, x: float, y: float, z: float, turn: Floats | None = None, /) -> bool:
+        """Ask the engine. Only an ellipsoid can be turned."""
+        ...
+
 
 PAIRINGS = ("point", "sphere", "ellipsoid")
 """The pairings: distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
@@ -59,15 +65,17 @@ def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: fl
     if pairing == "point":
         near = fcl.DistanceRequest()
 
-        def within(x: float, y: float, z: float) -> bool:
+        def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
             body.setTranslation(np.array([x, y, z]))
             return bool(fcl.distance(body, mesh, near, fcl.DistanceResult()) <= 1.0)
 
         return within
     request = fcl.CollisionRequest()
 
-    def collides(x: float, y: float, z: float) -> bool:
+    def collides(x: float, y: float, z: float, turn: Floats | None = None) -> bool:
         body.setTranslation(np.array([x, y, z]))
+        if turn is not None:
+            body.setRotation(turn)
         return bool(fcl.collide(body, mesh, request, fcl.CollisionResult()) > 0)  # FCL does not reset a result
 
     return collides
@@ -87,15 +95,17 @@ def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: f
     if pairing == "point":
         near = coal.DistanceRequest()
 
-        def within(x: float, y: float, z: float) -> bool:
+        def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
             here.setTranslation(np.array([x, y, z]))
             return bool(coal.distance(shape, here, mesh, there, near, coal.DistanceResult()) <= 1.0)
 
         return within
     request = coal.CollisionRequest()
 
-    def collides(x: float, y: float, z: float) -> bool:
+    def collides(x: float, y: float, z: float, turn: Floats | None = None) -> bool:
         here.setTranslation(np.array([x, y, z]))
+        if turn is not None:
+            here.setRotation(turn)
         return bool(coal.collide(shape, here, mesh, there, request, coal.CollisionResult()) > 0)
 
     return collides
@@ -172,8 +182,18 @@ def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
 
 def height_of(sizes: Sizes, rows: Rows) -> float:
     """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every body that is asked."""
-    _, gamma, _, d = sizes
-    return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * d)
+    _, gamma, b, d = sizes
+    reach = d if rows.shape[1] == len(COLUMNS) else max(b, d)
+    return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * reach)
+
+
+def turns_of(axes: Floats) -> Floats:
+    """Rotations (n, 3, 3) that take the z axis to each of these axes, (n, 3)."""
+    along = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    level = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(axes))])
+    length = np.linalg.norm(level, axis=1, keepdims=True)
+    level = np.where(length > 0, level / np.where(length > 0, length, 1.0), [1.0, 0.0, 0.0])
+    return np.stack([level, np.cross(along, level), along], axis=2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,17 +210,19 @@ class SceneMesh:
     touches: Touches | None
 
     def positions(self, rows: Rows) -> Answers:
-        """Positions (n,) of rows that have these sizes."""
-        if self.touches is None:
+        """Positions (n,) of rows that have these sizes, (n, 7), or of an ellipsoid also (n, 10)."""
+        touches = self.touches
+        if touches is None:
             return np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         alpha, gamma, _, _ = self.sizes
         across, aside, up = self.unit
+        turns = turns_of(rows[:, 7:]) if rows.shape[1] > len(COLUMNS) else [None] * len(rows)
         return np.array(
             [
                 0
-                if self.touches(x / across, y / aside, z / up)
+                if touches(x / across, y / aside, z / up, turn)
                 else (1 if (x * x + y * y) / alpha**2 - (z / gamma) ** 2 > 1 else -1)
-                for x, y, z in rows[:, 4:].tolist()
+                for (x, y, z), turn in zip(rows[:, 4:7].tolist(), turns, strict=True)
             ],
             dtype=np.int8,
         )

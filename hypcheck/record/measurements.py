@@ -11,6 +11,7 @@ from msgspec import UNSET, Meta, UnsetType
 
 from hypcheck.record.fields import (
     Amount,
+    Axis,
     Bin,
     Count,
     Counts,
@@ -111,10 +112,11 @@ class RefusedLine(RecordLine, frozen=True, kw_only=True):
 
 
 class Mistaken(LinePart, frozen=True, kw_only=True):
-    """A wrong answer that is kept."""
+    """A wrong answer that is kept; `axis`, since 1.6.0, is that of a tilted spheroid."""
 
     case: str
     row: Row
+    axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: int
     flip_distance: Unsigned

@@ -199,8 +199,29 @@ def error_of(row: Sequence[float], answer: int, question: str) -> float:
     return min(backward_error.backward_error(lengths, truth, target) for target in targets)
 
 
+def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
+    """The same of an upright spheroid; of a tilted one an estimate, which takes a small part of the time."""
+    lengths = _lengths(row)
+    return (
+        error_of(row, answer, question) if isinstance(lengths, Lengths) else _estimate(lengths, row, answer, question)
+    )
+
+
+def _estimate(lengths: TiltedLengths, row: Sequence[float], answer: int, question: str) -> float:
+    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
+
+    truth = tilted_exact.decide(lengths)
+    targets = right_positions(truth.position, answer, question)
+    return min(tilted_error.estimate(row, truth, target) for target in targets)
+
+
 def flip_exponents(rows: Rows) -> NDArray[np.float64]:
-    """floor(log2) of each upright row's distance to the nearest other position, (n,); −inf for a tangency."""
+    """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency.
+
+    Of a tilted spheroid that of an estimate: to prove it takes too long.
+    """
+    if rows.shape[1] > len(COLUMNS):
+        return np.array([_exponent_of_ten(row) for row in rows.tolist()])
     octaves = backward_error.distance_exponents(rows, float_filter.positions(rows))
     guess = -10
     for index in np.flatnonzero(np.isnan(octaves)):
@@ -241,6 +262,14 @@ def _proved_ends(
         for (index, _), truth, end in zip(tilted, truths, ends, strict=True)
         if end > tolerance
     }
+
+
+def _exponent_of_ten(row: list[float]) -> float:
+    lengths = _lengths(row)
+    if isinstance(lengths, Lengths):
+        return float(flip_exponents(np.array([row[: len(COLUMNS)]]))[0])
+    distance = _estimate(lengths, row, 0, tilted_exact.position(lengths).name.lower())
+    return math.floor(math.log2(distance)) if distance else -math.inf
 
 
 def _judged(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> WrongCase:

@@ -42,7 +42,7 @@ def speed_of(method, ratio):
 
 
 def verdict(before, after, allowed=1.1):
-    return change_of(before, after, KEY).verdict(allowed)
+    return change_of(before, after, KEY, REFERENCE).verdict(allowed)
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ def parts(name, samples, calls=()):
 
 def lines(*found):
     reference = [parts(name, [100.0, 101.0, 102.0]) for name in (REFERENCE, REFERENCE_AGAIN)]
-    return list(speed.speed_lines(dict([*reference, *found])))
+    return list(speed.speed_lines(dict([*reference, *found]), REFERENCE))
 
 
 def of(found, kind, name):

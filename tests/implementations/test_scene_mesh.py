@@ -7,11 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import hypcheck
 from hypcheck.bench.plan import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshGrid, grid_of, height_of, rows_by_sizes, scene_mesh
+from hypcheck.implementations.meshes import (
+    COAL,
+    FCL,
+    PAIRINGS,
+    MeshGrid,
+    grid_of,
+    height_of,
+    rows_by_sizes,
+    scene_mesh,
+    turns_of,
+)
 from hypcheck.truth import float_filter
 from hypcheck.truth.nearest import clearances
+from hypcheck.truth.tilted.nearest import nearest
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors.families import TILTED_FAMILIES
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
 ENGINES = [
@@ -56,6 +70,25 @@ def test_scene_mesh_is_right_beyond_its_deviation(engine, pairing):
     answers, truth = mesh.positions(rows), float_filter.positions(rows)
     assert (answers[~doubtful] == truth[~doubtful]).all()
     assert set(answers.tolist()) == {-1, 0, 1}
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_leaning_ellipsoid_is_posed_by_its_axis(engine):
+    rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)
+    mesh = scene_mesh(engine, "ellipsoid", TOWER, height_of(TOWER, rows), 20_000)
+    far = np.array([abs(nearest(TiltedPair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation
+    answers, truth = mesh.positions(rows), hypcheck.classify(rows)
+    assert far.sum() > 250
+    assert (answers[far] == truth[far]).all()
+    assert (mesh.positions(rows[:, :7])[far] != truth[far]).sum() > 10  # as if it stood upright
+
+
+def test_turns_are_rotations_that_take_the_z_axis_to_each_axis():
+    axes = np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, -2.0, 3.0]])
+    turns = turns_of(axes)
+    assert np.allclose(turns @ np.swapaxes(turns, 1, 2), np.eye(3), atol=1e-15)
+    assert np.allclose(np.linalg.det(turns), 1)
+    assert np.allclose(turns[:, :, 2], axes / np.linalg.norm(axes, axis=1, keepdims=True))
 
 
 @pytest.mark.parametrize("engine", ENGINES)

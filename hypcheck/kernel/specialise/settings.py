@@ -60,6 +60,11 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     something leans.
     """
     _require_upright(scene)
+    return pairs_of(scene)
+
+
+def pairs_of(scene: SceneModel) -> tuple[Setting, ...]:
+    """The same of any scene, as if nothing in it leaned: the sizes of its pairs, and where their centres can be."""
     found: dict[Sizes, Setting] = {}
     for setting in _pairs(scene):
         known = found.get(setting.sizes)

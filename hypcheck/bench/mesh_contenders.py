@@ -1,0 +1,133 @@
+"""Contenders that ask a collision engine about a mesh: of 100 to 100,000 triangles, built once or for each row.
+
+A spheroid that leans is asked as the engine's ellipsoid, posed by its axis, against the same mesh.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+
+from hypcheck.bench.contender import Contender, EmptyCall, InPython, PreparedWork, of_method, one_by_one
+from hypcheck.bench.plan import scene_of
+from hypcheck.bench.timing import clocked
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, Rows
+from hypcheck.implementations.builtin import builtin_methods
+from hypcheck.implementations.description import Domain
+from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, SceneMesh, height_of, rows_by_sizes, scene_mesh
+from hypcheck.implementations.method import Answers
+
+TRIANGLES = (100, 1_000, 10_000, 100_000)
+COAL_TRIANGLES = (10_000,)
+MOST_SCENES = 8
+"""Workloads with more different sizes are not asked: a mesh for one row is not built once."""
+
+MOST_QUICK = 1_000
+"""Larger meshes belong to full runs."""
+
+ONCE, FOR_EACH = "build once", "build each"
+_TITLES = {
+    "point": "distance from the centre to the scaled mesh",
+    "sphere": "unit sphere against the scaled mesh",
+    "ellipsoid": "ellipsoid against the mesh",
+}
+
+
+@dataclass(frozen=True)
+class InEngine:
+    """One pairing with meshes of about so many triangles, each built once and kept."""
+
+    engine: Engine
+    pairing: str
+    triangles: int
+    meshes: dict[tuple[Sizes, float], SceneMesh] = field(default_factory=dict)
+    trouble: str = ""
+
+    def answer(self, rows: Rows) -> Answers:
+        """Its answers, scene by scene; missing meshes are built and kept."""
+        found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+        for sizes, places in rows_by_sizes(rows):
+            found[places] = self.mesh(sizes, rows[places]).positions(rows[places])
+        return found
+
+    def mesh(self, sizes: Sizes, rows: Rows) -> SceneMesh:
+        """The mesh of a scene."""
+        key = sizes, height_of(sizes, rows)
+        if key not in self.meshes:
+            self.meshes[key] = scene_mesh(self.engine, self.pairing, *key, self.triangles)
+        return self.meshes[key]
+
+    def batch(self, rows: Rows) -> PreparedWork:
+        """Every row, with meshes that exist."""
+        work = partial(self._ready(rows), rows)
+        return PreparedWork(len(rows), clocked(work), work)
+
+    def single(self, rows: Rows) -> PreparedWork:
+        """The same by a call for each row."""
+        return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
+
+    def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
+        sizes = scene_of(rows)
+        if sizes is not None:
+            return self.mesh(sizes, rows).positions
+        self.answer(rows)  # builds them
+        return self.answer
+
+    def build(self, rows: Rows) -> PreparedWork | None:
+        """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
+        sizes = scene_of(rows)
+        if sizes is None:
+            return None
+        known = np.array([self.mesh(sizes, rows).triangles])
+        make = partial(scene_mesh, self.engine, self.pairing, sizes, height_of(sizes, rows), self.triangles)
+        return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
+
+    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
+        """The empty call of a Python function."""
+        return None if mode == "build" else InPython(self.answer).empty(rows, mode)
+
+    def close(self) -> None:
+        """Release the meshes."""
+        self.meshes.clear()
+
+
+def mesh_contenders() -> Iterable[Contender]:
+    """Every pairing with every number of triangles."""
+    for pairing in PAIRINGS:
+        for triangles in TRIANGLES:
+            yield built_once(FCL, pairing, triangles)
+    for pairing in PAIRINGS:
+        for triangles in COAL_TRIANGLES:
+            yield built_once(COAL, pairing, triangles)
+    methods = builtin_methods()
+    for pairing in PAIRINGS:
+        if f"fcl-{pairing}-mesh" in methods:
+            found = of_method(methods[f"fcl-{pairing}-mesh"], "FCL", "mesh", judged=400, timed=8)
+            note = "the mesh covers the body's surroundings alone, and is built anew for each row"
+            yield replace(found, amortised=FOR_EACH, singles=8, needs=FCL.title, note=note, quick=False)
+
+
+def built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
+    """A pairing with one mesh of about so many triangles for a scene, or for each of a few scenes."""
+    return Contender(
+        name=f"{engine.name}-{pairing}-{triangles}",
+        title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
+        tier="FCL",
+        kind="mesh",
+        precision="float64",
+        question="position",
+        domain=Domain(),
+        load=partial(InEngine, engine, pairing, triangles),
+        judged=3000 if triangles < 100_000 else 1200,
+        timed=256,
+        singles=32,
+        amortised=ONCE,
+        scenes=MOST_SCENES,
+        needs=engine.title,
+        note="the time of a row is without that of building",
+        quick=triangles <= MOST_QUICK,
+    )
