@@ -8,7 +8,6 @@ both on a machine without a C compiler, built in isolation.
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import re
@@ -28,6 +27,7 @@ import pytest
 
 from hypcheck.cli.commands import COMMANDS
 from hypcheck.cli.scene import LANGUAGES
+from tests.support.shared_folders import made_once
 
 ROOT = Path(__file__).resolve().parents[1]
 ALL = os.environ.get("HYPCHECK_WHEEL") == "all"
@@ -159,16 +159,12 @@ def link(names: set[str], folder: Path) -> None:
 @pytest.fixture(scope="session", params=VARIANTS, ids=str)
 def installed(request, tmp_path_factory):
     """The installed package; made once, whatever number of processes run the tests."""
-    base = tmp_path_factory.getbasetemp()
-    home = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / f"installed-{request.param}"
-    home.mkdir(exist_ok=True)
-    with (home / "lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (home / "ready").exists():
-            build(request.param, home)
-            install(home)
-            (home / "ready").touch()
-    return Installed(request.param, home)
+
+    def make(home):
+        build(request.param, home)
+        install(home)
+
+    return Installed(request.param, made_once(tmp_path_factory, f"installed-{request.param}", make))
 
 
 def test_every_file_of_the_package_is_in_the_wheel_and_no_other(installed):

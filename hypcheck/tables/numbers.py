@@ -160,7 +160,7 @@ def is_shortest(number: float | int) -> bool:
     except OverflowError:
         return False
     try:
-        return math.isfinite(value) and Decimal(text) == Decimal(repr(value))
+        return math.isfinite(value) and (text == repr(value) or Decimal(text) == Decimal(repr(value)))
     except InvalidOperation:  # a zero, or what rounds to it, with an exponent too large even for Decimal
         return False
 

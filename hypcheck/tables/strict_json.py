@@ -106,8 +106,9 @@ def read_document(path: str) -> JsonDocument:
 
 def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -> tuple[Any, ...]:  # noqa: ANN401 - JSON
     """The members of an object that has exactly `names`, in their order. Raises InputError."""
-    members = object_of(value, f"{place}: {what}", names)
-    return tuple(members[name] for name in names)
+    if not isinstance(value, dict) or value.keys() != set(names):
+        object_of(value, f"{place}: {what}", names)  # raises; to name the place of each object would take long
+    return tuple(value[name] for name in names)
 
 
 def _bounded(reader: Reader) -> Iterator[str]:

@@ -42,7 +42,7 @@ def test_naive_fcl_is_right_far_from_contact(method):
 def rows_at_gap(gap, flatness):
     """Rows with b = 1 and d = `flatness` whose clearance is about ± `gap` radii, and their positions."""
     rows = []
-    for k in (Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(2)):
+    for k in (Fraction(1, 4), Fraction(2)):
         for v in (Fraction(1, 2), Fraction(1), Fraction(3), Fraction(5), Fraction(9)):
             for steps in (1 + gap, 1 - gap, -1 - gap, -1 + gap):
                 found = tangent_row(Fraction(4, 5), Fraction(3, 5), k, v, steps)

@@ -14,7 +14,7 @@ from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
 from hypcheck.implementations.worker import RoundingMode, mode_in_use
-from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, function, only_unlucky, rows, truth
+from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, command, function, only_unlucky, rows, truth
 
 FAULTS = {
     "answers_256": (Outcome.PROTOCOL, "answered 256; it must be one of -1, 0, 1 or 2"),
@@ -65,19 +65,19 @@ def test_implementation_that_always_fails_is_given_up(monkeypatch):
     assert answered.reasons[2999].startswith("not asked: 200 rows before were at fault; the last: it returned")
 
 
-@pytest.mark.parametrize(("name", "restarts"), [("leaves", 3), ("raises", 0)])
-def test_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, name, restarts):
+@pytest.mark.parametrize(("spec", "restarts"), [(command("leaves"), 3), (function("raises"), 0)])
+def test_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, spec, restarts):
     """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
     monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 4)
-    some = rows(9000, lucky=True)
-    some[[70, 500, 1300, 5000, 5003, 8000]] = rows()[UNLUCKY]
+    some = rows(900, lucky=True)
+    some[[7, 50, 130, 500, 503, 800]] = rows()[UNLUCKY]
     found = []
-    for batch in (64, 1000, 9000):
-        with open_implementation(function(name), replace(LIMITS, restarts=3)) as it:
+    for batch in (16, 100, 900):
+        with open_implementation(spec, replace(LIMITS, restarts=3)) as it:
             answered = it.classify(some, batch=batch)
             found.append((answered.status.tolist(), answered.answers.tolist(), it.restarts))
     assert found[0] == found[1] == found[2]
-    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [70, 500, 1300, *range(5000, 9000)]
+    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [7, 50, 130, *range(500, 900)]
     assert it.restarts == restarts
 
 

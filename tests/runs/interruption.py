@@ -12,11 +12,15 @@ from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.runs import cases, resume, schedule
+from tests.support.shared_folders import made_once
 
 SPECS = ("builtin:hessian-float32", "python:tests.runs.faulty:dies_on_the_axis")
 WORDS = ("--families", "tower-body,axis", "--count", "300", "--restarts", "1", "--precision", "float32")
 CODE = 1
 """How it ends: the first is wrong beyond the tolerance, and the second dies more often than it may."""
+
+SECONDS = "seconds.json"
+"""Beside the record of the unbroken run: how long it took."""
 
 
 def in_small_steps(put):
@@ -60,7 +64,7 @@ def kept(out):
     return b""
 
 
-def wait_for(process, out, what, patience=60.0):
+def wait_for(process, out, what, patience=120.0):
     """Wait until `what` is in the growing record, or its process has ended."""
     until = time.monotonic() + patience
     while what not in kept(out) and process.poll() is None:
@@ -68,14 +72,33 @@ def wait_for(process, out, what, patience=60.0):
         time.sleep(0.002)
 
 
-def paused_bytes(out):
+def paused_bytes(tmp_path_factory):
     """The bytes of the record of a run that was killed within its second implementation."""
+    return (made_once(tmp_path_factory, "paused-run", _pause) / GROWING).read_bytes()
+
+
+def _pause(out):
     process = started(out)
     wait_for(process, out, b'"number": 1')
     time.sleep(0.05)
     process.kill()
     process.communicate()
-    return (out / GROWING).read_bytes()
+
+
+def unbroken_run(tmp_path_factory):
+    """What a run comes to that is never interrupted, and how many seconds it takes to begin and then to end."""
+    out = made_once(tmp_path_factory, "unbroken-run", _perform)
+    return came_to(out), *json.loads((out / SECONDS).read_text())
+
+
+def _perform(out):
+    start = time.monotonic()
+    process = started(out)
+    wait_for(process, out, b"header")
+    begun = time.monotonic()
+    process.communicate()
+    assert process.returncode == CODE
+    (out / SECONDS).write_text(json.dumps([begun - start, time.monotonic() - begun]))
 
 
 def came_to(out):

@@ -11,8 +11,20 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 ALLOWED_FAILURES = 1
 HOME = Path(__file__).parents[3]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def patience():
+    """On a machine that is busy, workers may need longer to start than a user is left waiting."""
+    from hypcheck.runs import cluster
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cluster, "CONNECT", 60)
+        yield
 
 
 class Cluster:

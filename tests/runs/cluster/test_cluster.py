@@ -14,7 +14,7 @@ from hypcheck.implementations.session import Limits
 from hypcheck.runs import cases, schedule
 from hypcheck.runs.resume import saved_state
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
-from tests.runs.cluster.clusters import Cluster
+from tests.runs.cluster.clusters import Cluster, patience  # noqa: F401
 from tests.runs.crashing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 
 pytest.importorskip("distributed")

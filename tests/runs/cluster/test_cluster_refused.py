@@ -19,7 +19,7 @@ from hypcheck.implementations.session import Limits
 from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.plan import check_cluster_address
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
-from tests.runs.cluster.clusters import Cluster
+from tests.runs.cluster.clusters import Cluster, patience  # noqa: F401
 from tests.runs.crashing import rules_of, steps_of
 
 pytest.importorskip("distributed")
@@ -131,10 +131,12 @@ def test_worker_that_cannot_write_into_its_folder_ends_the_run_with_an_error(clu
             list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
 
 
-def test_cluster_with_a_stopped_worker_is_refused(tmp_path, monkeypatch):
-    """The worker does not answer, though its connection is open."""
+def test_scheduler_without_workers_and_one_whose_worker_is_stopped_are_refused(tmp_path, monkeypatch):
+    """The stopped worker does not answer, though its connection is open."""
     found = Cluster(tmp_path, {})
     try:
+        assert "the scheduler has no workers; `dask worker tcp://" in refusal(found.address, monkeypatch)
+        monkeypatch.undo()
         found.start_workers(1)
         with cluster_client(found.address) as client:
             (worker,) = client.run(os.getpid).values()
@@ -142,14 +144,6 @@ def test_cluster_with_a_stopped_worker_is_refused(tmp_path, monkeypatch):
         assert "not all of its workers answered within 1 s" in refusal(found.address, monkeypatch)
     finally:
         found.end()
-
-
-def test_scheduler_without_workers_is_refused(tmp_path, monkeypatch):
-    empty = Cluster(tmp_path, {})
-    try:
-        assert "the scheduler has no workers; `dask worker tcp://" in refusal(empty.address, monkeypatch)
-    finally:
-        empty.end()
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
 from hypcheck.version import VERSION
-from tests.runs.cluster.clusters import HOME, Cluster
+from tests.runs.cluster.clusters import HOME, Cluster, patience  # noqa: F401
 from tests.runs.crashing import rules_of, steps_of
 
 pytest.importorskip("distributed")
@@ -29,12 +29,21 @@ metadata.version = lambda name: "2020.1.0" if name == "distributed" else ours(na
 OTHER_FILES = f"has other files of hypcheck {VERSION} than this machine; install the same files there"
 
 
-@pytest.fixture
-def cluster(tmp_path):
-    """A scheduler with the versions of this machine, without workers."""
-    found = Cluster(tmp_path, {})
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory):
+    """A scheduler with the versions of this machine."""
+    found = Cluster(tmp_path_factory.mktemp("cluster"), {})
     yield found
     found.end()
+
+
+@pytest.fixture
+def cluster(scheduler):
+    """The scheduler, without workers; those of a test end with it."""
+    before = len(scheduler.processes)
+    yield scheduler
+    for number in range(before, len(scheduler.processes)):
+        scheduler.kill_workers(number)  # their connections break long before another worker has started
 
 
 @pytest.fixture(scope="module")
@@ -74,13 +83,11 @@ def test_worker_with_another_version_of_dask_is_refused(cluster, tmp_path):
     assert " has distributed 2020.1.0, this machine has " in said
 
 
-def test_worker_with_other_files_of_the_same_version_is_refused(cluster, another):
-    cluster.start_workers(1, home=another)
-    assert refusal(cluster.address).endswith(OTHER_FILES)
-
-
-def test_worker_with_other_files_that_joins_during_the_run_ends_it_with_an_error(cluster, another):
+def test_worker_with_other_files_of_the_same_version_is_refused_before_the_run_and_ends_it_if_it_joins_later(
+    cluster, another
+):
     opening = ImplementationOpener("builtin:fast", Limits())
+    ours = len(cluster.processes)
     cluster.start_workers(1)
     with (
         cluster_client(cluster.address) as client,
@@ -91,6 +98,7 @@ def test_worker_with_other_files_that_joins_during_the_run_ends_it_with_an_error
         next(passed)
         cluster.start_workers(1, home=another)
         client.wait_for_workers(2, timeout=60)
-        cluster.kill_workers(1)
+        cluster.kill_workers(ours)
         with pytest.raises(InputError, match=rf"worker tcp://\S+ {OTHER_FILES}"):
             list(passed)
+    assert refusal(cluster.address).endswith(OTHER_FILES)

@@ -122,9 +122,9 @@ def test_local_cluster_says_that_cryptography_is_missing(monkeypatch, tmp_path, 
 KILLED = """
 import os, signal
 from pathlib import Path
-from hypcheck.runs.cluster import cluster_client
+from hypcheck.runs.cluster import local_cluster
 if __name__ == "__main__":
-    with cluster_client("local:1") as client:
+    with local_cluster(0):
         os.kill(os.getpid(), signal.SIGKILL)
 """
 

@@ -24,7 +24,18 @@ from hypcheck.record.progress import ProgressLine
 from hypcheck.record.reader import FILE
 from hypcheck.runs.resume import ProgressWriter, finished_part
 from tests.report.test_schemas import RECORD
-from tests.runs.interruption import CODE, SPECS, came_to, ended, in_small_steps, paused_bytes, started, wait_for, words
+from tests.runs.interruption import (
+    CODE,
+    SPECS,
+    came_to,
+    ended,
+    in_small_steps,
+    paused_bytes,
+    started,
+    unbroken_run,
+    wait_for,
+    words,
+)
 from tests.support.records import resealed, violations
 
 MOMENTS = int(os.environ.get("HYPCHECK_MOMENTS", "3"))
@@ -48,23 +59,16 @@ def here(monkeypatch, capsys, text_reports):
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """What a run comes to that is never interrupted, and how many seconds it takes to begin and then to end."""
-    out = tmp_path_factory.mktemp("whole")
-    start = time.monotonic()
-    process = started(out)
-    wait_for(process, out, b"header")
-    begun = time.monotonic()
-    process.communicate()
-    assert process.returncode == CODE
-    found = came_to(out)
+    found, *seconds = unbroken_run(tmp_path_factory)
     kinds = [json.loads(line)["type"] for line in found[:-1]]
     assert (kinds.count("group"), kinds.count("implementation"), kinds.count("progress")) == (4, 2, 0)
     assert json.loads(found[-1])["implementations"][1]["statuses"]["not-run"] > 100
-    return found, begun - start, time.monotonic() - begun
+    return found, *seconds
 
 
 @pytest.fixture(scope="module")
 def paused(tmp_path_factory):
-    return paused_bytes(tmp_path_factory.mktemp("paused"))
+    return paused_bytes(tmp_path_factory)
 
 
 def interrupted(out, whole, dice, number, *more):

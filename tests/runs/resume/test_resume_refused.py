@@ -22,7 +22,7 @@ from tests.support.records import resealed
 
 @pytest.fixture(scope="module")
 def paused(tmp_path_factory):
-    return paused_bytes(tmp_path_factory.mktemp("paused"))
+    return paused_bytes(tmp_path_factory)
 
 
 @pytest.fixture
