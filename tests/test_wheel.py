@@ -115,10 +115,10 @@ def make_environment(folder: Path, *, with_pip: bool) -> Path:
 
     They are linked by name, not seen through --system-site-packages: what is not declared cannot be imported.
     """
-    venv.create(folder, with_pip=with_pip, symlinks=True)
+    venv.create(folder, symlinks=True)
     python = folder / "bin/python"
     site = Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
-    link(dependencies(""), site)
+    link(dependencies("") | ({"pip"} if with_pip else set()), site)
     return python
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 
 import pytest
 
 from hypcheck.record import read
+from tests.support.without_drawing import COMMAND
 
 pty = pytest.importorskip("pty", reason="a system without terminals of its own")
 
@@ -24,7 +24,7 @@ def in_terminal(words, *, nohup):
         if nohup:
             signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
-    process = subprocess.Popen([sys.executable, "-m", "hypcheck", *words], preexec_fn=begin)  # noqa: PLW1509
+    process = subprocess.Popen([*COMMAND, *words], preexec_fn=begin)  # noqa: PLW1509
     os.close(theirs)
     shown = b""
     while b"a second" not in shown:

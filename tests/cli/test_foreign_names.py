@@ -11,6 +11,7 @@ from hypcheck.scene.reading import shipped_text
 from hypcheck.vectors import frozen
 from tests.report.test_hostile import UNSEEN
 from tests.support.records import resealed
+from tests.support.without_drawing import draw_nothing
 
 ACTS = "\x1b]0;title\x07\x1b[2J\x9b31m\u202e\r"
 """Sets a terminal's title, clears it, changes colours and directions, and overwrites the line."""
@@ -30,7 +31,9 @@ def record(tmp_path_factory):
     """A record in which every case has a name that acts."""
     out = tmp_path_factory.mktemp("run")
     words = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "50", "--out", str(out)]
-    assert main(words) == 1
+    with pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
+        assert main(words) == 1
     lines = [json.loads(line) for line in (out / "record.jsonl").read_text().splitlines()]
     for line in lines:
         for case in (*line.get("worst", ()), *line.get("faults", ())):

@@ -59,7 +59,7 @@ def test_a_whole_number_out_of_range_is_refused_in_one_sentence(option, text, wa
     assert said == f"hypcheck: error: invalid value for '{option}': '{text}' must be a whole number, {wanted}"
 
 
-def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys):
+def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys, text_reports):
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "1.2e2", "--out", str(tmp_path)]) == 0
     assert "360 right" in capsys.readouterr().out
 

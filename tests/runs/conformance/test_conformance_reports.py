@@ -20,6 +20,9 @@ from hypcheck.report.verdict import failures
 from hypcheck.runs.replay import case_of
 from tests.report.test_schemas import RECORD, SUMMARY
 from tests.support.records import violations
+from tests.support.without_drawing import draw_nothing
+
+pytestmark = pytest.mark.usefixtures("text_reports")
 
 SPECS = (
     "builtin:fast",
@@ -35,7 +38,9 @@ def out(tmp_path_factory):
     """A small run: one passes, one is wrong, one crashes, one answers bad rows, and one is not there."""
     folder = tmp_path_factory.mktemp("gate")
     words = ["--families", "ring,axis,tower-body", "--count", "3", "--precision", "float32", "--tolerance", "4"]
-    assert main(["verify", *SPECS, *words, "--restarts", "4", "--out", str(folder)]) == 5
+    with pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
+        assert main(["verify", *SPECS, *words, "--restarts", "4", "--out", str(folder)]) == 5
     return folder
 
 

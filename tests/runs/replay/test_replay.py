@@ -160,7 +160,7 @@ def test_case_ids_name_the_same_rows_in_replay_as_elsewhere():
     assert case_of("0x1.8p+1,2, 1,1,-0x1p-3,0,0").row == (3.0, 2.0, 1.0, 1.0, -0.125, 0.0, 0.0)
 
 
-def test_cases_of_a_record_are_numbered(tmp_path, capsys):
+def test_cases_of_a_record_are_numbered(tmp_path, capsys, text_reports):
     out = tmp_path / "out"
     assert main(["verify", subject("contact"), "--families", "ring,tangent", "--count", "5", "--out", str(out)]) == 1
     capsys.readouterr()

@@ -19,6 +19,8 @@ from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_
 from tests.runs.resume.test_interrupted import needs_proc
 from tests.support.records import resealed
 
+pytestmark = pytest.mark.usefixtures("text_reports")
+
 
 @pytest.fixture(scope="module")
 def paused(tmp_path_factory):
