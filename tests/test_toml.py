@@ -60,7 +60,10 @@ def test_decimal_points_and_runs_of_dots_do_not_count_as_parts_of_a_key():
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
-@pytest.mark.parametrize("words", [["verify"], ["plan", "pipe.toml"], ["verify", "--known-failures", "pipe.toml"]])
+@pytest.mark.parametrize(
+    "words",
+    [["verify"], ["plan", "pipe.toml"], ["verify", "--families", "ring", "--known-failures", "pipe.toml"]],
+)
 def test_a_pipe_as_settings_scene_or_known_failures_is_refused_and_not_waited_for(words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     name = "pipe.toml" if "pipe.toml" in words else "hypcheck.toml"

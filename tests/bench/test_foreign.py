@@ -163,6 +163,8 @@ def test_spec_that_never_answers_times_out_once(tmp_path):
 
 
 SMALL = ["--workloads", "uniform", "--methods", "fast-numpy"]
+ONE_PROCESS = [*SMALL, "--processes", "1"]
+"""Where speeds are not compared."""
 
 
 @pytest.fixture(scope="module")
@@ -204,14 +206,16 @@ def test_unchanged_spec_is_not_slower_than_its_baseline(before, tmp_path):
 
 
 def test_spec_that_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
-    code, record = ended(tmp_path / "out", *SMALL, f"python:{tmp_path / 'nowhere.py'}:classify")
+    code, record = ended(tmp_path / "out", *ONE_PROCESS, f"python:{tmp_path / 'nowhere.py'}:classify")
     assert code == 5
     assert record.of(NotStartedLine)
     assert record.of(SpeedLine)
 
 
 def test_spec_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
-    code, record = ended(tmp_path / "out", *SMALL, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0"))
+    code, record = ended(
+        tmp_path / "out", *ONE_PROCESS, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0")
+    )
     assert code == 1
     refused = record.of(RefusedLine)
     assert refused
@@ -227,7 +231,7 @@ def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
     path = tmp_path / "subject_1.py"
     begun = f"import os\nopen(os.path.join({str(folder)!r}, str(os.getpid())), 'w').close()\n"
     path.write_text(begun + path.read_text(encoding="utf-8"), encoding="utf-8")
-    code, record = ended(tmp_path / "out", *SMALL, spec)
+    code, record = ended(tmp_path / "out", *ONE_PROCESS, spec)
     assert code == 1
     reasons = {line.reason for line in record.of(RefusedLine) if line.method == "subject"}
     assert reasons == {"its answers, when it was about to be timed, were not those that were judged"}

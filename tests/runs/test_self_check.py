@@ -43,6 +43,7 @@ def shorten(monkeypatch, derived):
     monkeypatch.setattr(self_check, "check_equations", lambda: equations)
     monkeypatch.setattr(self_check, "prove_formulas", lambda: proofs)
     monkeypatch.setattr(self_check, "TIMING_ROUNDS", 1)
+    monkeypatch.setattr(self_check, "TIMED_ROWS", 10)
 
 
 @pytest.fixture(scope="module")

@@ -5,18 +5,31 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
 
 from hypcheck.record import read
 from hypcheck.record.lines import ProofLine
-from tests.support.without_drawing import COMMAND
+
+PROVED = """
+import sys
+sys.modules.update(matplotlib=None, jinja2=None)
+from hypcheck.derivation.proofs import Proof
+from hypcheck.runs import self_check
+self_check.check_equations = tuple
+self_check.prove_formulas = lambda: (Proof("hessian", "delta", True, "as if it had been proved"),)
+from hypcheck.cli.main import process
+process()
+"""
+"""The command line, whose derivation is over at once: it is interrupted while processes of its own ask oracles."""
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_what_was_finished_is_written(tmp_path, number, code):
-    command = [*COMMAND, "verify", "--self", "--out", str(tmp_path), "--count", "400"]
+    words = ["verify", "--self", "--out", str(tmp_path), "--count", "400"]
+    command = [sys.executable, "-c", PROVED, *words, "--workers", "2"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     part = tmp_path / "record.jsonl.part"
     deadline = time.monotonic() + 60

@@ -14,6 +14,12 @@ from pathlib import Path
 import pytest
 
 ALLOWED_FAILURES = 1
+SETTINGS = {
+    "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": str(ALLOWED_FAILURES),
+    "DASK_DISTRIBUTED__WORKER__MULTIPROCESSING_METHOD": "forkserver",
+}
+"""Workers that begin again are forked from a process that has loaded dask, which takes longer than all that they do."""
+
 HOME = Path(__file__).parents[3]
 
 
@@ -33,8 +39,7 @@ class Cluster:
     def __init__(self, folder: Path, environment: dict[str, str]) -> None:
         self._folder = folder
         self._file = folder / "scheduler.json"
-        allowed = {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": str(ALLOWED_FAILURES)}
-        self._environment = {**os.environ, **allowed, **environment}
+        self._environment = {**os.environ, **SETTINGS, **environment}
         self.processes: list[subprocess.Popen[bytes]] = []
         self._start(HOME, {}, "dask_scheduler", "--host", "127.0.0.1", "--port", "0")
         until = time.monotonic() + 60
