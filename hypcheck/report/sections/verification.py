@@ -205,7 +205,7 @@ def gated_sections(record: Record) -> Iterator[Section]:
     found = under_test(record)
     if not found:
         return
-    head = ("", "", "question", "precision", "domain", "language", "version")
+    head = ("", "", "question", "spheroids", "precision", "domain", "language", "version")
     rows = [
         row for each in found if isinstance(each.line, ImplementationLine) for row in _gated_rows(each.name, each.line)
     ]
@@ -221,6 +221,7 @@ def _gated_rows(name: str, line: ImplementationLine) -> list[tuple[Text, ...]]:
             names[what],
             what,
             description.question,
+            "upright and tilted" if description.tilt else "upright",
             description.precision,
             domain_text(description.domain),
             description.language or _NONE,
