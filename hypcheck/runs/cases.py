@@ -23,6 +23,7 @@ from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id
 from hypcheck.vectors.family import BLOCK, Family
+from hypcheck.vectors.tilted.format import TiltedVector
 
 _SMALLEST = 1e-300
 """Below this distance the float in a frozen vector is too inaccurate."""
@@ -51,6 +52,8 @@ def frozen_vectors(name: str) -> FrozenVectors:
         exponents = np.full(len(found.rows), math.nan)
         if name in vectors.NAMES:
             exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
+        elif name in vectors.TILTED_NAMES:
+            exponents = np.array([_tilted_exponent(vector) for vector in vectors.load_tilted(name).cases])
         _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, exponents)
     return _LOADED[name]
 
@@ -63,6 +66,16 @@ def loaded_vectors() -> Mapping[str, FrozenVectors]:
 def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
     """Use these vectors instead of reading their files."""
     _LOADED.update(some)
+
+
+def _tilted_exponent(vector: TiltedVector) -> float:
+    """That of the lower end, which is proved; of the upper one where the lower is 0; −inf for a tangency."""
+    clear = vector.position is not Position.CONTACT
+    ends = [vector.flips[Position.CONTACT]] if clear else list(vector.flips.values())
+    least = min(end.lower for end in ends) or min(end.upper for end in ends)
+    if least == 0:
+        return -math.inf
+    return math.frexp(least)[1] - 1 if math.isfinite(least) else least
 
 
 def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
@@ -232,19 +245,19 @@ def first_unfrozen(family: Family, seed: int) -> int:
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
     """floor(log2) of the distance to the nearest other position, for the (ascending) indices that record it.
 
-    Frozen vectors hold their distance. It is recorded neither for tilted spheroids,
-    because to prove it takes too long, nor for ways.
+    Frozen vectors hold their distance. It is not recorded for ways, nor for generated rows of tilted spheroids, where
+    to prove it would take longer than all the rest.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
-    if len(made.columns) > len(COLUMNS):
-        return np.empty(0)
-    if not len(measured):
+    frozen = chunk.seed is None and chunk.family in (*vectors.NAMES, *vectors.TILTED_NAMES)
+    if not len(measured) or not (frozen or len(made.columns) == len(COLUMNS)):
         return np.empty(0)
     if chunk.seed is not None:
         return judge.flip_exponents(made.rows[measured])
     flips = frozen_vectors(chunk.family).exponents[chunk.start + measured]
     unknown = np.flatnonzero(np.isnan(flips))
-    flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
+    if len(unknown):  # none of tilted spheroids
+        flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
     return flips
 
 

@@ -71,7 +71,8 @@ def family_sections(record: Record) -> Iterator[Section]:
     found = [each for each in implementations(record) if each.asked or each.statuses]
     if not found:
         return
-    yield Section("Wrong answers by distance", (Paragraph(_FAMILY_DISTANCE), Figures("octaves")), page=True)
+    if any(group.octaves for each in found for group in each.groups):
+        yield Section("Wrong answers by distance", (Paragraph(_FAMILY_DISTANCE), Figures("octaves")), page=True)
     size = Figures("sizes", small=True, legend=HEAT)
     place = Figures("fields", small=True, legend=HEAT)
     blocks = (
