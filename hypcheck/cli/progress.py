@@ -111,6 +111,11 @@ class Pace:
         if self._bar is not None:
             self._bar.label = label
 
+    def expect(self, more: int) -> None:
+        """Make the bar longer by so many steps, or shorter."""
+        if self._bar is not None and self._bar.length is not None:
+            self._bar.length += more
+
     def advance(self, steps: int, units: int | None = None) -> None:
         """Take note of steps that are done, and of how many `units`, if a step is not one unit."""
         if self._bar is None:

@@ -95,7 +95,7 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings)
     with recording(out, recorded, title, provenance, begun.carried) as running:
         with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
-            run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state)
+            run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state, pace.expect)
         changed = unchanged.record_changes(running.recorder)
         running.exit_code = Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
     if options["update"] and running.record is not None and not changed:

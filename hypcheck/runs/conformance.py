@@ -17,7 +17,6 @@ from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine
 from hypcheck.runs import tally
-from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
@@ -26,7 +25,7 @@ from hypcheck.runs.plan import ConformancePlan, known_failures_of, planned_cases
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
 from hypcheck.runs.resume import ProgressWriter, recorded_description
 from hypcheck.runs.retest import result_without_retest
-from hypcheck.runs.schedule import ImplementationOpener, RunState, Step, TaskExecution, perform_steps
+from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, Step, TaskExecution, perform_steps
 from hypcheck.runs.tally import Tally
 from hypcheck.vectors import frozen
 
@@ -35,10 +34,16 @@ if TYPE_CHECKING:
 
 
 def run_conformance(
-    plan: ConformancePlan, recorder: Recorder, outcome: RunOutcome, advance: Advance, state: RunState | None = None
+    plan: ConformancePlan,
+    recorder: Recorder,
+    outcome: RunOutcome,
+    advance: Advance,
+    state: RunState | None = None,
+    expect: Advance = lambda _: None,
 ) -> None:
     """Ask and judge the implementations of the plan; `advance` is called with the number of cases that were asked.
 
+    `expect` is called with how many more cases than planned_size says an implementation will be asked.
     A resumed run skips implementations that its record has finished, and continues the next one from `state`;
     `advance` is not called for either. An interrupted run records the finished part. Raises NothingJudgedError if no
     case at all was judged, which proves nothing.
@@ -49,9 +54,10 @@ def run_conformance(
         for number in range(recorder.concluded, len(plan.specs)):
             try:
                 with _implementation_run(plan, number, known, recorder, state, client) as run:
+                    expect(run.cases - cases)
                     for step, after in perform_steps(run.steps, run.execution, run.state):
                         run.state = after
-                        advance(len(step) if isinstance(step, CaseChunk) else 0)
+                        advance(0 if isinstance(step, RetestStep) else len(step))
                         run.progress.offer(after)
             except StartError as error:
                 spec = plan.specs[number]
@@ -73,8 +79,9 @@ def _cluster_client(address: str) -> AbstractContextManager[Client]:
 
 @dataclass
 class _ImplementationRun:
-    """The run of one implementation: its steps, what performs them, its progress writer, and its state so far."""
+    """The run of one implementation: its cases and steps, what performs them, its progress writer, its state so far."""
 
+    cases: int
     steps: Iterable[Step]
     execution: TaskExecution
     progress: ProgressWriter
@@ -102,8 +109,9 @@ def _implementation_run(
         progress = ProgressWriter(recorder, number, implementation.declared, planned_size(plan))
         state = resumed or RunState(implementation.allowance)
         steps = steps_of(plan, used)
+        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt, layout=used.asked.layout)
         with _task_execution(implementation, opener, plan, rules, client) as execution:
-            run = _ImplementationRun(steps, execution, progress, state)
+            run = _ImplementationRun(sum(planned.values()), steps, execution, progress, state)
             try:
                 yield run
             except StartError:
@@ -113,7 +121,6 @@ def _implementation_run(
                     progress.keep(run.state)
                 lines.add(run.state, recorder, finished=False)
                 raise
-        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt, layout=used.asked.layout)
         require_all_tallied(run.state.total.tallies, planned)
         lines.add(run.state, recorder, finished=True)
 

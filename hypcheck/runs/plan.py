@@ -140,9 +140,13 @@ def chosen_families(plan: ConformancePlan, *, tilt: bool = False, layout: Layout
 def planned_size(plan: ConformancePlan) -> int:
     """The number of cases for each implementation, those that it will skip included.
 
-    An implementation that takes tilt has more, which is known once it has described itself.
+    It is that of one that answers about upright spheroids, or, if families were chosen, about all of these. Others have
+    more or fewer, which is known once they have described themselves.
     """
-    return sum(planned_cases(plan).values())
+    if not plan.filtered:
+        return sum(planned_cases(plan).values())
+    chosen = select(plan.families, tilted=True, layout=None)
+    return sum(frozen_count(family.name) + plan.count for family in chosen)
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:

@@ -49,6 +49,15 @@ def test_the_bar_shows_the_rate_and_the_time_left(screen, clock):
         assert screen.shown[-1].endswith("4%  10 cases a second, 0:01:36 left")
 
 
+def test_a_bar_that_is_made_longer_shows_the_share_of_the_new_length(screen, clock):
+    with watched(100, "work", "cases") as pace:
+        pace.expect(300)
+        for _ in range(4):
+            clock[0] += 1
+            pace.advance(50)
+        assert screen.shown[-1].endswith("50%  50 cases a second, 0:00:04 left")
+
+
 def test_the_rate_does_not_count_steps_of_the_resumed_run(screen, clock):
     with watched(100_000_000, "work", "cases", done=90_000_000) as pace:
         assert "90%" in screen.shown[-1]

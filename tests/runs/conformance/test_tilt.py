@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from fractions import Fraction
 
 import numpy as np
@@ -9,17 +10,18 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
+from hypcheck.geometry.pair import Position
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.questions import Answered
-from hypcheck.record import read
+from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json, decoded, numbers_of
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.record.progress import SavedResult
 from hypcheck.runs import judge
 from hypcheck.runs.cases import CaseChunk, cases_of_chunk
-from hypcheck.runs.conformance import add_reasons
+from hypcheck.runs.conformance import add_reasons, run_conformance
 from hypcheck.runs.judge import Criterion, Status
-from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, steps_of
+from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, planned_size, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest
 from hypcheck.runs.resume import restored_result, saved_result
 from hypcheck.runs.retest import RetestTask, retest
@@ -102,6 +104,26 @@ def test_a_fault_about_a_tilted_spheroid_costs_its_own_case_and_is_recorded_with
         axis_x, _, axis_z = map(float.fromhex, numbers_of(fault)[7:])
         assert axis_x > abs(axis_z)
         assert "no heading" in fault.reason
+
+
+def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(tmp_path):
+    steps, more = [], []
+    plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3)
+    run_conformance(plan, Recorder(io.StringIO(), {}), RunOutcome(), steps.append, expect=more.append)
+    assert more == [sum(len(frozen.load_invalid_rows(name).cases) for name in frozen.INVALID_METADATA)]
+    assert sum(steps) == planned_size(plan) + sum(more)
+
+
+def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(tmp_path):
+    code, record = gate(tmp_path, "upright", "--families", "tilted-tangent,tilted-slight", count="3")
+    found = by_family(record)
+    assert code == 1
+    assert sum(found["tilted-tangent"].octaves["-inf"].values()) == found["tilted-tangent"].asked - 3
+    counted = {float(key): sum(each.values()) for key, each in found["tilted-slight"].octaves.items()}
+    assert sum(counted.values()) == found["tilted-slight"].asked - 3
+    cases = frozen.load_tilted("tilted-slight").cases
+    near = [case for case in cases if case.position and case.flips[Position.CONTACT].lower < 2.0**-40]
+    assert len(near) <= sum(number for exponent, number in counted.items() if exponent < -40)
 
 
 def test_an_implementation_without_tilt_is_asked_no_family_of_tilted_spheroids():
