@@ -20,7 +20,7 @@ import click
 from hypcheck.cli.options import LARGEST_SEED, Command, IntegerOption, NumberOption, OutputPath, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
-from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
+from hypcheck.errors import Exit, InputError, NothingJudgedError, first_that_applies
 from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
@@ -126,12 +126,25 @@ def hunt(
         require_keepable(str(out))
     plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
+        _require_position(target, "hunt")
         run = Hunt(target, plan)
         try:
             _hunt_with_bar(run)
         finally:
             _print_findings(run, show, out)
     context.exit(_exit_code(run))
+
+
+def _require_position(target: HuntTarget, command: str) -> None:
+    """Raise InputError if the implementation answers about ways, of which the command knows nothing."""
+    from hypcheck.geometry.rows import PAIRS
+
+    used = target.implementation.description
+    if used.asked.layout is not PAIRS:
+        raise InputError(
+            f"{command} asks about positions, and {used.name} answers {used.question!r}; hypcheck verify and hypcheck "
+            "replay take it"
+        )
 
 
 def _hunt_with_bar(run: Hunt) -> None:
@@ -216,6 +229,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
 
     given = case_of(case)
     with opened(spec, **subject) as target:
+        _require_position(target, "minimise")
         run = simplify(replace(target, extreme=is_extreme(given.name)), pair_of(given.row))
     for line in minimised_lines(run):
         click.echo(printable(line))
@@ -226,8 +240,8 @@ _REPLAY_HELP = """\
 Show SPEC's answer to CASE, the right answer with its proof, and where the formula nearest to SPEC goes wrong.
 
 CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats (of a
-tilted spheroid with axis_x,axis_y,axis_z behind), or RECORD:N, the N-th case that a record.jsonl (or the folder of its
-run) has kept, as reports number them.
+tilted spheroid with axis_x,axis_y,axis_z behind; of a way alpha,gamma,b,d,x0,y0,z0,x1,y1,z1), or RECORD:N, the N-th
+case that a record.jsonl (or the folder of its run) has kept, as reports number them.
 
 \b
 hypcheck replay ring-0007 builtin:table-2-float64
@@ -266,6 +280,7 @@ def replay(
     **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> None:
     """Replay, and print the result."""
+    from hypcheck.geometry.rows import WAYS
     from hypcheck.implementations.description import parse_domain
     from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.intermediates import require_formula
@@ -273,6 +288,7 @@ def replay(
     from hypcheck.runs.replay import case_of
     from hypcheck.runs.replay import replay as run
     from hypcheck.runs.replay_results import replay_as_json, replay_lines
+    from hypcheck.runs.way_replay import replay_way, way_replay_as_json, way_replay_lines
 
     asked = case_of(case)
     require_formula(formula)
@@ -282,7 +298,15 @@ def replay(
         spec, limits_of(**limits), precision=precision, question=question, domain=claimed
     ) as implementation:
         used = implementation.description
-        done = run(asked, implementation, Criterion(used.question, used.precision, Fraction(tolerance)), formula)
-    for line in [replay_as_json(done)] if as_json else replay_lines(done):
+        criterion = Criterion(used.question, used.precision, Fraction(tolerance))
+        if used.asked.layout is WAYS:
+            way = replay_way(asked, implementation, criterion)
+            judgement = way.judgement
+            lines = [way_replay_as_json(way)] if as_json else way_replay_lines(way)
+        else:
+            done = run(asked, implementation, criterion, formula)
+            judgement = done.judgement
+            lines = [replay_as_json(done)] if as_json else replay_lines(done)
+    for line in lines:
         click.echo(printable(line))
-    context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)
+    context.exit(Exit.HELD if judgement.passes else Exit.WRONG)

@@ -14,8 +14,20 @@ import numpy as np
 
 from hypcheck.answer import DisagreementError, TiltedAnswer, answer
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS, Pair, Position, columns_of, trouble_with
-from hypcheck.geometry.rows import CANNOT_SAY, Rows
+from hypcheck.geometry.pair import (
+    AXIS,
+    COLUMNS,
+    REFUSED,
+    TILTED_COLUMNS,
+    TILTED_WAY_COLUMNS,
+    WAY_COLUMNS,
+    Pair,
+    Position,
+    columns_of,
+    trouble_with,
+    trouble_with_row,
+)
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout, Rows
 from hypcheck.implementations.description import Description, representable
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.spec import begins_as_spec
@@ -37,7 +49,7 @@ from hypcheck.truth.tilted.certificate import TiltedCertificate
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import MARK, is_extreme, parse_case_id
+from hypcheck.vectors.families import MARK, WAY_FAMILIES, is_extreme, parse_case_id
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.showing import invalid_row_of, vector_of
 
@@ -49,10 +61,11 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class ReplayCase:
-    """A row to replay, of seven or ten numbers, and its name; the row may be invalid."""
+    """A row to replay and its name; the row may be invalid. `layout` says what it is about, None if that is open."""
 
     name: str
     row: Row
+    layout: Layout | None = None
 
     @property
     def at_fault(self) -> tuple[str, ...]:
@@ -78,10 +91,12 @@ def case_of(text: str) -> ReplayCase:
     if "/" in text:
         case = parse_case_id(text)
         block, place = divmod(case.index, BLOCK)
-        return ReplayCase(text, tuple(case.family.block(case.seed, block)[place].tolist()))
+        row = tuple(case.family.block(case.seed, block)[place].tolist())
+        return ReplayCase(text, row, case.family.layout)
     if text.rpartition("-")[0] in frozen.INVALID_METADATA:
         return ReplayCase(text, invalid_row_of(text).row)
-    return ReplayCase(text, vector_of(text).row)
+    way = text.rpartition("-")[0] in WAY_FAMILIES
+    return ReplayCase(text, vector_of(text).row, WAYS if way else PAIRS)
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:
@@ -94,18 +109,20 @@ def _from_record(path: Path, number: int) -> ReplayCase:
         row = tuple(map(float.fromhex, numbers_of(case)))
     except OverflowError:
         raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
-    return ReplayCase(case.case, row)
+    return ReplayCase(case.case, row, WAYS if case.end else PAIRS)
 
 
 def _given_row(text: str) -> Row:
-    """Seven or ten valid numbers, decimal or hexadecimal."""
+    """Seven or ten valid numbers, decimal or hexadecimal; or ten or thirteen, which are a valid way."""
     parts = text.split(",")
-    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS)):
+    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS)):
         wanted = f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}"
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
-    names = COLUMNS if len(parts) == len(COLUMNS) else TILTED_COLUMNS
-    row = tuple(_number(name, part) for name, part in zip(names, parts, strict=True))
-    pair_of(row)
+    layout = WAYS if len(parts) == len(TILTED_WAY_COLUMNS) else PAIRS
+    row = tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
+    trouble = trouble_with_row(row, layout.upright)
+    if trouble is not None and (len(row) == len(COLUMNS) or trouble_with_row(row, WAY_COLUMNS) is not None):
+        raise InputError(trouble)
     return row
 
 
@@ -183,6 +200,8 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     Raises DisagreementError if the proof of the truth does not hold.
     """
     declared, used = implementation.declared, implementation.description
+    if case.layout is WAYS or len(case.row) > len(TILTED_COLUMNS):
+        raise InputError(f"{case.name} is a way between two positions; {used.name} answers {used.question!r}")
     rows = np.array([case.row])
     known = (case, str(implementation.spec), declared, used, criterion)
     if rows.shape[1] > len(COLUMNS) and not used.tilt:
