@@ -12,7 +12,7 @@ import click
 
 from hypcheck.errors import InputError
 from hypcheck.messages import printable
-from hypcheck.scaffold.project import LANGUAGES, Project
+from hypcheck.scaffold.project import LANGUAGES, STUBS, Project
 
 _DEFAULT_NAME = "predicate"
 """The name if neither --name nor the folder gives one."""
@@ -26,6 +26,14 @@ _DEFAULT_NAME = "predicate"
     default=Path(),
     help="The repository's root; by default the working directory.",
 )
+@click.option(
+    "--question",
+    "stub",
+    type=click.Choice(STUBS),
+    default=STUBS[0],
+    show_default=True,
+    help="What the stub answers: where a spheroid stands, or whether it meets contact on a way.",
+)
 @click.option("--name", help="The name of the implementation in reports; by default that of the directory.")
 @click.option(
     "--from",
@@ -34,7 +42,7 @@ _DEFAULT_NAME = "predicate"
     help="What the workflow installs, pinned: a git URL (https, ssh, file), a wheel or sdist, or NAME==VERSION.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
-def init(language: str, directory: Path, name: str | None, source: str | None, *, force: bool) -> None:
+def init(language: str, directory: Path, stub: str, name: str | None, source: str | None, *, force: bool) -> None:
     """Write the files that gate your implementation: an adapter around a stub, hypcheck.toml, a CI workflow.
 
     \b
@@ -44,6 +52,7 @@ def init(language: str, directory: Path, name: str | None, source: str | None, *
 
     The adapter has a folder of its own and needs no dependencies. The stub is the paper's Table 2, right in the paper's
     scenes and wrong elsewhere: replace it with a call of your predicate. docs/protocol.md says how the adapter speaks.
+    With --question passage it answers about ways between two positions, and the stub takes the spheroid for its centre.
 
     A second language in the same directory is added to hypcheck.toml and to the workflow, which then gate both.
 
@@ -54,7 +63,7 @@ def init(language: str, directory: Path, name: str | None, source: str | None, *
     from hypcheck.scaffold.requirement import pinned, requirement
 
     wanted = pinned(requirement(source, directory)) if source is not None else None
-    project = Project(LANGUAGES[language], _named(name, directory))
+    project = Project(LANGUAGES[language], _named(name, directory), stub)
     shared, notes = shared_files(directory, project, wanted, force=force)
     added = {path for path in shared if os.path.exists(directory / path) and (path == IGNORED or not force)}
     texts = project.files() | shared
@@ -76,7 +85,8 @@ def _print_next(project: Project, directory: Path) -> None:
     click.echo(f"\nType next{'' if directory == Path() else f', in {printable(shlex.quote(str(directory)))}'}:\n")
     for command in project.commands:
         click.echo(printable(f"    {command}"))
-    click.echo(f"\nThe second passes. The third fails, on the ring for example, until {project.predicate} is yours.")
+    where = "where only the body touches, not its centre," if project.stub == "passage" else "on the ring for example,"
+    click.echo(f"\nThe second passes. The third fails, {where} until {project.predicate} is yours.")
 
 
 def _named(name: str | None, directory: Path) -> str:

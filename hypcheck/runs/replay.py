@@ -94,7 +94,7 @@ def case_of(text: str) -> ReplayCase:
         row = tuple(case.family.block(case.seed, block)[place].tolist())
         return ReplayCase(text, row, case.family.layout)
     if text.rpartition("-")[0] in frozen.INVALID_METADATA:
-        return ReplayCase(text, invalid_row_of(text).row)
+        return ReplayCase(text, invalid_row_of(text).row, PAIRS)
     way = text.rpartition("-")[0] in WAY_FAMILIES
     return ReplayCase(text, vector_of(text).row, WAYS if way else PAIRS)
 
@@ -202,6 +202,8 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     declared, used = implementation.declared, implementation.description
     if case.layout is WAYS or len(case.row) > len(TILTED_COLUMNS):
         raise InputError(f"{case.name} is a way between two positions; {used.name} answers {used.question!r}")
+    if case.layout is None and (trouble := trouble_with_row(case.row)) is not None:
+        raise InputError(trouble)
     rows = np.array([case.row])
     known = (case, str(implementation.spec), declared, used, criterion)
     if rows.shape[1] > len(COLUMNS) and not used.tilt:

@@ -13,6 +13,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +27,7 @@ class Language:
     build: the command line that builds the adapter.
     spec: the SPEC that verify is given after the build.
     products: the files that the build leaves behind.
+    links: what the build line of the stub for ways has at its end.
     """
 
     name: str
@@ -31,6 +36,7 @@ class Language:
     build: str
     spec: str
     products: tuple[str, ...]
+    links: str = ""
 
     @property
     def folder(self) -> str:
@@ -49,6 +55,7 @@ _LISTED = (
         build="cc -std=c11 -O2 -ffp-contract=off -o hypcheck-c/adapter hypcheck-c/adapter.c hypcheck-c/predicate.c",
         spec="command:hypcheck-c/adapter",
         products=("/adapter", "/predicate.so"),
+        links=" -lm",
     ),
     Language(
         name="cpp",
@@ -109,6 +116,12 @@ LANGUAGES: Mapping[str, Language] = MappingProxyType({language.name: language fo
 SCENES = "forest-type-1,forest-type-2"
 """Families on which the stub is right: the scenes of the paper's Table 2."""
 
+WAYS_THROUGH = "way-tunnelling"
+"""The family on which the stub for ways is right: the centre goes through the wall."""
+
+STUBS = ("position", "passage")
+"""Questions for which there is a stub; that for positions is asked whether they are exterior."""
+
 LONGEST_NAME = 64
 
 _IGNORED = "gitignore"
@@ -117,10 +130,21 @@ _PLACE = re.compile(r"@([A-Z]+)@")
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """A project to write: the language of its adapter, and the name of its implementation."""
+    """A project to write: the language of its adapter, the name of its implementation, and one of STUBS."""
 
     language: Language
     name: str = ""
+    stub: str = "position"
+
+    @property
+    def build(self) -> str:
+        """The command line that builds the adapter."""
+        return self.language.build + (self.language.links if self.stub == "passage" else "")
+
+    @property
+    def right_on(self) -> str:
+        """The families on which the stub is right."""
+        return WAYS_THROUGH if self.stub == "passage" else SCENES
 
     @property
     def verify(self) -> str:
@@ -130,7 +154,7 @@ class Project:
     @property
     def commands(self) -> tuple[str, str, str]:
         """The commands to type next: build, verify where the stub is right, verify everywhere."""
-        return self.language.build, f"{self.verify} --families {SCENES}", self.verify
+        return self.build, f"{self.verify} --families {self.right_on}", self.verify
 
     @property
     def predicate(self) -> str:
@@ -146,8 +170,9 @@ class Project:
         return written
 
     def filled(self, folder: str, name: str) -> str:
-        """A template with the values of @NAME@ and the like."""
-        return filled(folder, name, self._values)
+        """A template with the values of @NAME@ and the like; that of the stub if it has one of its own."""
+        own = f"{folder}-{self.stub}"
+        return filled(own if template(own, name).is_file() else folder, name, self._values)
 
     @property
     def _values(self) -> Mapping[str, str]:
@@ -155,7 +180,7 @@ class Project:
             "NAME": self.name,
             "LANGUAGE": self.language.name,
             "FOLDER": self.language.folder,
-            "BUILD": self.language.build,
+            "BUILD": self.build,
             "SPEC": self.language.spec,
             "VERIFY": self.verify,
             "PREDICATE": self.predicate,
@@ -165,8 +190,13 @@ class Project:
 
 def filled(folder: str, name: str, values: Mapping[str, str]) -> str:
     """The text of a template, with these values for its places."""
-    template = files("hypcheck.scaffold").joinpath("templates", folder, *name.split("/"))
-    return _PLACE.sub(lambda place: values[place[1]], template.read_text(encoding="utf-8"))
+    text = template(folder, name).read_text(encoding="utf-8")
+    return _PLACE.sub(lambda place: values[place[1]], text)
+
+
+def template(folder: str, name: str) -> Traversable:
+    """The file of a template, which may not exist."""
+    return files("hypcheck.scaffold").joinpath("templates", folder, *name.split("/"))
 
 
 def safe_name(text: str) -> str:

@@ -86,7 +86,7 @@ def _listed(text: str, project: Project) -> str:
         listed = found["listed"].rstrip()
         comma = "," if listed and not listed.endswith(",") else ""
         spec = json.dumps(project.language.spec)
-        return f"specs = [{listed}{comma}\n    # Made by: {project.language.build}\n    {spec},\n]"
+        return f"specs = [{listed}{comma}\n    # Made by: {project.build}\n    {spec},\n]"
 
     return _SPECS.sub(longer, text, count=1)
 

@@ -90,7 +90,7 @@ def test_the_stub_says_in_its_file_that_it_is_a_stub(language, tmp_path):
 
 def test_every_folder_of_templates_is_a_language():
     folders = {each.name for each in files("hypcheck.scaffold").joinpath("templates").iterdir()}
-    assert folders == {"common", *LANGUAGES}
+    assert folders == {"common", *LANGUAGES, *(f"{name}-passage" for name in LANGUAGES)}
     assert [each.name for each in languages._LISTED] == list(LANGUAGES)
 
 

@@ -1,0 +1,17 @@
+/* What predicate.c offers to adapter.c, and, built as a shared library, to hypcheck itself. */
+#ifndef HYPCHECK_PREDICATE_H
+#define HYPCHECK_PREDICATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* What the predicate claims, as one line of JSON. */
+const char *hypcheck_describe(void);
+
+/* Answers n rows of alpha, gamma, b, d, x0, y0, z0, x1, y1, z1; times may be a null pointer, and is NaN without a hit. */
+void hypcheck_passage(size_t n, const double *rows, int8_t *hits, double *times);
+
+/* Answers n rows with axis_x, axis_y, axis_z behind, if the predicate claims "tilt":true. */
+void hypcheck_passage_tilted(size_t n, const double *rows, int8_t *hits, double *times);
+
+#endif

@@ -1,0 +1,69 @@
+"""Replays of ways: what happens on them, the answer, its time, and how wrong they are."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from hypcheck.cli.main import main
+
+GRAZES = "1,2,1,1,2,-3,0,2,3,0"
+THROUGH = "1,2,1,1,4,0,0,0,0,0"
+
+
+def replayed(capsys, *words):
+    code = main(["replay", *words])
+    return code, capsys.readouterr()
+
+
+def test_replay_shows_the_first_contact_and_a_late_time_in_radii(capsys):
+    code, said = replayed(capsys, THROUGH, "builtin:passage-sampled-4")
+    assert code == 1
+    lines = dict(line.split(maxsplit=1) for line in said.out.splitlines() if line)
+    assert lines["length"] == "4 spheroid radii"
+    assert lines["truth"] == "in contact on the way"
+    assert lines["ends"] == "exterior at the start, contact at the end"
+    assert lines["answer"] == "1, in contact on the way, first at 0.6666666666666666"
+    assert lines["judged"] == "wrong; late by 0.6667 spheroid radii of the way"
+
+
+def test_replay_in_json_names_the_mistake_and_its_size(capsys):
+    code, said = replayed(capsys, "1,2,1,1,2.5,-3,0,2.5,3,0", "builtin:passage-capsule", "--json")
+    assert code == 0
+    code, said = replayed(capsys, "1,2,1,0.5,2.25,0,-1,2.25,0,1", "builtin:passage-sampled-4", "--json")
+    told = json.loads(said.out)
+    assert (told["status"], told["truth"]["hit"], told["answer"]) == ("right", False, 0)
+    code, said = replayed(capsys, GRAZES, "builtin:passage-sampled-4", "--json")
+    told = json.loads(said.out)
+    assert code == 0
+    assert (told["status"], told["mistake"], told["truth"]["grazes"]) == ("tolerated", "false-clear", True)
+    assert told["truth"]["first"][0] <= 0.5 <= told["truth"]["first"][1]
+
+
+def test_generated_way_is_replayed_by_its_id(capsys):
+    code, said = replayed(capsys, "way-tunnelling/1/1/3", "builtin:passage-exact")
+    assert code == 0
+    assert "judged      right" in said.out
+
+
+@pytest.mark.parametrize(
+    ("case", "spec", "sentence"),
+    [
+        ("2,5,1,1,3,0,0", "builtin:passage-exact", "the given row is no way between two positions, and passage-exact"),
+        ("way-tunnelling/1/1/3", "builtin:fast", "is a way between two positions; fast answers 'position'"),
+        ("ring/1/42/7", "builtin:passage-exact", "ring/1/42/7 is no way between two positions"),
+        ("1,2,1,1,4,0,0,0,0,inf", "builtin:passage-exact", "is 'inf'; it must be finite"),
+        ("1,2,1,1,4,0,0,0,0,0,0,0,1", "builtin:passage-exact", "has an axis, but passage-exact takes none; its"),
+    ],
+)
+def test_case_that_is_no_way_or_a_way_where_none_is_wanted_is_refused_in_one_sentence(case, spec, sentence, capsys):
+    code, said = replayed(capsys, case, spec)
+    assert code == 2
+    assert sentence in said.err
+
+
+@pytest.mark.parametrize("words", [("hunt", "builtin:passage-exact"), ("minimise", "builtin:passage-exact", THROUGH)])
+def test_hunt_and_minimise_refuse_an_implementation_that_answers_about_ways(words, capsys):
+    assert main(list(words)) == 2
+    assert "answers 'passage'; hypcheck verify and hypcheck replay take it" in capsys.readouterr().err
