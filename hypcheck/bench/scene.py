@@ -21,7 +21,7 @@ from hypcheck.bench.c_library import InC, compile_c, compiled, place_of
 from hypcheck.bench.contenders import COMPILER
 from hypcheck.bench.needs import note_absent
 from hypcheck.bench.timing import Clocked, Estimate, Samples, TimingEntry, clocked, estimate, measure, ratios
-from hypcheck.errors import UnavailableError
+from hypcheck.errors import InputError, UnavailableError
 from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.kernel.choice import Question
 from hypcheck.kernel.classify import classify_scene
@@ -29,6 +29,7 @@ from hypcheck.kernel.emission.kernel import emitted
 from hypcheck.kernel.emission.plan_text import PRINTED
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages, plan_of
 from hypcheck.kernel.specialise.settings import COUNT, centres
+from hypcheck.messages import escaped
 from hypcheck.processes import Advance
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import SceneLine, SceneTimes, Shares
@@ -146,7 +147,11 @@ class KernelSaving:
 
 
 def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[KernelSaving]:
-    """The savings of each setting of the plan. Raises UnavailableError if there is no C compiler."""
+    """The savings of each setting of the plan.
+
+    Raises UnavailableError if there is no C compiler, InputError where the mover leans.
+    """
+    require_upright(plan)
     methods, _ = compiled(folder)
     kernel, printed = compiled_kernel(plan, folder / "scene"), InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
     for stages in plan.settings:
@@ -197,8 +202,20 @@ STAGES = ("always", "thresholds", "lines", "discriminant", "search")
 
 
 def plans_of(names: Sequence[str]) -> list[ScenePlan]:
-    """The plans of scenes by their names; raises InputError for an unknown scene, or one without a kernel."""
-    return [plan_of(read_scene(name)) for name in names]
+    """The plans of scenes by their names; raises InputError for an unknown scene, or one that is not timed."""
+    plans = [plan_of(read_scene(name)) for name in names]
+    for plan in plans:
+        require_upright(plan)
+    return plans
+
+
+def require_upright(plan: ScenePlan) -> None:
+    """Raise InputError where the mover leans: Table 2, which kernels are timed beside, is about upright spheroids."""
+    if plan.axis is not None:
+        raise InputError(
+            f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover leans, and Table 2 as printed, "
+            "which kernels are timed beside, is about upright spheroids"
+        )
 
 
 def run_scenes(

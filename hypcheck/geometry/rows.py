@@ -13,6 +13,7 @@ import reprlib
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -191,12 +192,16 @@ def within(
 
 @dataclass(frozen=True, slots=True)
 class FixedSizes:
-    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and closed spans of x, y, z; None means any value."""
+    """Rows of one spheroid beside one hyperboloid: α, γ, b, d, and closed spans of x, y, z; None means any value.
+
+    `axis` is that of the spheroid in rows of ten numbers, "free" where it may be any; None: the spheroid is upright.
+    """
 
     sizes: Sizes
     x: Range | None = None
     y: Range | None = None
     z: Range | None = None
+    axis: tuple[float, float, float] | Literal["free"] | None = None
 
     @property
     def spans(self) -> tuple[Range | None, Range | None, Range | None]:
@@ -204,8 +209,11 @@ class FixedSizes:
         return self.x, self.y, self.z
 
     def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows with these sizes and the centre, on a way both its ends, in the spans."""
+        """A mask (n,) of the rows with these sizes, this axis and the centre, on a way both its ends, in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
+        if self.axis != "free":
+            axes = with_axis(rows, layout)[:, len(layout.upright) :]
+            inside &= (axes == (self.axis or UPRIGHT)).all(axis=1)
         for place in range(len(SIZES), len(layout.upright)):
             span = self.spans[(place - len(SIZES)) % len(self.spans)]
             if span is not None:

@@ -6,18 +6,19 @@ value raises InputError, which names the key, the value, and what would be right
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import CENTER, SIZES, trouble_with
+from hypcheck.geometry.pair import AXIS, CENTER, SIZES, trouble_with
 from hypcheck.geometry.rows import (
     ORDINARY_MAGNITUDE,
     ORDINARY_RATIO,
@@ -234,13 +235,13 @@ def _regimes(value: object, where: str) -> tuple[str, ...]:
 def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
     if not isinstance(value, (list, tuple)) or not value:
         raise InputError(
-            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes, and optionally x, y, z"
+            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes, and optionally x, y, z, axis"
         )
     return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
 
 
 def _setting(value: object, where: str) -> FixedSizes:
-    found = object_of(value, where, ("sizes", *CENTER), required=("sizes",))
+    found = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
     sizes = found["sizes"]
     if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
         raise InputError(f"{where}'s sizes is {shown_value(sizes)}; it must be four numbers, {', '.join(SIZES)}")
@@ -253,7 +254,18 @@ def _setting(value: object, where: str) -> FixedSizes:
     for key, (low, high) in spans.items():
         if not low <= high:
             raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
-    return FixedSizes((alpha, gamma, b, d), **spans)
+    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(found.get("axis"), f"{where}'s axis"))
+
+
+def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:
+    if value is None or value == "free":
+        return "free" if value else None
+    if not isinstance(value, (list, tuple)) or len(value) != len(AXIS):
+        raise InputError(f'{where} is {shown_value(value)}; it must be three numbers, or "free"')
+    x, y, z = (checked_number(each, where) for each in value)
+    if not all(map(math.isfinite, (x, y, z))) or not (x or y or z):
+        raise InputError(f"{where} is {shown_value(value)}; it must be three finite numbers, not all of them 0")
+    return x, y, z
 
 
 _READERS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
@@ -286,6 +298,10 @@ class Description:
     time: bool = False
     tilt: bool = False
     times: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.tilt and any(setting.axis is not None for setting in self.domain.settings):
+            raise InputError('the domain\'s settings name an axis; the description must say "tilt": true then')
 
     @property
     def asked(self) -> Question:

@@ -8,7 +8,7 @@ declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions 
 1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
 scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
-way, and times of first contact with the mistakes late and early.
+way, times of first contact with the mistakes late and early, and the axis of fixed sizes in a domain.
 """
 
 from __future__ import annotations
@@ -240,12 +240,16 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
 
 
 class FixedSizesPart(LinePart, frozen=True, kw_only=True):
-    """The only sizes that an implementation supports, and the spans of the centre (None: any)."""
+    """The only sizes that an implementation supports, and the spans of the centre (None: any).
+
+    `axis`, since 1.6.0, is that of a spheroid that leans, "free" where it may be any.
+    """
 
     sizes: Sizes
     x: Span
     y: Span
     z: Span
+    axis: tuple[float, float, float] | Annotated[str, one_of("free")] | UnsetType = UNSET
 
 
 class DomainPart(LinePart, frozen=True, kw_only=True):

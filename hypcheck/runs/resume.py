@@ -66,6 +66,9 @@ def recorded_description(description: Description) -> DescriptionPart:
     for name in ("tilt", "times"):
         if not told[name]:  # as in records from before there was such a key
             del told[name]
+    for setting in told["domain"]["settings"]:
+        if setting["axis"] is None:
+            del setting["axis"]
     return decoded(told, DescriptionPart)
 
 

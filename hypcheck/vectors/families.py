@@ -11,18 +11,20 @@ import math
 import re
 import struct
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
-from hypcheck.geometry.rows import PAIRS, FixedSizes, Floats, Layout, Range, Rows
+from hypcheck.geometry.rows import PAIRS, FixedSizes, Floats, Layout, Range, Rows, with_axis
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact
+from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, ways
 from hypcheck.vectors.draw import Draw, stepped, turns
@@ -51,17 +53,25 @@ class _Trap:
 
 
 def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
-    """The families of every setting; of each all traps."""
-    return tuple(_family(trap, setting) for setting in settings for trap in TRAPS)
+    """The families of every setting; of each all traps that it has."""
+    return tuple(_family(trap, setting) for setting in settings for trap in _traps(setting))
+
+
+def _traps(setting: FixedSizes) -> tuple[_Trap, ...]:
+    return TRAPS if setting.axis is None else LEANING_TRAPS
 
 
 def family_at(name: str) -> Family:
     """The family that such a name names; raises InputError saying what is wrong with it."""
     trap, _, text = name.partition(MARK)
-    known = {each.name: each for each in TRAPS}
+    known = {each.name: each for each in (*TRAPS, *LEANING_TRAPS)}
     if trap not in known:
         raise InputError(f"there is no family {trap!r} for fixed sizes; there are {', '.join(known)}")
-    return _family(known[trap], _parsed_sizes(text, name))
+    setting = _parsed_sizes(text, name)
+    if known[trap] not in _traps(setting):
+        with_axis = "an axis" if known[trap] in LEANING_TRAPS else "no axis"
+        raise InputError(f"{name!r} names no family: {trap} takes {with_axis}")
+    return _family(known[trap], setting)
 
 
 def _family(trap: _Trap, setting: FixedSizes) -> Family:
@@ -76,6 +86,7 @@ def _family(trap: _Trap, setting: FixedSizes) -> Family:
         drone="a kernel made for one mission is wrong on it",
         regimes="that of the sizes",
         make=partial(_made, trap, setting),
+        tilted=setting.axis is not None,
     )
 
 
@@ -95,23 +106,40 @@ def _require_room(setting: FixedSizes) -> None:
 
 def _sizes_text(setting: FixedSizes) -> str:
     spans = [f"{name}={span[0]!r}:{span[1]!r}" for name, span in zip(CENTER, setting.spans, strict=True) if span]
-    return ",".join([*map(repr, setting.sizes), *spans])
+    axis = () if setting.axis is None else (f"axis={':'.join(_words(setting.axis))}",)
+    return ",".join([*map(repr, setting.sizes), *spans, *axis])
+
+
+def _words(axis: tuple[float, float, float] | Literal["free"]) -> Iterable[str]:
+    return (axis,) if isinstance(axis, str) else map(repr, axis)
 
 
 def _parsed_sizes(text: str, name: str) -> FixedSizes:
     words = text.split(",")
     try:
         alpha, gamma, b, d = (float(word) for word in words[: len(SIZES)])
-        spans = dict(_span(word) for word in words[len(SIZES) :])
+        axis = _axis(words[-1]) if words[-1].startswith("axis=") else None
+        spans = dict(_span(word) for word in words[len(SIZES) : len(words) - (axis is not None)])
     except ValueError:
         raise InputError(
-            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, optionally, x=low:high, y=…, z=…"
+            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, optionally, x=low:high, y=…, z=…, "
+            "axis=x:y:z or axis=free"
         ) from None
     for column, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
         trouble = trouble_with(column, value)
         if trouble is not None:
             raise InputError(f"{name!r} names no family: {trouble}")
-    return FixedSizes((alpha, gamma, b, d), **spans)
+    return FixedSizes((alpha, gamma, b, d), **spans, axis=axis)
+
+
+def _axis(word: str) -> tuple[float, float, float] | Literal["free"]:
+    value = word.removeprefix("axis=")
+    if value == "free":
+        return "free"
+    x, y, z = map(float, value.split(":"))
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z) and (x or y or z)):
+        raise ValueError(word)
+    return x, y, z
 
 
 def _span(word: str) -> tuple[str, Range]:
@@ -246,6 +274,91 @@ TRAPS = (
     _Trap("zeros", "c1 or c2 is 0, or nearly", "a coefficient's sign is no help", _zeros),
     _Trap("axes", "on the axis, in the plane of the waist, or far out", "zeros, and squares that are far apart", _axes),
 )
+
+
+def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted_families.Vectors:
+    """The axis of the setting; a free one in every direction, a third of them in a plane of the coordinates."""
+    if setting.axis is None or setting.axis == "free":
+        x, y, z = tilted_families.anywhere(draw, n)
+        return x * turns(n, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0), y, z * turns(n, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0)
+    x, y, z = (np.full(n, part) for part in setting.axis)
+    return x, y, z
+
+
+def _leaning_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Rows:
+    """Centres `offset` radii off the surface."""
+    size = Sizes(*(np.full(n, value) for value in setting.sizes))
+    heights = _heights(setting, draw, n) / setting.sizes[1]
+    return tilted_families.beside(draw, size, heights, _axes_of(setting, draw, n), offset)
+
+
+def _held(setting: FixedSizes, rows: Rows) -> Rows:
+    """The rows with finite centres, their heights in the span."""
+    centre = np.where(np.abs(rows[:, 4:7]) <= FARTHEST, rows[:, 4:7], 0.0)
+    rows[:, 4:7] = centre
+    rows[:, 6] = np.clip(centre[:, 2], *_span_or(setting.z, FARTHEST))
+    return rows + 0.0
+
+
+def _leaning_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    rows = with_axis(_box(setting, draw, n))
+    rows[:, 7:] = np.stack(_axes_of(setting, draw, n), axis=1)
+    return rows + 0.0
+
+
+def _leaning_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    return _held(setting, _leaning_rows(setting, draw, n, offset))
+
+
+def _leaning_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The last floats before contact and the first in it, at sixteen places a block, a few ulps to each side of x."""
+    touching = _held(setting, _leaning_rows(setting, draw, 16, np.zeros(16)))
+    spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
+    edges = np.array([_leaning_edge(row, way) for row, way in zip(touching, spread.tolist(), strict=True)])
+    rows = np.resize(edges, (n, 10))
+    rows[:, 4] = stepped(np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6))
+    return rows + 0.0
+
+
+def _leaning_edge(row: Rows, way: float) -> Rows:
+    """The row of a centre on the surface, moved outward or inward across z until it is clear; far, if it never is."""
+    start, far = float(row[4]), float(row[4]) + way
+    found = row.copy()
+
+    def is_contact(x: float) -> bool:
+        lengths = TiltedPair.from_row((*row[:4].tolist(), x, *row[5:].tolist())).lengths
+        return tilted_exact.position(lengths) is Position.CONTACT
+
+    while math.nextafter(start, far) != far:
+        middle = start + (far - start) / 2
+        if middle in (start, far):
+            break
+        start, far = (middle, far) if is_contact(middle) else (start, middle)
+    found[4] = far
+    return found
+
+
+def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Coordinates that are 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
+    rows = _leaning_box(setting, draw, n)
+    far = np.exp2(draw.integers(n, 0, 12).astype(np.float64))
+    rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)
+    rows[:, 5] *= turns(n, 0.0, 1.0, 0.0, 1.0, 1.0)
+    rows[:, 6] *= turns(n, 1.0, 1.0, 1.0, 0.0, 1.0)
+    rows[:, 4:6] *= np.where(turns(n, False, False, False, False, True), far, 1.0)[:, None]
+    return _held(setting, rows)
+
+
+LEANING_TRAPS = (
+    _Trap("leaning-box", "anywhere in the region", "the everyday case, each stage in its share", _leaning_box),
+    _Trap(
+        "leaning-beside", "one radius off the surface", "the boundary itself, from 1 to 2⁻⁵³ off it", _leaning_beside
+    ),
+    _Trap("leaning-razor", "a few floats before and behind contact", "the last digit decides", _leaning_razor),
+    _Trap("leaning-zeros", "coordinates that are 0, and far out", "where poles and double roots lie", _leaning_zeros),
+)
+"""What a spheroid that leans is asked."""
 
 
 FAMILIES: dict[str, Family] = {

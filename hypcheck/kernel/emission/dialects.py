@@ -24,6 +24,7 @@ class Dialect:
     `extension` is that of its source files and templates, `comment` begins a line of the head. `numbers` has the type
     for each format that the language computes in, as its printer knows it. `phrases` are templates with {name},
     {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE. `suffixes` end literals of a format.
+    `axis` has what a kernel's text says besides where it takes an axis: how one is declared, given on, read from a row.
     `exports`: its kernels have functions that a linker sees; the others' names are their module's. `by_block`: they
     have loops over many centres that compilers make vectors of.
     """
@@ -36,6 +37,7 @@ class Dialect:
     printer: Callable[..., tuple[str, ...]]
     phrases: Mapping[str, str]
     suffixes: Mapping[str, str] = field(default_factory=dict)
+    axis: Mapping[str, str] = field(default_factory=dict)
     exports: bool = False
     by_block: bool = False
 
@@ -58,11 +60,13 @@ class Dialect:
         return self.phrases[phrase].format(**words)
 
 
-_CHOOSE = "if (has_sizes(sizes, {sizes})) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
+_CHOOSE = (
+    "if (has_sizes(sizes, {sizes}){also}) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
+)
 
 _C_LIKE = {
     "constant": "const {number} {name} = {value};",
-    "begin": "static int position_{place}({number} x, {number} y, {number} z)\n{{",
+    "begin": "static int position_{place}({number} x, {number} y, {number} z{axis})\n{{",
     "end": "}}",
     "return": "return {value};",
     "return if": "if ({condition}) return {value};",
@@ -74,6 +78,11 @@ _C_LIKE = {
     "truth": "{condition}",
     "search": "search(R, zz, height, &setting_{place})",
     "setting": "static const setting setting_{place} = {{{values}}};",
+    "frame": "static const frame frame_{place} = {{{values}}};",
+    "sizes": "static const sizes_of_frame sizes_{place} = {{{values}}};",
+    "fixed search": "leaning_search(x, y, z, &frame_{place})",
+    "free search": "leaning_search_free(x, y, z, axis, &sizes_{place})",
+    "has axis": " && axis[0] == {axis[0]} && axis[1] == {axis[1]} && axis[2] == {axis[2]}",
     "field": ".{name} = {value}",
     "choose": _CHOOSE.replace("TRUE", "1"),
     "note": "/* {text} */",
@@ -83,9 +92,13 @@ _C_LIKE = {
 _CPP = {
     **_C_LIKE,
     "constant": "constexpr {number} {name} = {value};",
-    "begin": "int position_{place}({number} x, {number} y, {number} z)\n{{",
+    "begin": "int position_{place}({number} x, {number} y, {number} z{axis})\n{{",
     "search": "search(R, zz, height, setting_{place})",
     "setting": "constexpr Setting setting_{place} = {{{values}}};",
+    "frame": "constexpr Frame frame_{place} = {{{values}}};",
+    "sizes": "constexpr SizesOfFrame sizes_{place} = {{{values}}};",
+    "fixed search": "leaning_search(x, y, z, frame_{place})",
+    "free search": "leaning_search_free(x, y, z, axis, sizes_{place})",
     "field": "{value}",
     "choose": _CHOOSE.replace("TRUE", "true"),
     "note": "// {text}",
@@ -94,35 +107,46 @@ _CPP = {
 _RUST = {
     **_C_LIKE,
     "constant": "const {name}: {number} = {value};",
-    "begin": "fn position_{place}(x: {number}, y: {number}, z: {number}) -> i8 {{",
+    "begin": "fn position_{place}(x: {number}, y: {number}, z: {number}{axis}) -> i8 {{",
     "return if": "if {condition} {{\n    return {value};\n}}",
     "if": "if {condition} {{",
     "select": "if {condition} {{ {left} }} else {{ {right} }}",
     "truth": "i8::from({condition})",
     "search": "search(R, zz, height, &SETTING_{place})",
     "setting": "const SETTING_{place}: Setting = Setting {{{values}}};",
+    "frame": "const FRAME_{place}: Frame = Frame {{{values}}};",
+    "sizes": "const SIZES_{place}: SizesOfFrame = SizesOfFrame {{{values}}};",
+    "fixed search": "leaning_search(x, y, z, &FRAME_{place})",
+    "free search": "leaning_search_free(x, y, z, axis, &SIZES_{place})",
+    "has axis": " && axis == &[{axis[0]}, {axis[1]}, {axis[2]}]",
     "field": "{name}: {value}",
     "unused": "let _ = {name};",
-    "choose": "if has_sizes(sizes, [{sizes}]) {{\n    return Some(position_{place});\n}}",
+    "choose": "if has_sizes(sizes, [{sizes}]){also} {{\n    return Some(position_{place});\n}}",
     "note": "// {text}",
 }
 
 _JAVASCRIPT = {
     **_C_LIKE,
     "constant": "const {name} = {value};",
-    "begin": "function position_{place}(x, y, z) {{",
+    "begin": "function position_{place}(x, y, z{axis}) {{",
     "truth": "{condition} ? 1 : 0",
     "search": "search(R, zz, height, setting_{place})",
     "setting": "const setting_{place} = {{{values}}};",
+    "frame": "const frame_{place} = {{{values}}};",
+    "sizes": "const sizes_{place} = {{{values}}};",
+    "fixed search": "leaning_search(x, y, z, frame_{place})",
+    "free search": "leaning_search_free(x, y, z, axis, sizes_{place})",
+    "has axis": " && axisX === {axis[0]} && axisY === {axis[1]} && axisZ === {axis[2]}",
     "field": "{name}: {value}",
     "unused": "",
-    "choose": "if (alpha === {of[0]} && gamma === {of[1]} && b === {of[2]} && d === {of[3]}) return position_{place};",
+    "choose": "if (alpha === {of[0]} && gamma === {of[1]} && b === {of[2]} && d === {of[3]}{also}) "
+    "return position_{place};",
     "note": "// {text}",
 }
 
 _PYTHON = {
     "constant": "{name} = {value}",
-    "begin": "def position_{place}(x: float, y: float, z: float) -> int:",
+    "begin": "def position_{place}(x: float, y: float, z: float{axis}) -> int:",
     "end": "",
     "return": "return {value}",
     "return if": "if {condition}:\n    return {value}",
@@ -134,10 +158,47 @@ _PYTHON = {
     "truth": "int({condition})",
     "search": "search(R, zz, height, *SETTING_{place})",
     "setting": "SETTING_{place} = ({values})",
+    "frame": "FRAME_{place} = ({values})",
+    "sizes": "SIZES_{place} = ({values})",
+    "fixed search": "leaning_search(x, y, z, FRAME_{place})",
+    "free search": "leaning_search_free(x, y, z, axis, SIZES_{place})",
+    "has axis": ", {axis[0]}, {axis[1]}, {axis[2]}",
     "field": "{value}",
-    "choose": "({sizes}): position_{place},",
+    "choose": "({sizes}{also}): position_{place},",
     "note": "# {text}",
     "unused": "",
+}
+
+
+_C_AXIS = {
+    "axis": ", const double axis[3]",
+    "given": ", axis",
+    "row": ", row + 7",
+    "header": "#include <float.h>\n",
+}
+_RUST_AXIS = {
+    "axis": ", axis: &[f64; 3]",
+    "given": ", axis",
+    "row": ", &[row[7], row[8], row[9]]",
+    "type": ", &[f64; 3]",
+    "columns": ", axis_x, axis_y, axis_z",
+    "pointer": "axis: *const f64, ",
+    "safety": "`axis` 3, ",
+    "read": "let axis = &*axis.cast::<[f64; 3]>();\n    ",
+}
+_JAVASCRIPT_AXIS = {
+    "axis": ", axis",
+    "given": ", axis",
+    "row": ", [axisX, axisY, axisZ]",
+    "names": ", axisX, axisY, axisZ",
+}
+_PYTHON_AXIS = {
+    "axis": ", axis: tuple[float, float, float]",
+    "given": ", axis",
+    "row": ", (axis_x, axis_y, axis_z)",
+    "names": ", axis_x, axis_y, axis_z",
+    "open": "\n    ",
+    "parameters": ",\n    axis_x: float, axis_y: float, axis_z: float,\n",
 }
 
 
@@ -149,11 +210,21 @@ _JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "kernel.c", "c", " * ", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES, True, True),
-        Dialect("cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, True, True),
-        Dialect("rust", "kernel.rs", "rs", "//! ", _RUST_NUMBERS, rust_statements, _RUST, exports=True),
-        Dialect("javascript", "predicate.mjs", "mjs", "// ", _JAVASCRIPT_NUMBERS, javascript_statements, _JAVASCRIPT),
-        Dialect("python", "kernel.py", "py", "", {"float64": "float"}, python_statements, _PYTHON),
+        Dialect("c", "kernel.c", "c", " * ", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES, _C_AXIS, True, True),
+        Dialect("cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, _C_AXIS, True, True),
+        Dialect("rust", "kernel.rs", "rs", "//! ", _RUST_NUMBERS, rust_statements, _RUST, {}, _RUST_AXIS, exports=True),
+        Dialect(
+            "javascript",
+            "predicate.mjs",
+            "mjs",
+            "// ",
+            _JAVASCRIPT_NUMBERS,
+            javascript_statements,
+            _JAVASCRIPT,
+            {},
+            _JAVASCRIPT_AXIS,
+        ),
+        Dialect("python", "kernel.py", "py", "", {"float64": "float"}, python_statements, _PYTHON, {}, _PYTHON_AXIS),
     )
 }
 """By name: what `emit --language` takes."""

@@ -22,6 +22,7 @@ from hypcheck.kernel.emission.dialects import Dialect, Statements
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
 from hypcheck.kernel.specialise.first_stages import CENTRE
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch
+from hypcheck.kernel.specialise.leaning import LeaningSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.scene.model import Span
 
@@ -37,11 +38,13 @@ def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Diale
     """The function of the setting at this place, from the first line to the last."""
     parts = list(_Body(plan, stages, place, dialect).lines())
     read = set(re.findall(r"\w+", "\n".join(parts)))
-    unused = (dialect.say("unused", name=name) for name in "xyz" if name not in read)
+    given = ("x", "y", "z", "axis") if plan.free else ("x", "y", "z")
+    unused = (dialect.say("unused", name=name) for name in given if name not in read)
     lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
     heads = [dialect.say("note", text=line) for line in notes(plan, stages)]
     indented = [f"{INDENT}{line}" if line else "" for line in (*heads, *lines)]
-    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
+    axis = dialect.axis["axis"] if plan.free else ""
+    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name), axis=axis)
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
 
 
@@ -92,7 +95,8 @@ class _Body(Statements):
 
     def _stages_in_turn(self) -> Iterator[str]:
         stages = self._stages
-        yield from self._entry(("R", "zz", "height") if stages.search is not None else ("R", "zz"))
+        searches = isinstance(stages.search, DualSearch)
+        yield from self._entry(("R", "zz", "height") if searches else ("R", "zz"))
         for line in stages.lines:
             yield ""
             yield self._note(f"lambda = {float(line.multiplier)!r} proves {line.side.name.lower()} beyond this line")
@@ -117,7 +121,7 @@ class _Body(Statements):
             yield self._note("so far out, or no number, that something overflows")
             yield self._say("return if", condition=self._say("not", value=f"({self._within(last)})"), value=CANNOT_SAY)
 
-    def _within(self, stage: Discriminant | DualSearch) -> str:
+    def _within(self, stage: Discriminant | DualSearch | LeaningSearch) -> str:
         widest, highest = self._literal(stage.widest), self._literal(stage.highest)
         return self._say("and", left=f"R <= {widest}", right=f"zz <= {highest}")
 
@@ -153,7 +157,11 @@ class _Body(Statements):
         return "0" if self._question == "contact" else "1"
 
     def _searched(self) -> str:
-        call = self._say("search", place=self._place)
+        search = self._stages.search
+        if isinstance(search, LeaningSearch):
+            call = self._say("free search" if search.free else "fixed search", place=self._place)
+        else:
+            call = self._say("search", place=self._place)
         compared = {"exterior": f"{call} > 0", "interior": f"{call} < 0", "contact": f"{call} == 0"}
         if self._question == "position":
             return call
@@ -173,7 +181,7 @@ PASSED_OVER = 15
 OPEN = 3
 """The code of a centre that is not decided yet."""
 
-_MANY = """static void many_{place}(size_t n, const double *all_x, const double *all_y, const double *all_z,
+_MANY = """static void many_{place}(size_t n, const double *all_x, const double *all_y, const double *all_z{axis},
                          int8_t *positions)
 {{
     int pass_over = 0;
@@ -193,7 +201,7 @@ _MANY = """static void many_{place}(size_t n, const double *all_x, const double 
         if (left) {{
             for (size_t i = 0; i < count; i++)
                 if (code[i] == {open})
-                    positions[start + i] = (int8_t)position_{place}(({number})xs[i], ({number})ys[i], ({number})zs[i]);
+                    positions[start + i] = (int8_t)position_{place}({centre}{given});
         }}
     }}
 }}"""
@@ -212,7 +220,10 @@ def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect
     """The function for many centres of the setting at this place."""
     batch = _Batch(plan, stages, dialect)
     second = "\n".join(batch.second())
-    words = {"place": place, "block": BLOCK, "number": dialect.number_of(plan.format.name), "open": batch.code(OPEN)}
+    number = dialect.number_of(plan.format.name)
+    words = {"place": place, "block": BLOCK, "number": number, "open": batch.code(OPEN)}
+    words["centre"] = ", ".join(f"({number}){name}s[i]" for name in "xyz")
+    words |= {name: dialect.axis[name] if plan.free else "" for name in ("axis", "given")}
     loop = _SECOND.format(body=_indented(second), passed=PASSED_OVER) if second else ""
     return _MANY.format(**words, first=_indented("\n".join(batch.first())), second=loop)
 

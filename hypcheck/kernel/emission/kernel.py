@@ -14,13 +14,16 @@ from typing import Any
 
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
+from hypcheck.kernel.emission import leaning
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
 from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.specialise import last_stages
-from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS
+from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DualSearch
+from hypcheck.kernel.specialise.leaning import LeaningSearch
 from hypcheck.kernel.specialise.plan import ScenePlan
 from hypcheck.messages import escaped
+from hypcheck.scene.model import FREE
 from hypcheck.version import VERSION
 
 _ALONE = re.compile(r"^( *)\$\{(\w+)\}$", re.MULTILINE)
@@ -129,8 +132,9 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
-        "search": _search(plan, dialect) if _searches(plan) else "",
-        "imports": "\n".join(["import math"] * _searches(plan) + ["from collections.abc import Iterable"]),
+        "search": _searches_text(plan, dialect),
+        **_axis_parts(plan, dialect),
+        "imports": "\n".join(["import math"] * bool(_searched(plan)) + ["from collections.abc import Iterable"]),
         "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
         "many": "\n\n".join(batch_function(plan, stages, place, dialect) for place, stages in _numbered(plan))
         if dialect.by_block
@@ -152,43 +156,79 @@ def description(plan: ScenePlan, language: str) -> dict[str, Any]:
         "language": language,
         "precision": plan.format.name,
         "question": plan.question,
+        **({} if plan.axis is None else {"tilt": True}),
         "domain": {"settings": [_domain(stages.setting) for stages in plan.settings]},
     }
 
 
 def _domain(setting: Any) -> dict[str, Any]:  # noqa: ANN401
     spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
-    return {"sizes": list(setting.sizes), **spans}
+    axis = {} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}
+    return {"sizes": list(setting.sizes), **spans, **axis}
 
 
 def _numbered(plan: ScenePlan) -> list[tuple[int, Any]]:
     return list(enumerate(plan.settings, start=1))
 
 
-def _searches(plan: ScenePlan) -> bool:
-    return any(stages.search is not None for stages in plan.settings)
+def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | LeaningSearch]]:
+    """The searches of the settings that have one, with the settings' numbers."""
+    return [(place, stages.search) for place, stages in _numbered(plan) if stages.search is not None]
+
+
+def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
+    """What a kernel's functions say of an axis: nothing where the spheroid stands upright.
+
+    Marks that begin with `fixed` are filled where the kernel has one axis, with `free` where it asks for any, and
+    with `any` in both.
+    """
+    axis = plan.axis
+    found = {"tilted": "", "columns": "7", "number_word": "seven", "predicate": "predicate"}
+    if axis is not None:
+        found |= {"tilted": "_tilted", "columns": "10", "number_word": "ten", "predicate": "tilted"}
+    for kind, has in (("fixed", axis is not None and axis != FREE), ("free", axis == FREE), ("any", axis is not None)):
+        found |= {f"{kind}_{name}": text if has else "" for name, text in dialect.axis.items()}
+    return found
 
 
 def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
     """The tables of constants that searches take."""
     found = []
-    for place, stages in _numbered(plan):
-        if stages.search is not None:
-            values = ((name, dialect.literal(stages.search.constants[name], plan.format.name)) for name in SETTING)
+    for place, search in _searched(plan):
+        if isinstance(search, LeaningSearch):
+            found.append(leaning.table(search, place, dialect))
+        else:
+            values = ((name, dialect.literal(search.constants[name], plan.format.name)) for name in SETTING)
             fields = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in values)
             found.append(dialect.say("setting", place=place, values=f"\n    {fields},\n"))
     return found
 
 
 def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
+    fixed = plan.axis is not None and plan.axis != FREE
+    also = dialect.say("has axis", axis=plan.axis) if fixed else ""
     return [
-        dialect.say("choose", place=place, sizes=", ".join(map(repr, stages.setting.sizes)), of=stages.setting.sizes)
+        dialect.say(
+            "choose", place=place, sizes=", ".join(map(repr, stages.setting.sizes)), of=stages.setting.sizes, also=also
+        )
         for place, stages in _numbered(plan)
     ]
 
 
-def _search(plan: ScenePlan, dialect: Dialect) -> str:
+def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
     """The search that all settings share."""
+    searches = [search for _, search in _searched(plan)]
+    if not searches:
+        return ""
+    if not isinstance(searches[0], LeaningSearch):
+        return _search(plan, dialect)
+    names = ["leaning", "free"] if searches[0].free else ["leaning"]
+    parts = leaning.parts(dialect)
+    return "".join(filled(template(f"{name}.{dialect.extension}.tmpl"), parts) for name in names) + "\n"
+
+
+def _search(plan: ScenePlan, dialect: Dialect) -> str:
+    """The search for an upright spheroid."""
 
     def printed(program: Program, *wanted: str) -> str:
         return "\n".join(dialect.statements(program, wanted, plan.format.name))

@@ -20,11 +20,12 @@ from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import Operations, Step, count, needed
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.kernel.specialise import leaning
 from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import counted, escaped
-from hypcheck.scene.model import Span
+from hypcheck.scene.model import FREE, Span
 from hypcheck.version import VERSION
 
 
@@ -106,7 +107,8 @@ def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
     yield "    " + comment_text(shlex.join(command))
     yield (
         "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
-        f"The sizes alpha, gamma, b, d are those below; any other is answered {CANNOT_SAY}, which means: cannot say. "
+        f"The sizes alpha, gamma, b, d{_and_axis(plan)} are those below; any other is answered {CANNOT_SAY}, which "
+        "means: cannot say. "
         "What is promised below is promised of centres in the region of their sizes, its border included."
     )
     if len(plan.settings) <= FEW:
@@ -139,6 +141,11 @@ def comment_text(text: str) -> str:
     return re.sub(r"\\(?=\s|$)", r"\\.", plain)
 
 
+def _and_axis(plan: ScenePlan) -> str:
+    """What a query names besides, and must be the kernel's own."""
+    return " and the axis, number by number," if plan.axis is not None and not plan.free else ""
+
+
 def _question_in_comment(question: str) -> str:
     if question == "position":
         return "+1 exterior, 0 contact (tangency included), -1 interior"
@@ -150,9 +157,16 @@ def _setting(stages: Stages, question: str) -> str:
     alpha, gamma, b, d = setting.sizes
     uses = "; ".join(comment_text(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
     return (
-        f"alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}. {region(setting)} "
+        f"alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}{axis_text(setting)}: {uses}. {region(setting)} "
         f"{outside(stages)} {_cost(stages, question)}"
     )
+
+
+def axis_text(setting: Setting) -> str:
+    """The axis of a spheroid that leans, after a comma; nothing where it is upright."""
+    if setting.axis is None:
+        return ""
+    return ", axis free" if setting.axis == FREE else f", axis {list(setting.axis)!r}"
 
 
 def region(setting: Setting) -> str:
@@ -196,6 +210,13 @@ def _bound(plan: ScenePlan) -> str:
     if plan.bound_u == 0:
         return "Proved: every answer is right."
     unit = plan.format.unit
+    if plan.axis is not None:
+        return (
+            "Proved (docs/plans.md) for rounding to nearest: where an answer rests on a clear spheroid, it is right; "
+            "where it rests on contact, it is right for b and d each changed by "
+            f"{float(leaning.BOUND_U):g} u at most, u = 2^-{plan.format.bits} = {float(unit):.3g}"
+            f"{_by_side(plan)}. What double-double does not settle is answered {CANNOT_SAY}."
+        )
     return (
         "Proved (docs/plans.md) for rounding to nearest: "
         f"an answer is right for inputs each changed by {float(plan.bound_u):g} u at most, "
@@ -203,6 +224,12 @@ def _bound(plan: ScenePlan) -> str:
         f"changing every size and coordinate by a share of {float(Fraction(plan.bound_u) * unit):.2g} changes the "
         "position. There is no wrong answer away from the surface, on the ring of double roots either."
     )
+
+
+def _by_side(plan: ScenePlan) -> str:
+    if plan.question not in ONE_SIDED:
+        return ""
+    return f", and where it rests on the side of the centre, for inputs each changed by {float(plan.bound_u):g} u"
 
 
 PRINTED = "table-2"
@@ -273,7 +300,7 @@ def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
     for number, stages in group:
         alpha, gamma, b, d = stages.setting.sizes
         uses = escaped("; ".join(stages.setting.uses), 90)
-        yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}: {uses}"
+        yield f"{number}. alpha {alpha!r}, gamma {gamma!r}, b {b!r}, d {d!r}{axis_text(stages.setting)}: {uses}"
         yield f"   {region(stages.setting)}"
         yield from (f"   {what}" for what in _steps(stages, question))
         yield "   decided by, of centres spread evenly: " + ", ".join(
@@ -302,7 +329,8 @@ def _steps(stages: Stages, question: str) -> Iterator[str]:
         tells = "contact or clear" if stages.discriminant.clear_where_positive else "contact"
         yield f"the discriminant: beyond ±{stages.discriminant.bound:.3g} its sign is certain and tells {tells}"
     if stages.search is not None:
-        yield f"the dual function at its maximum, found by {stages.search.steps} halvings"
+        doubled = "" if stages.setting.axis is None else ", in double-double"
+        yield f"the dual function at its maximum, found by {stages.search.steps} halvings{doubled}"
 
 
 def _average(stages: Stages, question: str) -> float:
@@ -327,6 +355,7 @@ def _setting_as_json(stages: Stages, question: str) -> dict[str, Any]:
     spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
     return {
         "sizes": list(setting.sizes),
+        **({} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}),
         "spans": spans,
         "uses": list(setting.uses),
         "always": None if stages.always is None else int(stages.always),

@@ -56,7 +56,11 @@ Qed.
 
 
 def proof_of(plan: ScenePlan) -> str:
-    """The file. Raises InputError where no setting of the plan has a discriminant: there is nothing to prove."""
+    """The file. Raises InputError where the mover leans, and where no setting of the plan has a discriminant."""
+    if plan.axis is not None:
+        raise InputError(
+            "--proof: where the mover leans, Coq has no proof of the kernel; docs/plans.md has the one of its bound"
+        )
     parts = [
         part
         for number, stages in enumerate(plan.settings, 1)

@@ -213,6 +213,10 @@ def _few_bits(value: Fraction) -> Fraction:
 
 
 BACKWARD_BOUND = Fraction(3)
+"""Units u by which inputs may have to change for a threshold's answer to be right (Thresholds)."""
+
+CENTRE_BOUND = Fraction(5)
+"""The same for the centre's side (above)."""
 
 _Test = Callable[[Fraction], bool]
 

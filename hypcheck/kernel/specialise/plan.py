@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Literal
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Floats, Mask
-from hypcheck.kernel.specialise import first_stages, last_stages
+from hypcheck.kernel.specialise import first_stages, last_stages, leaning
 from hypcheck.kernel.specialise.first_stages import (
     CENTRE,
     ProvedLine,
@@ -24,23 +25,32 @@ from hypcheck.kernel.specialise.first_stages import (
     thresholds,
 )
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, discriminant, search
+from hypcheck.kernel.specialise.leaning import LeaningSearch, leaning_search
 from hypcheck.kernel.specialise.settings import (
     REACH,
     FloatFormat,
+    ScaledSetting,
     Setting,
+    axis_of,
     centres,
     format_of,
     position_of_box,
     scaled,
     settings_of,
 )
-from hypcheck.scene.model import SceneModel, Span
+from hypcheck.scene.model import FREE, Point, SceneModel, Span
 
 MOST_SETTINGS = 64
 """Different pairs of sizes in a plan: a kernel must stay readable."""
 
 USEFUL = 0.5
 """Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
+
+USEFUL_LEANING = 0.2
+"""The same where the spheroid leans: what is left then costs more."""
+
+LEANING_FORMAT = "float64"
+"""What kernels for a mover that leans compute in: double-double is made of two of it."""
 
 AFAR = 2.0**13
 """How far out a kernel has to answer where the region is open: in waist radii and heights γ."""
@@ -81,7 +91,7 @@ class Stages:
     lines: tuple[ProvedLine, ...]
     centre: dict[str, float]
     discriminant: Discriminant | None
-    search: DualSearch | None
+    search: DualSearch | LeaningSearch | None
     shares: dict[str, float]
     omitted: tuple[Omission, ...]
     bound_u: Fraction
@@ -97,6 +107,16 @@ class ScenePlan:
     settings: tuple[Stages, ...]
 
     @property
+    def axis(self) -> Point | Literal["free"] | None:
+        """The axis of a mover that leans, FREE where each query names one; None where it is upright."""
+        return axis_of(self.scene.mover)
+
+    @property
+    def free(self) -> bool:
+        """Whether each query names an axis."""
+        return self.axis == FREE
+
+    @property
     def bound_u(self) -> Fraction:
         """The largest backward error that an answer can have, in units u of the format."""
         return max(stages.bound_u for stages in self.settings)
@@ -109,6 +129,10 @@ def plan_of(scene: SceneModel, precision: str = "float64") -> ScenePlan:
     """
     form = format_of(precision)
     settings = settings_of(scene)
+    if axis_of(scene.mover) is not None and form.name != LEANING_FORMAT:
+        raise InputError(
+            f"no kernel is made in {form.name}: where the mover leans, kernels compute in {LEANING_FORMAT}"
+        )
     if len(settings) > MOST_SETTINGS:
         raise InputError(
             f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {MOST_SETTINGS} "
@@ -134,36 +158,48 @@ def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
     position = position_of_box(setting)
     if position is not None:
         return _without_tests(setting, first, constants, position)
+    if setting.axis is not None:
+        return _leaning_stages(setting, setting.axis, question, form)
     height = setting.box.z
     if height is not None and height.fixed:
         found = thresholds(setting.sizes, height.low, scale, form)
         return _at_one_height(setting, first, constants, found, question)
     R, zz = _sample(setting, first, constants, form)
-    lines: list[ProvedLine] = []
-    by_lines = np.zeros(len(R), dtype=bool)
-    for side in SIDES[question]:
-        own, decided = lines_for(side, scale, form, R, zz, len(lines) + 1)
-        lines += own
-        by_lines |= decided
+    lines, by_lines = _lines(question, scale, form, R, zz)
     sides = centre_constants(scale, form)
-    if question in ONE_SIDED:
-        (outside,) = outputs(CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
-        by_lines |= outside == (question == "interior")
+    by_lines = by_lines | _by_centre(question, sides, form, R, zz)
     corner = _corner(setting)
     delta = discriminant(scale, form, first, constants, corner)
     left = np.flatnonzero(~by_lines)
     by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
     if delta is not None and by_delta.sum() < USEFUL * len(left):
         delta, by_delta = None, np.zeros(len(left), dtype=bool)
-    shares = {
-        "lines": float(by_lines.mean()),
-        "discriminant": float(by_delta.sum() / len(R)),
-        "search": float((~by_delta).sum() / len(R)),
-    }
+    shares = _shares(by_lines, by_delta)
     bound = last_stages.backward_bound()
     omitted = _omissions(setting, question, delta, constants)
     last = search(scale, form, _corner(setting, AFAR))
-    return Stages(setting, first, constants, None, None, tuple(lines), sides, delta, last, shares, omitted, bound)
+    return Stages(setting, first, constants, None, None, lines, sides, delta, last, shares, omitted, bound)
+
+
+def _leaning_stages(setting: Setting, axis: Point | Literal["free"], question: str, form: FloatFormat) -> Stages:
+    """The stages of a spheroid that leans: lines of the ball about it, the discriminant of that in it, the search."""
+    last = leaning_search(setting.sizes, None if axis == FREE else axis)
+    inner, outer = (scaled(sizes, form) for sizes in setting.balls)
+    first, constants = entry(outer)
+    R, zz = _sample(setting, first, constants, form)
+    lines, by_lines = _lines(question, outer, form, R, zz)
+    sides = centre_constants(outer, form)
+    by_lines = by_lines | _by_centre(question, sides, form, R, zz)
+    delta = discriminant(inner, form, first, constants, _corner(setting))
+    delta = None if delta is None else replace(delta, clear_where_positive=False)
+    left = np.flatnonzero(~by_lines)
+    by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
+    if delta is not None and by_delta.sum() < USEFUL_LEANING * len(left):
+        delta, by_delta = None, np.zeros(len(left), dtype=bool)
+    shares = _shares(by_lines, by_delta)
+    omitted = _leaning_omissions(setting, question, delta)
+    bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else leaning.BOUND_U
+    return Stages(setting, first, constants, None, None, lines, sides, delta, last, shares, omitted, bound)
 
 
 def _sample(setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat) -> tuple[Floats, Floats]:
@@ -171,6 +207,36 @@ def _sample(setting: Setting, first: Program, constants: dict[str, float], form:
     x, y, z = centres(setting)
     values = evaluate(first, float_arithmetic(form.name), {"x": x, "y": y, "z": z, **constants})
     return values["R"], values["zz"]
+
+
+def _lines(
+    question: str, scale: ScaledSetting, form: FloatFormat, R: Floats, zz: Floats
+) -> tuple[tuple[ProvedLine, ...], Mask]:
+    """The lines that the question can use, and a mask of the centres that they decide."""
+    lines: list[ProvedLine] = []
+    decided = np.zeros(len(R), dtype=bool)
+    for side in SIDES[question]:
+        own, by_own = lines_for(side, scale, form, R, zz, len(lines) + 1)
+        lines += own
+        decided |= by_own
+    return tuple(lines), decided
+
+
+def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+    """A mask of the centres whose side alone answers a one-sided question."""
+    if question not in ONE_SIDED:
+        return np.zeros(len(R), dtype=bool)
+    (outside,) = outputs(CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
+    return np.asarray(outside == (question == "interior"))
+
+
+def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
+    """Which share of a sample each stage decides; `by_delta` is of those that the lines leave."""
+    return {
+        "lines": float(by_lines.mean()),
+        "discriminant": float(by_delta.sum() / len(by_lines)),
+        "search": float((~by_delta).sum() / len(by_lines)),
+    }
 
 
 def _decided(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
@@ -232,6 +298,22 @@ def _one_sided(question: str) -> list[Omission]:
             f"the question is {question}: both are answered no",
         )
     ]
+
+
+def _leaning_omissions(setting: Setting, question: str, delta: Discriminant | None) -> tuple[Omission, ...]:
+    found = [
+        Omission(
+            "the axis, in lines and discriminant",
+            "what the smallest ball about the spheroid is clear of, so is the spheroid; what the largest ball in it "
+            "touches, it touches too",
+        ),
+        *_one_sided(question),
+    ]
+    if delta is None:
+        found.append(Omission("the discriminant of the largest ball", "it decides too little of this region"))
+    if setting.cut is None and setting.box.z is not None:
+        found.append(Omission("the test of height", "the region ends before the hyperboloids do"))
+    return tuple(found)
 
 
 def _omissions(

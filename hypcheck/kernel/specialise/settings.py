@@ -19,7 +19,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats
 from hypcheck.kernel import integers
-from hypcheck.scene.model import FREE, Hyperboloid, MoverPart, SceneModel, Span, leans
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Point, SceneModel, Span, leans
 
 SWING = 1 + Fraction(1, 2**40)
 """What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
@@ -43,6 +43,7 @@ class Box:
 class Setting:
     """`sizes` are α, γ, b, d; `box` is where the centre can be; `cut` is the height at which the world ends, if there.
 
+    `axis` is that of the spheroid's revolution, FREE where each query names one, None where it is upright.
     `cut` is kept only where the box does not end before it: it is then asked of every query. `uses` names the pairs of
     the scene that have these sizes.
     """
@@ -51,15 +52,22 @@ class Setting:
     box: Box
     cut: Span | None
     uses: tuple[str, ...]
+    axis: Point | Literal["free"] | None = None
+
+    @property
+    def balls(self) -> tuple[Sizes, Sizes]:
+        """The sizes with the largest ball in the spheroid for it, and with the smallest ball about it."""
+        alpha, gamma, b, d = self.sizes
+        return (alpha, gamma, min(b, d), min(b, d)), (alpha, gamma, max(b, d), max(b, d))
 
 
 def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
     A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
-    something leans.
+    a hyperboloid leans.
     """
-    _require_upright(scene)
+    _require_upright_hyperboloids(scene)
     return pairs_of(scene)
 
 
@@ -72,28 +80,27 @@ def pairs_of(scene: SceneModel) -> tuple[Setting, ...]:
     return tuple(found.values())
 
 
-def _require_upright(scene: SceneModel) -> None:
-    """Raise InputError about what leans, or may. A mover with b = d is a ball, the same along every axis."""
-    lean = [
-        f"the hyperboloid {body.name!r} has the axis {list(body.axis)}"
-        for body in scene.hyperboloids
-        if leans(body.axis)
-    ]
-    if leans(scene.mover.axis) and scene.mover.b != scene.mover.d:
-        free = scene.mover.axis == FREE
-        lean.insert(0, "the mover's axis is free" if free else f"the mover has the axis {list(scene.mover.axis)}")
-    if lean:
-        raise InputError(
-            f"no kernel is made: {lean[0]}, and kernels are made for upright spheroids and hyperboloids alone "
-            "(hypcheck.Scene answers exactly, and so does hypcheck.h where the spheroid alone leans)"
-        )
+def _require_upright_hyperboloids(scene: SceneModel) -> None:
+    """Raise InputError about the first hyperboloid that leans."""
+    for body in scene.hyperboloids:
+        if leans(body.axis):
+            raise InputError(
+                f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and kernels are "
+                "made for upright hyperboloids alone, with a mover that may lean (hypcheck.Scene answers exactly)"
+            )
+
+
+def axis_of(mover: Mover) -> Point | Literal["free"] | None:
+    """The axis that a kernel has to know: None where the mover is upright, or is a ball, the same along every axis."""
+    return mover.axis if leans(mover.axis) and mover.b != mover.d else None
 
 
 def position_of_box(setting: Setting) -> Position | None:
     """The one position that the whole box has, if it has one.
 
     The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall
-    and |z| grows (docs/mathematics.md): one exact decision at the least favourable corner of the box is a proof.
+    and |z| grows (docs/mathematics.md): one exact decision at the least favourable corner of the box is a proof. Where
+    the spheroid leans, that is asked of the smallest ball about it.
     """
     x, y, z = setting.box.spans
     if z is not None and _at(setting, (_least(x), _least(y), _most(z))) is Position.EXTERIOR:
@@ -104,7 +111,8 @@ def position_of_box(setting: Setting) -> Position | None:
 
 
 def _at(setting: Setting, centre: tuple[float, float, float]) -> Position:
-    return integers.position(Pair.from_row((*setting.sizes, *centre)).lengths)
+    sizes = setting.sizes if setting.axis is None else setting.balls[1]
+    return integers.position(Pair.from_row((*sizes, *centre)).lengths)
 
 
 def _least(span: Span | None) -> float:
@@ -125,7 +133,7 @@ def _pairs(scene: SceneModel) -> Iterator[Setting]:
             box, cut = _box(scene, hyperboloid, body.arm)
             if box is not None:
                 sizes = (hyperboloid.alpha, hyperboloid.gamma, body.b, body.d)
-                yield Setting(sizes, box, cut, (f"{name} and {hyperboloid.name}",))
+                yield Setting(sizes, box, cut, (f"{name} and {hyperboloid.name}",), axis_of(mover))
 
 
 def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box | None, Span | None]:
@@ -162,7 +170,7 @@ def _moved(span: Span | None, origin: float, arm: float) -> Span | None:
 
 def _joined(one: Setting, other: Setting) -> Setting:
     x, y, z = (_hull(left, right) for left, right in zip(one.box.spans, other.box.spans, strict=True))
-    return Setting(one.sizes, Box(x, y, z), _hull(one.cut, other.cut), (*one.uses, *other.uses))
+    return Setting(one.sizes, Box(x, y, z), _hull(one.cut, other.cut), (*one.uses, *other.uses), one.axis)
 
 
 def _hull(one: Span | None, other: Span | None) -> Span | None:

@@ -20,7 +20,6 @@ from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
-from hypcheck.truth import float_filter
 from hypcheck.vectors.families import families_for
 
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
@@ -68,10 +67,12 @@ def pointer(array):
 
 
 def answers(library, rows):
-    """What hypcheck_classify answers."""
+    """What hypcheck_classify answers, or hypcheck_classify_tilted to rows of ten."""
     found = np.full(len(rows), 99, np.int8)
     queries = np.ascontiguousarray(rows)
-    ctypes.CDLL(str(library)).hypcheck_classify(ctypes.c_size_t(len(rows)), pointer(queries), pointer(found))
+    loaded = ctypes.CDLL(str(library))
+    classify = loaded.hypcheck_classify if rows.shape[1] == 7 else loaded.hypcheck_classify_tilted
+    classify(ctypes.c_size_t(len(rows)), pointer(queries), pointer(found))
     return found
 
 
@@ -84,7 +85,9 @@ def asking(path, language):
 
     def ask(rows):
         found = answers(path, rows)
-        assert (found == answers_by_scene(path, rows)).all()
+        for axis in np.unique(rows[:, 7:], axis=0):
+            alike = (rows[:, 7:] == axis).all(axis=1)
+            assert (found[alike] == answers_by_scene(path, rows[alike])).all()
         return found
 
     return ask
@@ -98,19 +101,21 @@ def _module(path):
 
 
 _NODE = """
-import { predicate } from KERNEL;
+import { NAME } from KERNEL;
 const chunks = [];
 for await (const chunk of process.stdin) chunks.push(chunk);
 const bytes = Buffer.concat(chunks);
 const rows = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
-const found = new Int8Array(rows.length / 7).map((_, i) => predicate(...rows.subarray(7 * i, 7 * i + 7)));
+const found = new Int8Array(rows.length / WIDE).map((_, i) => NAME(...rows.subarray(WIDE * i, WIDE * i + WIDE)));
 process.stdout.write(Buffer.from(found.buffer));
 """
 
 
 def _asked_of_node(path, rows):
     script = path.with_name("ask.mjs")
-    script.write_text(_NODE.replace("KERNEL", json.dumps(str(path))), encoding="utf-8")
+    wide = rows.shape[1]
+    text = _NODE.replace("NAME", "predicate" if wide == 7 else "tilted").replace("WIDE", str(wide))
+    script.write_text(text.replace("KERNEL", json.dumps(str(path))), encoding="utf-8")
     node, sent = str(shutil.which("node")), np.ascontiguousarray(rows).tobytes()
     done = subprocess.run([node, str(script)], input=sent, capture_output=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -118,12 +123,16 @@ def _asked_of_node(path, rows):
 
 
 def answers_by_scene(library, rows):
-    """What hypcheck_classify_scene answers; all rows have the sizes of the first."""
+    """What hypcheck_classify_scene, or the tilted one, answers; all rows have the sizes and the axis of the first."""
     found = np.full(len(rows), 99, np.int8)
-    sizes, columns = rows[0, :4].copy(), [np.ascontiguousarray(column) for column in rows[:, 4:].T]
-    ctypes.CDLL(str(library)).hypcheck_classify_scene(
-        pointer(sizes), ctypes.c_size_t(len(rows)), *map(pointer, columns), pointer(found)
-    )
+    sizes, axis = rows[0, :4].copy(), rows[0, 7:].copy()
+    columns = [np.ascontiguousarray(column) for column in rows[:, 4:7].T]
+    given = (ctypes.c_size_t(len(rows)), *map(pointer, columns), pointer(found))
+    loaded = ctypes.CDLL(str(library))
+    if len(axis):
+        loaded.hypcheck_classify_tilted_scene(pointer(sizes), pointer(axis), *given)
+    else:
+        loaded.hypcheck_classify_scene(pointer(sizes), *given)
     return found
 
 
@@ -146,7 +155,7 @@ def worst_error(asked_of, plan, count):
 
 def worst_of(asked_of, rows, criterion):
     """The largest backward error in units u of what `asked_of` answers to these rows."""
-    wrong = judge.wrong_cases(rows, float_filter.positions(rows), asked_of(rows), criterion)
+    wrong = judge.wrong_cases(rows, judge.exact_positions(rows), asked_of(rows), criterion)
     return max(
         (judge.in_units(judge.measured(case, criterion.question), criterion.unit) for case in wrong), default=0.0
     )

@@ -1,0 +1,500 @@
+"""The last stage of a kernel for a spheroid whose axis leans: the dual function in double-double, and what it proves.
+
+**The frame.** With v the spheroid's axis, lengths in units of b, and p, s, t the squares of α/b, γ/b, d/b, the matrices
+of both bodies are diagonal in three directions: e′ across the plane of the two axes, and two within it. The poles of
+the dual function are A1 = p, and A2 and B from l² − 2 q1 l − p s/t = 0: with h and c the squares of the sine and cosine
+of the axis' angle from the vertical, q1 = (s (t h + c) − p (t c + h))/(2t), root² = q1² + p s/t, B = q1 + root,
+A2 = root − q1. The components of the centre C are linear: c1 = e′·C, c2 = r2·C, c3 = r3·C with
+
+    r2 = f2 (m/p e + off/s e_z),   m = (t h + c)/t + A2/s,   f2² = A2 p s/(2 root m)
+    r3 = f3 (off/p e + n/s e_z),   n = (t c + h)/t + B/p,    f3² = B p s/(2 root n)
+
+e the horizontal direction of v and off = (1 − t)/t times its sine and cosine. Each is the null vector of M + λD at a
+pole, made of length 1 by its own eigenvalue equation, so that nothing but q1 and 1 − t is a difference. An upright axis
+has no e; any horizontal one will do. FRAME is that program. Then (../../../docs/mathematics.md, "General position")
+
+    φ(λ) = λ (c1²/(A1+λ) + c2²/(A2+λ) − c3²/(B−λ)) − 1 − λ,   concave between −min(A1, A2) and B,
+
+and a spheroid with b and d times k is clear if and only if φ is above k² − 1 somewhere: at λ > 0 it is then exterior,
+at λ < 0 interior.
+
+**Double-double.** A number is the sum of two doubles; sums, products, quotients and roots of these are within 16 u² of
+the exact ones, u = 2⁻⁵³ (Joldes, Muller and Popescu, ACM TOMS 44, 2017: 3 u² for sums, 8 u² for products, 15 u² for
+quotients; the root is one step of Newton's method, whose own error is the square of half a unit, after a product).
+
+OMEGA bounds the relative error of each number of a frame, and of all operations of COMPONENTS and PHI together, of
+which a value passes 12 at most, 2⁻⁹⁸. A fixed axis' frame is made in rational numbers, and only rounded: 2⁻⁹⁶. A free
+one passes 40 operations, 40·2⁻¹⁰² < 2⁻⁹⁶, and its q1 alone may cancel. Where it does, s (t h + c) and p (t c + h) are
+within a factor of 2 of each other, and so their sum is at most 2.2 root times (d/b + b/d)/2 times t: the error of root,
+A2 and B is 2.2·2¹² times that of the terms at most, as d/b lies in 2^±12. So 2⁻⁸².
+
+**What proves.** An λ found by a search that nobody needs to trust. E = 4 OMEGA (|x|+|y|+|z|) most is above the error of
+each component, `most` being above every number of the three rows. At λ, as computed and exact by definition, each
+distance to a pole is known within 2 OMEGA (A + |λ|), hence φ within `error` (DECISION; its leading 2 covers the
+rounding of the error itself, E² and second order). Then
+
+    φ > error        is exterior where λ > 0 and interior where λ < 0: this answer is never wrong;
+    φ + error + (slope at λ)·(distance to the maximum) < 2u   is contact for b and d changed by u at most, since a
+                     concave function lies below its tangents. The maximum is nearer than a step where the slope has
+                     changed its sign there, and else nearer than the pole.
+
+The slope φ′ = A1 c1²/(A1+λ)² + A2 c2²/(A2+λ)² − B c3²/(B−λ)² − 1 is taken in doubles between bounds: components E
+larger or smaller, and each side moved by 2⁻⁴⁸, where it rounds 12 times at most. The step is
+one at which it changes by more than its bounds are apart, and so small that the tangent gains nothing by it.
+Whatever satisfies neither is answered
+"cannot say", and so is a number that left the format: no comparison holds for NaN.
+
+**Range.** p and s in 2^±40, t in 2^±24, b in 2^±60 and the centre within 2⁴⁰ b: no product leaves float64. What
+underflows, in the axis or in the centre, changes a component by less than LOST.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, outputs
+from hypcheck.derivation.program import Program, program_of
+from hypcheck.geometry.pair import Sizes
+from hypcheck.scene.model import Point
+
+DoubleDouble = tuple[float, float]
+"""The sum of two float64, the second at most half a unit in the last place of the first."""
+
+SIZE_NAMES = ("A1", "s", "t", "b")
+"""What a free axis' frame is made of, beside the axis."""
+
+ROWS = ("r1x", "r1y", "r2x", "r2y", "r2z", "r3x", "r3y", "r3z")
+POLES = ("A1", "A2", "B", "least", "gap1", "gap2")
+FRAME_NAMES = (*ROWS, *POLES)
+"""The rows, the poles, the lesser of A1 and A2, and how far each is above it."""
+
+FRAME = program_of(
+    "frame",
+    ("hx", "hy", "vx", "vy", "vz", *SIZE_NAMES),
+    """
+    hh = hx * hx
+    kk = hy * hy
+    level = hh + kk
+    length = sqrt level
+    ex = hx / length
+    ey = hy / length
+    xx = vx * vx
+    yy = vy * vy
+    flat = xx + yy
+    zz = vz * vz
+    w = flat + zz
+    sine_squared = flat / w
+    cosine_squared = zz / w
+    lean_x = vx * ex
+    lean_y = vy * ey
+    lean = lean_x + lean_y
+    lean_z = lean * vz
+    both = lean_z / w
+    t_sine = t * sine_squared
+    along = t_sine + cosine_squared
+    t_cosine = t * cosine_squared
+    across = t_cosine + sine_squared
+    one_t = 1 - t
+    stretch = one_t / t
+    off = stretch * both
+    s_along = s * along
+    p_across = A1 * across
+    twice_t = 2 * t
+    difference = s_along - p_across
+    q1 = difference / twice_t
+    ps = A1 * s
+    q0 = ps / t
+    q1q1 = q1 * q1
+    root_squared = q1q1 + q0
+    root = sqrt root_squared
+    size_q1 = abs q1
+    larger = size_q1 + root
+    smaller = q0 / larger
+    rises = q1 > 0
+    B = rises ? larger : smaller
+    A2 = rises ? smaller : larger
+    second = A2 < A1
+    least = second ? A2 : A1
+    gap1 = A1 - least
+    gap2 = A2 - least
+    twice_root = 2 * root
+    along_t = along / t
+    A2_s = A2 / s
+    m = along_t + A2_s
+    across_t = across / t
+    B_p = B / A1
+    n = across_t + B_p
+    A2_ps = A2 * ps
+    root_m = twice_root * m
+    f2_squared = A2_ps / root_m
+    f2 = sqrt f2_squared
+    B_ps = B * ps
+    root_n = twice_root * n
+    f3_squared = B_ps / root_n
+    f3 = sqrt f3_squared
+    r1y = ex / b
+    ey_b = ey / b
+    m_p = m / A1
+    r2e = f2 * m_p
+    off_s = off / s
+    r2u = f2 * off_s
+    off_p = off / A1
+    r3e = f3 * off_p
+    n_s = n / s
+    r3u = f3 * n_s
+    r1x = - ey_b
+    r2x = r2e * r1y
+    r2y = r2e * ey_b
+    r2z = r2u / b
+    r3x = r3e * r1y
+    r3y = r3e * ey_b
+    r3z = r3u / b
+    """,
+)
+"""From an axis (vx, vy, vz), its horizontal direction (hx, hy), the squares A1 = p, s, t and b to the frame."""
+
+COMPONENTS = program_of(
+    "components",
+    ("x", "y", "z", *ROWS),
+    """
+    x1 = r1x * x
+    y1 = r1y * y
+    c1 = x1 + y1
+    x2 = r2x * x
+    y2 = r2y * y
+    xy2 = x2 + y2
+    z2 = r2z * z
+    c2 = xy2 + z2
+    x3 = r3x * x
+    y3 = r3y * y
+    xy3 = x3 + y3
+    z3 = r3z * z
+    c3 = xy3 + z3
+    """,
+)
+
+PHI = program_of(
+    "phi",
+    ("c1", "c2", "c3", "A1", "A2", "B", "lambda_"),
+    """
+    to_a1 = A1 + lambda_
+    to_a2 = A2 + lambda_
+    to_b = B - lambda_
+    P1 = c1 * c1
+    P2 = c2 * c2
+    Q = c3 * c3
+    part_1 = P1 / to_a1
+    part_2 = P2 / to_a2
+    part_3 = Q / to_b
+    gains = part_1 + part_2
+    parts = gains - part_3
+    terms = lambda_ * parts
+    one_lambda = 1 + lambda_
+    phi = terms - one_lambda
+    """,
+)
+
+
+def falls(end: str = "") -> Program:
+    """Whether φ′ ≤ 0, in doubles, at these distances to the poles. `end` ends the names."""
+    text = "".join(
+        f"share_{i}{end} = c{i} / to_{to}{end}\n square_{i}{end} = share_{i}{end} * share_{i}{end}\n"
+        f"slope_{i}{end} = {pole} * square_{i}{end}\n"
+        for i, to, pole in ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
+    )
+    inputs = ("c1", "c2", "c3", "A1", "A2", "B", *(f"to_{to}{end}" for to in ("a1", "a2", "b")))
+    last = (
+        f"gain{end} = slope_1{end} + slope_2{end}\n loss{end} = slope_3{end} + 1\n past{end} = gain{end} <= loss{end}"
+    )
+    return program_of(f"falls{end}", inputs, text, last)
+
+
+PLACE = program_of(
+    "place",
+    ("A1", "A2", "B", "gap1", "gap2", "pole", "distance", "near_zero", "inside"),
+    """
+    is_near_zero = near_zero > 0
+    is_inside = inside > 0
+    complement = pole - distance
+    to_pole = is_near_zero ? complement : distance
+    from_zero = is_near_zero ? distance : complement
+    outside_a1 = A1 + from_zero
+    inside_a1 = gap1 + to_pole
+    to_a1 = is_inside ? inside_a1 : outside_a1
+    outside_a2 = A2 + from_zero
+    inside_a2 = gap2 + to_pole
+    to_a2 = is_inside ? inside_a2 : outside_a2
+    inside_b = B + from_zero
+    to_b = is_inside ? inside_b : to_pole
+    """,
+)
+"""From the distance to 0 (near_zero = 1) or to the pole (0) to those to all poles, in doubles."""
+
+LAMBDA = program_of(
+    "lambda",
+    ("pole", "distance", "near_zero", "inside"),
+    """
+    is_near_zero = near_zero > 0
+    is_inside = inside > 0
+    complement = pole - distance
+    from_zero = is_near_zero ? distance : complement
+    minus_from_zero = - from_zero
+    lambda_ = is_inside ? minus_from_zero : from_zero
+    """,
+)
+
+OMEGA = {"fixed": 2.0**-96, "free": 2.0**-82}
+LOST = 2.0**-400
+
+DECISION_CONSTANTS = {
+    "lost": LOST,
+    "more": 1 + 2.0**-48,
+    "less": 1 - 2.0**-48,
+    "granted": 1.5 * 2.0**-53,
+}
+"""`granted` is below 2u."""
+
+_SIDES = ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
+
+
+def _slopes(end: str, shift: str) -> str:
+    """Bounds of both sides of φ′ at λ moved by a step up ("+"), down ("-") or not at all ("")."""
+    text = ""
+    for i, to, pole in _SIDES:
+        moved = f"to_{to}"
+        if shift:
+            sign = shift if i < 3 else {"+": "-", "-": "+"}[shift]
+            moved = f"moved_{to}{end}"
+            text += f"{moved} = to_{to} {sign} step{end}\n"
+        for bound in ("low", "high"):
+            text += (
+                f"{bound}_share_{i}{end} = {bound}_{i} / {moved}\n"
+                f"{bound}_square_{i}{end} = {bound}_share_{i}{end} * {bound}_share_{i}{end}\n"
+                f"{bound}_slope_{i}{end} = {pole} * {bound}_square_{i}{end}\n"
+            )
+    for bound, moved in (("low", "less"), ("high", "more")):
+        text += (
+            f"{bound}_sum{end} = {bound}_slope_1{end} + {bound}_slope_2{end}\n"
+            f"{bound}_gain{end} = {moved} * {bound}_sum{end}\n"
+            f"{bound}_side{end} = {bound}_slope_3{end} + 1\n"
+            f"{bound}_loss{end} = {moved} * {bound}_side{end}\n"
+        )
+    return text
+
+
+def _errors() -> str:
+    return "".join(
+        f"""
+        size_{i} = abs c{i}
+        high_{i} = size_{i} + E
+        under_{i} = size_{i} - E
+        is_sure_{i} = under_{i} > 0
+        low_{i} = is_sure_{i} ? under_{i} : 0
+        twice_{i} = size_{i} + high_{i}
+        of_component_{i} = twice_{i} * E
+        reach_{i} = {pole} + size_l
+        times_{i} = reach_{i} / to_{to}
+        part_{i} = size_{i} * size_{i}
+        times_part_{i} = times_{i} * part_{i}
+        of_pole_{i} = four_omega * times_part_{i}
+        of_both_{i} = of_component_{i} + of_pole_{i}
+        weight_{i} = size_l / to_{to}
+        error_{i} = weight_{i} * of_both_{i}
+        """
+        for i, to, pole in _SIDES
+    )
+
+
+DECISION = program_of(
+    "decision",
+    (
+        *("x", "y", "z", "most", "omega", "c1", "c2", "c3", "A1", "A2", "B", "lambda_", "to_a1", "to_a2", "to_b"),
+        *("phi", *DECISION_CONSTANTS),
+    ),
+    """
+    size_x = abs x
+    size_y = abs y
+    size_z = abs z
+    size_xy = size_x + size_y
+    far = size_xy + size_z
+    four_omega = 4 * omega
+    most_omega = most * four_omega
+    E_seen = far * most_omega
+    E = E_seen + lost
+    size_l = abs lambda_
+    """,
+    _errors(),
+    """
+    one_l = 1 + size_l
+    error_l = four_omega * one_l
+    errors_12 = error_1 + error_2
+    errors_123 = errors_12 + error_3
+    errors = errors_123 + error_l
+    error = 2 * errors
+    clear = phi > error
+    """,
+    _slopes("", ""),
+    """
+    a1_is_nearer = to_a1 < to_a2
+    to_a = a1_is_nearer ? to_a1 : to_a2
+    bend_1 = low_slope_1 / to_a1
+    bend_2 = low_slope_2 / to_a2
+    bend_3 = low_slope_3 / to_b
+    bend_12 = bend_1 + bend_2
+    bend_123 = bend_12 + bend_3
+    bend = bend_123 + lost
+    gain_spread = high_gain - low_gain
+    loss_spread = high_loss - low_loss
+    spread = gain_spread + loss_spread
+    much_spread = 16 * spread
+    step = much_spread / bend
+    half_a = to_a / 2
+    half_b = to_b / 2
+    is_before_a = step < half_a
+    is_before_b = step < half_b
+    step_left = is_before_a ? step : half_a
+    step_right = is_before_b ? step : half_b
+    """,
+    _slopes("_right", "+"),
+    _slopes("_left", "-"),
+    """
+    turns_right = high_gain_right < low_loss_right
+    turns_left = high_loss_left < low_gain_left
+    right = turns_right ? step_right : to_b
+    left = turns_left ? step_left : to_a
+    rise = high_gain - low_loss
+    fall = high_loss - low_gain
+    more_right = rise * right
+    more_left = fall * left
+    room_seen = granted - phi
+    room = room_seen - error
+    half_room = room / 2
+    has_room = room > 0
+    right_fits = more_right < half_room
+    left_fits = more_left < half_room
+    both_fit = right_fits and left_fits
+    contact = both_fit and has_room
+    """,
+)
+"""In doubles: from what was computed at λ to `clear` and `contact`; neither is "cannot say"."""
+
+BOUND_U = Fraction(1)
+"""What b and d may have to change by for an answer "contact" to be right, in units u."""
+
+GEOMETRIC_STEPS, ARITHMETIC_STEPS = 8, 46
+"""Halvings of the exponent: 2⁶² becomes a quarter of an octave; then of the distance."""
+
+START = 2.0**-62
+"""The first distance to 0 or to a pole, over the pole."""
+
+_LEAST, _GREATEST = Fraction(1, 2**40), Fraction(2**40)
+_LEAST_T, _GREATEST_T = Fraction(1, 2**24), Fraction(2**24)
+_LEAST_B, _GREATEST_B = Fraction(1, 2**60), Fraction(2**60)
+_FARTHEST = Fraction(2**40)
+_NOTHING = Fraction(1, 2**620)
+"""Times 2⁴⁰ b, the farthest centre, it is less than LOST."""
+
+
+@dataclass(frozen=True)
+class LeaningSearch:
+    """What the stage holds: the frame of a fixed axis, or p, s, t and b where the axis is free, in double-double.
+
+    `most` is above every number of the rows times b, `omega` the bound of their errors. It answers where R ≤ `widest`
+    and zz ≤ `highest`.
+    """
+
+    constants: Mapping[str, DoubleDouble]
+    free: bool
+    most: float
+    omega: float
+    steps: int
+    widest: float
+    highest: float
+
+
+def leaning_search(sizes: Sizes, axis: Point | None) -> LeaningSearch:
+    """The stage for a spheroid of these sizes and this axis; None: a free one.
+
+    Raises OverflowError where the sizes are too far apart.
+    """
+    alpha, gamma, b, d = map(Fraction, sizes)
+    p, s, t = (alpha / b) ** 2, (gamma / b) ** 2, (d / b) ** 2
+    limits = ((p, _LEAST, _GREATEST), (s, _LEAST, _GREATEST), (t, _LEAST_T, _GREATEST_T), (b, _LEAST_B, _GREATEST_B))
+    if not all(least <= value <= greatest for value, least, greatest in limits):
+        raise OverflowError(
+            "where a spheroid leans, alpha/b and gamma/b must be from 2^-20 to 2^20, d/b from 2^-12 to 2^12 and b from "
+            "2^-60 to 2^60"
+        )
+    exact = dict(zip(SIZE_NAMES, (p, s, t, b), strict=True))
+    constants = exact if axis is None else frame_of(axis, exact)
+    end = float((_FARTHEST * b) ** 2)
+    free = axis is None
+    return LeaningSearch(
+        constants={name: split(value) for name, value in constants.items()},
+        free=free,
+        most=_most(t) / float(b),
+        omega=OMEGA["free" if free else "fixed"],
+        steps=GEOMETRIC_STEPS + ARITHMETIC_STEPS,
+        widest=end,
+        highest=end,
+    )
+
+
+def _most(t: Fraction) -> float:
+    """More than every number of the rows, times b, at any axis: each row is a column of an inverse square root of M.
+
+    |rᵢ|² = r̂ᵀ M r̂ for a unit vector r̂ of M's own metric is at most the greatest eigenvalue of M, 1 or 1/t.
+    """
+    return 2.0 * float(max(Fraction(1), 1 / t))
+
+
+def frame_of(axis: Point, sizes: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """The frame of an axis, within 2⁻²⁰⁰ of each of its numbers, or within 2⁻⁴⁰⁰ of 0."""
+    vx, vy, vz = map(Fraction, axis)
+    hx, hy = (vx, vy) if vx or vy else (Fraction(1), Fraction(0))
+    values = outputs(FRAME, _PRECISE, {"hx": hx, "hy": hy, "vx": vx, "vy": vy, "vz": vz, **sizes}, FRAME_NAMES)
+    return dict(zip(FRAME_NAMES, values, strict=True))
+
+
+def split(value: Fraction) -> DoubleDouble:
+    """The double-double next to a number; 0 where it is so small that LOST covers it."""
+    if abs(value) < _NOTHING:
+        return 0.0, 0.0
+    high = float(value)
+    return high, float(value - Fraction(high))
+
+
+_BITS = 512
+
+
+def _short(value: Fraction) -> Fraction:
+    """The number with some _BITS significant bits."""
+    if value == 0:
+        return value
+    step = Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length() - _BITS)
+    return round(value / step) * step
+
+
+def _root(value: Fraction) -> Fraction:
+    if value < 0:
+        raise AssertionError("a frame takes roots of positive numbers alone")
+    if value == 0:
+        return value
+    half = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 + _BITS
+    return Fraction(isqrt(int(value * Fraction(4) ** half))) / Fraction(2) ** half
+
+
+_PRECISE = Arithmetic(
+    name="precise",
+    convert=Fraction,
+    operations={
+        **OPERATORS,
+        "mul": lambda one, other: _short(one * other),
+        "div": lambda dividend, divisor: _short(dividend / divisor),
+        "sqrt": _root,
+        "select": lambda condition, yes, no: yes if condition else no,
+    },
+)

@@ -1,0 +1,215 @@
+"""Kernels for a mover that leans, along one axis or along any: their answers, their text, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.description import Description, described_by_json
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.kernel import description, emitted
+from hypcheck.kernel.specialise.leaning import FRAME_NAMES, leaning_search
+from hypcheck.kernel.specialise.plan import plan_of
+from hypcheck.runs import judge
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.vectors import families
+from tests.kernel.emission.building import (
+    COMMAND,
+    _module,
+    answers,
+    asking,
+    built,
+    needs,
+    skip_without,
+    worst_error,
+)
+from tests.kernel.emission.test_conformance import gated
+
+PITCHED = (0.3, 0.1, 1.0)
+TREES = (
+    Hyperboloid("oak", 0.61, 6.0, (5.0, -3.25, 0.375), Span(-0.9, 5.0)),
+    Hyperboloid("elm", 0.14, 10.0, (-4.5, 2.0, 0.0)),
+)
+
+
+def tower(axis, question="position"):
+    hyperboloid, region = Hyperboloid("tower", 2.0, 17.8), Region(z=Span(-17.8, 17.8))
+    return SceneModel("a tower", question, (hyperboloid,), Mover(0.25, 0.15, axis=axis), region)
+
+
+SCENES = {
+    "the tower, one axis": tower(PITCHED),
+    "the tower, any axis": tower(FREE),
+    "two trees, one axis": SceneModel("trees", "exterior", TREES, Mover(0.3, 0.9, axis=(1.0, -2.0, 0.5))),
+    "two trees, any axis": SceneModel("trees", "position", TREES, Mover(0.3, 0.9, axis=FREE)),
+}
+
+
+@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("name", ["the tower, one axis", "two trees, any axis"])
+def test_a_kernel_for_a_mover_that_leans_is_within_its_bound_and_always_answers(name, language, tmp_path):
+    skip_without(language)
+    plan = plan_of(SCENES[name])
+    kernel = asking(built(tmp_path, SCENES[name], language), language)
+
+    def answered(rows):
+        found = kernel(rows)
+        assert (found != CANNOT_SAY).all()
+        return found
+
+    worst, asked = worst_error(answered, plan, 32)
+    assert asked > 100
+    assert worst <= plan.bound_u
+
+
+@pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
+@needs("c")
+def test_a_kernel_for_a_mover_that_leans_answers_each_question_within_its_bound(question, tmp_path):
+    chosen = tower(FREE, question)
+    worst, asked = worst_error(asking(built(tmp_path, chosen, "c"), "c"), plan_of(chosen), 64)
+    assert asked > 100
+    assert worst <= plan_of(chosen).bound_u
+
+
+@needs("c")
+def test_a_kernel_for_one_axis_answers_cannot_say_for_another(tmp_path):
+    library = built(tmp_path, tower(PITCHED), "c")
+    rows = np.array([[2.0, 17.8, 0.25, 0.15, 0.0, 0.0, 0.0, *axis] for axis in (PITCHED, (0.3, 0.1, 1.1), (0, 0, 1))])
+    assert answers(library, rows).tolist() == [-1, CANNOT_SAY, CANNOT_SAY]
+
+
+@pytest.mark.parametrize("language", DIALECTS)
+def test_a_kernel_for_any_axis_answers_cannot_say_where_the_axis_is_no_direction(language, tmp_path):
+    skip_without(language)
+    kernel = asking(built(tmp_path, tower(FREE), language), language)
+    rows = [[2.0, 17.8, 0.25, 0.15, 2.2, 0.0, 0.0, *axis] for axis in ((0, 0, 0), (np.nan, 0, 1), (0, -np.inf, 1))]
+    beside = [2.0, 17.8, 0.25, 0.15, 2.2, 0.0, 0.0]  # contact where it is upright, exterior where it lies on its side
+    rows += [[*beside, 0.0, 0.0, -5e-324], [*beside, 1e308, 0.0, 0.0]]
+    found = (
+        kernel(np.array(rows)) if language not in {"c", "cpp", "rust"} else answers(_library(kernel), np.array(rows))
+    )
+    assert found.tolist() == [CANNOT_SAY, CANNOT_SAY, CANNOT_SAY, 0, 1]
+
+
+def _library(kernel):
+    return kernel.__closure__[0].cell_contents
+
+
+@pytest.fixture(scope="module")
+def last_stage(tmp_path_factory):
+    """The kernel's last stage in Python, for any sizes: what its other stages leave, asked of all rows."""
+    kernel = _module(built(tmp_path_factory.mktemp("leaning"), tower(FREE), "python"))
+
+    def ask(row, *, free):
+        axis = tuple(row[7:])
+        search = leaning_search(tuple(row[:4]), None if free else axis)
+        table = (*search.constants.values(), search.most, search.omega)
+        return kernel.leaning_search_free(*row[4:7], axis, table) if free else kernel.leaning_search(*row[4:7], table)
+
+    return ask
+
+
+@pytest.mark.parametrize("free", [False, True])
+@pytest.mark.parametrize("name", [name for name in families.TILTED_FAMILIES if not name.startswith("extreme")])
+def test_the_last_stage_is_right_or_within_1_u_on_every_family_of_tilted_spheroids(name, free, last_stage):
+    rows = families.TILTED_FAMILIES[name].rows(11, 24)
+    p, s, t = ((rows[:, [0, 1, 3]] / rows[:, [2]]) ** 2).T
+    rows = rows[(abs(np.log2(p)) < 39) & (abs(np.log2(s)) < 39) & (abs(np.log2(t)) < 23)]
+    truth = judge.exact_positions(rows)
+    found = np.array([last_stage(row, free=free) for row in rows.tolist()], np.int8)
+    asked = found != CANNOT_SAY
+    assert asked.mean() > 0.9
+    assert (found[found == 1] == truth[found == 1]).all()
+    assert (found[found == -1] == truth[found == -1]).all()
+    criterion = judge.Criterion("position", "float64", Fraction(1))
+    wrong = judge.wrong_cases(rows, truth, found, criterion)
+    assert all(judge.measured(case, "position") <= criterion.unit for case in wrong)
+
+
+def test_a_frame_is_that_of_the_pencil():
+    """Its rows make both matrices diagonal: M is the sum of their squares, D that of their squares over the poles."""
+    alpha, gamma, b, d = 2.0, 17.8, 0.25, 0.15
+    search = leaning_search((alpha, gamma, b, d), PITCHED)
+    of = {name: sum(map(Fraction, search.constants[name])) for name in FRAME_NAMES}
+    rows = [(of["r1x"], of["r1y"], 0), (of["r2x"], of["r2y"], of["r2z"]), (of["r3x"], of["r3y"], of["r3z"])]
+    axis = [Fraction(part) for part in PITCHED]
+    length = sum(part * part for part in axis)
+    inverse_b, inverse_d = 1 / Fraction(b) ** 2, 1 / Fraction(d) ** 2
+    hyperboloid = (1 / Fraction(alpha) ** 2, 1 / Fraction(alpha) ** 2, -1 / Fraction(gamma) ** 2)
+    for i in range(3):
+        for j in range(3):
+            spheroid = (inverse_b if i == j else 0) + (inverse_d - inverse_b) * axis[i] * axis[j] / length
+            squares = [row[i] * row[j] for row in rows]
+            assert abs(sum(squares) - spheroid) < Fraction(1, 2**90)
+            found = squares[0] / of["A1"] + squares[1] / of["A2"] - squares[2] / of["B"]
+            assert abs(found - (hyperboloid[i] if i == j else 0)) < Fraction(1, 2**90)
+
+
+@needs("c")
+def test_a_kernel_for_a_mover_that_leans_passes_the_conformance_run(tmp_path, capsys):
+    for name, scene in (("fixed", tower(PITCHED)), ("free", tower(FREE))):
+        folder = tmp_path / name
+        folder.mkdir()
+        ended, found = gated(folder, f"library:{built(folder, scene, 'c')}", 40)
+        assert ended == 0, capsys.readouterr()
+        assert found["worst_backward_error_u"] <= 1
+        assert found["asked"] >= 160
+
+
+@needs("c")
+def test_a_kernel_with_the_axis_turned_the_wrong_way_fails_the_conformance_run(tmp_path):
+    """The frame of another axis in the kernel of this one."""
+    turned = replace(tower(PITCHED), mover=Mover(0.25, 0.15, axis=(0.1, 0.3, 1.0)))
+    right, wrong = (emitted(plan_of(scene), "python", COMMAND) for scene in (tower(PITCHED), turned))
+
+    def frame_in(text):
+        start = text.index("FRAME_1 = (")
+        return text[start : text.index("\n)", start)]
+
+    (tmp_path / "kernel.py").write_text(right.replace(frame_in(right), frame_in(wrong)), encoding="utf-8")
+    ended, found = gated(tmp_path, f"python:{tmp_path / 'kernel.py'}:classify", 40)
+    assert ended == 1
+    assert found["wrong"] > 0
+
+
+@pytest.mark.parametrize("axis", [PITCHED, FREE])
+def test_the_description_of_a_kernel_for_a_mover_that_leans_names_its_axis(axis):
+    claimed = described_by_json(json.dumps(description(plan_of(tower(axis)), "c")), Description(""))
+    assert claimed.tilt
+    assert [setting.axis for setting in claimed.domain.settings] == [axis]
+
+
+@pytest.mark.parametrize(
+    ("scene", "precision", "message"),
+    [
+        (tower(PITCHED), "float32", "no kernel is made in float32: where the mover leans, kernels compute in float64"),
+        (replace(tower(PITCHED), mover=Mover(0.25, 1e-5, axis=FREE)), "float64", "where a spheroid leans, alpha/b"),
+    ],
+)
+def test_a_kernel_for_a_mover_that_leans_is_refused_in_one_sentence(scene, precision, message):
+    with pytest.raises(InputError, match=message):
+        plan_of(scene, precision)
+
+
+def test_a_proof_and_times_of_a_kernel_for_a_mover_that_leans_are_refused(tmp_path, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        'name = "s"\n[[hyperboloid]]\nalpha = 2.0\ngamma = 9.0\n[mover]\nb = 0.25\nd = 0.15\naxis = "free"\n',
+        encoding="utf-8",
+    )
+    kernel = tmp_path / "kernel.c"
+    emit = ["emit", "--scene", str(path), "--language", "c", "--output", str(kernel)]
+    assert main([*emit, "--proof", str(tmp_path / "proof.v")]) == 2
+    assert "Coq has no proof" in capsys.readouterr().err
+    assert not kernel.exists()
+    assert main(["plan", str(path), "--measure"]) == 2
+    assert "is not timed: its mover leans" in capsys.readouterr().err
+    assert main(["plan", str(path)]) == 0
+    assert "axis free" in capsys.readouterr().out
