@@ -120,13 +120,13 @@ def hunt(
     """Hunt until the budget is spent, and print the findings; after an interrupt, those until then."""
     from hypcheck.runs.hunt import Hunt, HuntPlan
 
-    if out is not None:
-        from hypcheck.vectors.freezing import require_keepable
-
-        require_keepable(str(out))
     plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
         _require_position(target, "hunt")
+        if out is not None:
+            from hypcheck.vectors.freezing import require_keepable
+
+            require_keepable(str(out), tilted=target.implementation.description.tilt)
         run = Hunt(target, plan)
         try:
             _hunt_with_bar(run)
@@ -171,17 +171,17 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
         click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
-        from hypcheck.geometry.pair import COLUMNS
+        from hypcheck.geometry.pair import COLUMNS, UPRIGHT
         from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         rows = [cluster.worst.case.row for cluster in found]
-        upright = [row for row in rows if len(row) == len(COLUMNS)]
-        added = keep_rows(str(out), upright, made_by) if upright else 0
-        there = "" if added == len(upright) else ", the others were there already"
-        tilted = len(rows) - len(upright)
-        left = f"; {counted(tilted, 'row')} of tilted spheroids left out" if tilted else ""
-        click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}{left}")
+        tilted = run.target.implementation.description.tilt
+        if tilted:
+            rows = [(*row, *UPRIGHT) if len(row) == len(COLUMNS) else row for row in rows]
+        added = keep_rows(str(out), rows, made_by, tilted=tilted)
+        there = "" if added == len(rows) else ", the others were there already"
+        click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}")
 
 
 def _exit_code(run: Hunt) -> Exit:

@@ -253,10 +253,10 @@ def _require_no_faults(faults: list[LabelFault]) -> None:
         )
 
 
-def require_keepable(path: str) -> None:
+def require_keepable(path: str, *, tilted: bool = False) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
     if Path(path).exists():
-        read_vectors(path)
+        read_tilted_vectors(path) if tilted else read_vectors(path)
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise InputError(f"cannot write {path}: there is no folder {folder}")
@@ -264,17 +264,31 @@ def require_keepable(path: str) -> None:
         raise InputError(f"cannot write {path}: permission denied")
 
 
-def keep_rows(path: str, rows: Sequence[Row], made_by: str) -> int:
+def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = False) -> int:
     """Add those rows to a vector file that it lacks, labelled and proved, and return their number.
 
-    A new file names `made_by` as the command that made it. Cases of an existing file stay as they are. Raises
-    InputError if the file is no vector file, or cannot be written.
+    With `tilted` all rows have ten numbers, and the file is one of tilted spheroids. A new file names `made_by` as the
+    command that made it. Cases of an existing file stay as they are. Raises InputError if the file is no such vector
+    file, or cannot be written.
     """
+    return _keep_tilted(path, rows, made_by) if tilted else _keep_upright(path, rows, made_by)
+
+
+def _keep_upright(path: str, rows: Sequence[Row], made_by: str) -> int:
     before = read_vectors(path) if Path(path).exists() else VectorFile(_found_metadata(made_by), {}, ())
     known = [(case.id, case.row) for case in before.cases]
     added = labelled(extended(before.head.name, known, rows)[len(known) :])
     with writing(path) as writer:
         writer.write(vectors_text(assembled(before.head, (*before.cases, *added))).encode())
+    return len(added)
+
+
+def _keep_tilted(path: str, rows: Sequence[Row], made_by: str) -> int:
+    before = read_tilted_vectors(path) if Path(path).exists() else TiltedVectorFile(_found_metadata(made_by), {}, ())
+    known = [(case.id, case.row) for case in before.cases]
+    added = labelled_tilted(extended(before.head.name, known, rows)[len(known) :])
+    with writing(path) as writer:
+        writer.write(tilted_vectors_text(assembled_tilted(before.head, (*before.cases, *added))).encode())
     return len(added)
 
 

@@ -16,6 +16,7 @@ from hypcheck.runs.minimise import same_tilted_pair
 from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.tilted.format import read_tilted_vectors
 from tests.tilted_fractions import exact_position
 
 UPRIGHT = "python:tests.runs.leaning:upright"
@@ -31,8 +32,12 @@ def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_
     row = tuple(map(float, shown.split(",")))
     assert len(row) == 10
     assert exact_position(row) != exact_position((*row[:7], 0.0, 0.0, 1.0))
-    assert "of tilted spheroids left out" in said
-    assert not out.exists()
+    kept = read_tilted_vectors(str(out))
+    assert f"{len(kept.cases)} rows added" in said
+    assert row in {case.row for case in kept.cases}
+    assert all(exact_position(case.row) == case.position for case in kept.cases)
+    assert main(["cases", "check", str(out)]) == 0
+    assert main(["replay", shown, UPRIGHT]) == 1
 
 
 def test_strata_have_tilted_families_where_the_implementation_takes_tilt():
