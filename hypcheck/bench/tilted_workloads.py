@@ -17,7 +17,7 @@ import numpy as np
 from hypcheck.bench.plan import NEAR_GAPS, NEAR_SCENES, WORKLOADS, BenchPlan, Workload
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Rows, tilted_rows
-from hypcheck.kernel.specialise.settings import REACH, Setting, pairs_of
+from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
 from hypcheck.scene.model import FREE, SceneModel, leans
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors.draw import Draw
@@ -164,7 +164,7 @@ def scene_workloads(name: str) -> dict[str, Workload]:
             f"the scene {scene.name!r} is not measured: the hyperboloid {lean.name!r} leans, and rows of ten numbers "
             "are about upright ones"
         )
-    settings = pairs_of(scene)
+    settings = settings_of(scene)
     if not settings:
         raise InputError(f"the scene {scene.name!r} is not measured: no hyperboloid's height meets its region")
     region, near = partial(_in_region, scene, settings), partial(_near_in_scene, scene, settings)

@@ -1,9 +1,11 @@
 """The compiled kernel (core/binding.c). Absent where it could not be compiled at install."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hypcheck.kernel.scalar import PositionFunction
 
 def ask(question: int, rows: NDArray[np.generic], answers: NDArray[np.generic], /) -> int: ...
 def ask_scene(
@@ -16,18 +18,9 @@ def ask_scene(
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
     /,
 ) -> int: ...
-def position(
-    alpha: float,
-    gamma: float,
-    b: float,
-    d: float,
-    x: float,
-    y: float,
-    z: float,
-    /,
-    *,
-    axis: Sequence[float] | None = None,
-) -> int: ...
+
+position: PositionFunction
+
 def call_each(address: int, rows: NDArray[np.generic], answers: NDArray[np.generic], repeat: int, /) -> None: ...
 def set_slow_position(function: Callable[..., int], /) -> None: ...
 def level() -> str: ...

@@ -16,10 +16,10 @@ power and both limits of the format, a few exponents to each side.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from hypcheck.derivation.float_format import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather
@@ -155,32 +155,18 @@ WHOLE_DOMAIN_FAMILIES = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class BinaryFormat:
-    """A binary float format: `bits` of significand, normal numbers in ±[2^lowest, 2^highest)."""
-
-    bits: int
-    lowest: int
-    highest: int
-
-
-FORMATS = {
-    "float16": BinaryFormat(11, -14, 16),
-    "float32": BinaryFormat(24, -126, 128),
-    "float64": BinaryFormat(53, -1022, 1024),
-}
 POWERS = (2, 4, 6, 8, 10, 12)
 GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS)
 
 
-def _limits(draw: Draw, n: int, form: BinaryFormat) -> Integers:
+def _limits(draw: Draw, n: int, form: FloatFormat) -> Integers:
     """Exponents near the format's limits in turn: overflow, underflow, and down to where subnormals end."""
-    over = form.highest + draw.integers(n, -3, 3)
-    under = form.lowest - draw.integers(n, -3, form.bits + 1)
+    over = form.overflow + draw.integers(n, -3, 3)
+    under = form.least - draw.integers(n, -3, form.bits + 1)
     return np.where(turns(n, True, False), over, under)
 
 
-def long_ratios(form: BinaryFormat) -> Maker:
+def long_ratios(form: FloatFormat) -> Maker:
     """Ratios that bring each intermediate to the limits of the format."""
 
     def make(draw: Draw, n: int) -> Rows:
@@ -191,7 +177,7 @@ def long_ratios(form: BinaryFormat) -> Maker:
         a, c = np.where(group == 1, plain, ratio), np.where(group == 0, plain, ratio * draw.between(n, 0.5, 2))
         b, d = ldexp(draw.mantissas(n), -(exponent(a) // 2)), ldexp(draw.mantissas(n), -(exponent(c) // 2))
         size = Sizes(a * b, c * d, b, d)
-        height = np.minimum(heights(draw, c), ldexp(c, np.full(n, form.highest // 4)))
+        height = np.minimum(heights(draw, c), ldexp(c, np.full(n, form.overflow // 4)))
         rows = beside(draw, size, height, offsets(draw, n))
         rows[:, 4:6] *= np.where(draw.signs(n) > 0, 1, 1 + draw.signs(n) * draw.log_uniform(n, -20, -1))[:, None]
         return fitted(rows, form)
@@ -199,7 +185,7 @@ def long_ratios(form: BinaryFormat) -> Maker:
     return make
 
 
-def long_units(form: BinaryFormat) -> Maker:
+def long_units(form: FloatFormat) -> Maker:
     """Ordinary ratios in units so large or small that a length, or its square, comes to the limits of the format."""
 
     def make(draw: Draw, n: int) -> Rows:
@@ -214,35 +200,35 @@ def long_units(form: BinaryFormat) -> Maker:
     return make
 
 
-def short_coordinates(form: BinaryFormat) -> Maker:
+def short_coordinates(form: FloatFormat) -> Maker:
     """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square comes to the lower limit."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
-        under = np.asarray(form.lowest - draw.integers(n, -3, form.bits + 1))
+        under = np.asarray(form.least - draw.integers(n, -3, form.bits + 1))
         for columns, chosen in (([4, 5], turns(n, True, False)), ([6], turns(n, False, True))):
             largest = np.abs(rows[:, columns]).max(axis=1)
-            shift = np.where(chosen & (largest > 0), np.maximum(under // 2, form.lowest) - exponent(largest), 0)
+            shift = np.where(chosen & (largest > 0), np.maximum(under // 2, form.least) - exponent(largest), 0)
             rows[:, columns] = ldexp(rows[:, columns], shift[:, None])
         return fitted(rows, form)
 
     return make
 
 
-def fitted(rows: Rows, form: BinaryFormat) -> Rows:
+def fitted(rows: Rows, form: FloatFormat) -> Rows:
     """The rows in the format's own normal numbers: each group in a unit that fits, rounded, small coordinates 0."""
     rows = rows.copy()
     for columns in GROUPS:
         rows[:, columns] = to_bits(_shifted(rows[:, columns], np.zeros(len(rows), dtype=np.int64), form), form.bits)
     coordinates = rows[:, 4:]
-    coordinates[np.abs(coordinates) < math.ldexp(1, form.lowest)] = 0
+    coordinates[np.abs(coordinates) < math.ldexp(1, form.least)] = 0
     return rows
 
 
-def _shifted(lengths: Rows, shift: Integers, form: BinaryFormat) -> Rows:
+def _shifted(lengths: Rows, shift: Integers, form: FloatFormat) -> Rows:
     """One group of lengths times 2^shift, or as near to that as keeps it within the format; sizes come first."""
-    most = form.highest - 2 - exponent(np.abs(lengths).max(axis=1))
-    least = form.lowest - exponent(lengths[:, :2].min(axis=1))
+    most = form.overflow - 2 - exponent(np.abs(lengths).max(axis=1))
+    least = form.least - exponent(lengths[:, :2].min(axis=1))
     return ldexp(lengths, np.minimum(np.maximum(shift, least), most)[:, None])
 
 
@@ -252,9 +238,9 @@ def subnormal(draw: Draw, n: int) -> Rows:
     group = turns(n, *range(4))
     for number, columns in enumerate(GROUPS):
         lengths = rows[:, columns]
-        for turn, form in enumerate(FORMATS.values()):
-            grid = form.lowest - form.bits + 1
-            first = draw.integers(n, grid + 1, form.lowest - 1) - exponent(lengths[:, 1])
+        for turn, form in enumerate(FLOAT_FORMATS.values()):
+            grid = form.least - form.bits + 1
+            first = draw.integers(n, grid + 1, form.least - 1) - exponent(lengths[:, 1])
             steps = np.rint(ldexp(lengths, (first - grid)[:, None]))
             steps[:, :2] = np.maximum(steps[:, :2], 1)
             chosen = (np.arange(n) % 3 == turn) & (group != 1 - number)
@@ -304,7 +290,9 @@ def _in_format(name: str, game: str, drone: str) -> Family:
         game=game,
         drone=drone,
         regimes="all four",
-        make=in_turn(long_ratios(FORMATS[name]), long_units(FORMATS[name]), short_coordinates(FORMATS[name])),
+        make=in_turn(
+            long_ratios(FLOAT_FORMATS[name]), long_units(FLOAT_FORMATS[name]), short_coordinates(FLOAT_FORMATS[name])
+        ),
         extreme=True,
     )
 

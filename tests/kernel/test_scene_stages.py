@@ -9,6 +9,7 @@ import pytest
 
 from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.float_format import FLOAT_FORMATS
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.description import representable
@@ -43,7 +44,7 @@ def at_entry(sizes, form, rows):
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("sizes", SIZES)
 def test_a_centre_beyond_a_line_has_the_position_that_the_line_proves(sizes, precision):
-    form, rows = FORMATS[precision], rows_for(sizes)
+    form, rows = FLOAT_FORMATS[precision], rows_for(sizes)
     rows = rows[representable(rows, precision)]
     scale, _, _, values = at_entry(sizes, form, rows)
     told = 0
@@ -62,7 +63,7 @@ def test_a_centre_beyond_a_line_has_the_position_that_the_line_proves(sizes, pre
 
 def test_a_line_without_its_margin_is_wrong_at_its_point_of_tangency():
     """Without the margin a line would claim centres that touch: its constants are at the limit."""
-    sizes, form = (1.0, 3.0, 1.0, 1.0), FORMATS["float64"]
+    sizes, form = (1.0, 3.0, 1.0, 1.0), FLOAT_FORMATS["float64"]
     scale = scaled(sizes, form)
     line = line_at(Fraction(1), scale, form, 1)  # √A: the tangent of the waist, R > (a + 1)² at Z = 0
     assert line is not None
@@ -72,13 +73,15 @@ def test_a_line_without_its_margin_is_wrong_at_its_point_of_tangency():
 @pytest.mark.parametrize("multiplier", [0, 64, -64, 10**6])
 def test_a_multiplier_outside_the_poles_gives_no_line(multiplier):
     with pytest.raises(ValueError, match="is not in"):
-        line_at(Fraction(multiplier), scaled((8.0, 8.0, 1.0, 1.0), FORMATS["float64"]), FORMATS["float64"], 1)
+        line_at(
+            Fraction(multiplier), scaled((8.0, 8.0, 1.0, 1.0), FLOAT_FORMATS["float64"]), FLOAT_FORMATS["float64"], 1
+        )
 
 
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("sizes", SIZES[:4])
 def test_beyond_its_bound_the_discriminant_has_its_exact_sign(sizes, precision):
-    form, rows = FORMATS[precision], rows_for(sizes, 256)
+    form, rows = FLOAT_FORMATS[precision], rows_for(sizes, 256)
     alpha, gamma, b, d = map(Fraction, sizes)
     corner = (2 * (alpha + b), 2 * (gamma + d))
     rows = rows[(np.abs(rows[:, 4:6]) <= float(corner[0])).all(axis=1) & (np.abs(rows[:, 6]) <= float(corner[1]))]
@@ -95,7 +98,7 @@ def test_beyond_its_bound_the_discriminant_has_its_exact_sign(sizes, precision):
 
 
 def test_a_discriminant_that_leaves_the_format_is_left_out():
-    sizes, form = (1e6, 1e6, 1e-6, 1e-6), FORMATS["float32"]
+    sizes, form = (1e6, 1e6, 1e-6, 1e-6), FLOAT_FORMATS["float32"]
     scale = scaled(sizes, form)
     first, constants = entry(scale)
     assert discriminant(scale, form, first, constants, (Fraction(10**6), Fraction(10**6))) is None
@@ -104,7 +107,7 @@ def test_a_discriminant_that_leaves_the_format_is_left_out():
 @pytest.mark.parametrize("sizes", SIZES[:4])
 @pytest.mark.parametrize("height", [0.0, 0.7, 40.0])
 def test_thresholds_part_the_positions(sizes, height):
-    form = FORMATS["float64"]
+    form = FLOAT_FORMATS["float64"]
     found = thresholds(sizes, height, scaled(sizes, form), form)
     radial = float(scaled(sizes, form).radial)
 
@@ -136,7 +139,7 @@ def test_only_a_region_with_one_answer_is_recognised_as_such():
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_rounded_gives_the_number_of_the_format_in_the_given_direction(name):
-    form = FORMATS[name]
+    form = FLOAT_FORMATS[name]
     dtype = np.dtype(name).type
     for value in (Fraction(1, 3), Fraction(-7, 11), Fraction(10) ** 30, Fraction(1, 3 * 2**100)):
         down, up, nearest = (form.rounded(value, way) for way in ("down", "up", "nearest"))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from hypcheck.derivation.float_format import FLOAT_FORMATS
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Rows
 from hypcheck.truth import exact
-from hypcheck.vectors import extremes
 from hypcheck.vectors.families import FAMILIES
 
 TABLE_2 = (
@@ -63,7 +63,7 @@ def test_each_intermediate_of_table_2_overflows_and_underflows(name: str, dtype:
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
 def test_subnormal_lengths_are_subnormal_in_each_format(dtype: type[np.floating]) -> None:
-    form = list(extremes.FORMATS).index(np.dtype(dtype).name)
+    form = list(FLOAT_FORMATS).index(np.dtype(dtype).name)
     rows = FAMILIES["extreme-subnormal"].rows(0, 900)[form::3]
     b, d = rows[:, 2], rows[:, 3]
     limits = np.finfo(dtype)

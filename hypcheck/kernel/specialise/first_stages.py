@@ -44,11 +44,12 @@ import numpy as np
 
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.float_format import FloatFormat
 from hypcheck.derivation.program import Program, program_of
 from hypcheck.geometry.pair import Lengths, Position, Sizes, to_integers
 from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import integers
-from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting
+from hypcheck.kernel.specialise.settings import ScaledSetting
 
 RADIAL, AXIAL = "radial_unit", "axial_unit"
 """Names of the two powers of two, where a kernel has them."""

@@ -49,12 +49,13 @@ from fractions import Fraction
 from math import isqrt
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.float_format import FloatFormat, power_of_two_near
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT
 from hypcheck.derivation.program import Program, cut, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel.specialise.first_stages import UNSCALED, entry
-from hypcheck.kernel.specialise.settings import FloatFormat, ScaledSetting, power_of_two_near
+from hypcheck.kernel.specialise.settings import ScaledSetting
 
 COEFFICIENTS = """
     V_across = VR * R

@@ -10,6 +10,7 @@ import numpy as np
 
 from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.float_format import FloatFormat
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
@@ -28,7 +29,6 @@ from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, dis
 from hypcheck.kernel.specialise.leaning import LeaningSearch, leaning_search
 from hypcheck.kernel.specialise.settings import (
     REACH,
-    FloatFormat,
     ScaledSetting,
     Setting,
     axis_of,

@@ -7,7 +7,6 @@ their squares could leave the format.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from hypcheck.derivation.float_format import FLOAT_FORMATS, FloatFormat, power_of_two_near
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats
@@ -68,11 +68,6 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     a hyperboloid leans.
     """
     _require_upright_hyperboloids(scene)
-    return pairs_of(scene)
-
-
-def pairs_of(scene: SceneModel) -> tuple[Setting, ...]:
-    """The same of any scene, as if nothing in it leaned: the sizes of its pairs, and where their centres can be."""
     found: dict[Sizes, Setting] = {}
     for setting in _pairs(scene):
         known = found.get(setting.sizes)
@@ -204,62 +199,15 @@ def _held(span: Span) -> Span:
     return Span(*(max(-LARGEST, min(end, LARGEST)) for end in (span.low, span.high)))
 
 
-Direction = Literal["nearest", "up", "down"]
-
-
-@dataclass(frozen=True, slots=True)
-class FloatFormat:
-    """A binary format: significant bits, and the exponents of its normal numbers, 2^least ≤ |v| < 2^(greatest + 1)."""
-
-    name: str
-    bits: int
-    least: int
-    greatest: int
-
-    @property
-    def unit(self) -> Fraction:
-        """u, the largest relative error of one rounding to nearest."""
-        return Fraction(1, 2**self.bits)
-
-    def rounded(self, value: Fraction, direction: Direction = "nearest") -> float:
-        """The number of the format next to `value`; raises OverflowError beyond its normal range, 0 aside."""
-        if value == 0:
-            return 0.0
-        exponent = _floor_log2(abs(value))
-        if not self.least <= exponent <= self.greatest:
-            raise OverflowError(f"a number near 2^{exponent} is no normal number of {self.name}")
-        step = Fraction(2) ** (exponent - self.bits + 1)
-        units = value / step
-        return float(_whole(units, direction) * step)
-
-
-FORMATS = {
-    "float32": FloatFormat("float32", 24, -126, 127),
-    "float64": FloatFormat("float64", 53, -1022, 1023),
-}
+FORMATS = ("float32", "float64")
+"""The formats that a kernel computes in."""
 
 
 def format_of(precision: str) -> FloatFormat:
     """The format by its name; raises InputError."""
     if precision not in FORMATS:
         raise InputError(f"the precision is {precision!r}; a kernel computes in {' or '.join(FORMATS)}")
-    return FORMATS[precision]
-
-
-def power_of_two_near(value: Fraction) -> Fraction:
-    """The largest power of two that is not above `value` > 0."""
-    return Fraction(2) ** _floor_log2(value)
-
-
-def _whole(value: Fraction, direction: Direction) -> int:
-    if direction == "nearest":
-        return round(value)
-    return math.ceil(value) if direction == "up" else math.floor(value)
-
-
-def _floor_log2(value: Fraction) -> int:
-    exponent = value.numerator.bit_length() - value.denominator.bit_length()
-    return exponent if Fraction(2) ** exponent <= value else exponent - 1
+    return FLOAT_FORMATS[precision]
 
 
 ORDINARY = {"float32": Fraction(2) ** 16, "float64": Fraction(2) ** 100}
