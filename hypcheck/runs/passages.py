@@ -2,8 +2,8 @@
 
 A wrong answer is measured by the least relative change of b and d together that makes it right
 (truth/passage_error.py). A time is right from the first contact of the spheroid grown by the tolerance to that of the
-spheroid shrunk by it; a wrong one is measured by the way between it and the first contact, in spheroid radii:
-(Δx² + Δy²)/b² + Δz²/d² is the square of the whole way.
+spheroid shrunk by it; a wrong one is measured by the way between it and the first contact, in spheroid radii: of an
+upright spheroid, (Δx² + Δy²)/b² + Δz²/d² is the square of the whole way.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.geometry.pair import UPRIGHT
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Floats, Indices, Mask, Positions, Rows
 from hypcheck.implementations.ways import rough_exponent
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
@@ -113,10 +114,15 @@ def radii_off(row: Row, time: float) -> float:
 
 
 def way_in_radii(row: Row) -> float:
-    """The length of the way in spheroid radii, those along the axis and across it each in their own."""
+    """The length of the way in spheroid radii, those along the spheroid's axis and across it each in their own."""
     b, d = row[2:4]
-    x, y, z = (end - start for start, end in zip(row[4:7], row[7:10], strict=True))
-    return math.hypot(x / b, y / b, z / d)
+    step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
+    largest = max(map(abs, row[len(WAYS.upright) :]), default=0.0)
+    axis = [each / largest for each in row[len(WAYS.upright) :]] or UPRIGHT
+    length = math.hypot(*axis)
+    along = sum(each / length * part for each, part in zip(axis, step, strict=True))
+    across = [part - along * each / length for each, part in zip(axis, step, strict=True)]
+    return math.hypot(*(part / b for part in across), along / d)
 
 
 def _wrong_time(index: int, row: Row, time: float) -> WrongCase:

@@ -11,7 +11,7 @@ import pytest
 from hypcheck.implementations.questions import Answered
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.judges import judge_of
-from hypcheck.runs.passages import passage_of, radii_off
+from hypcheck.runs.passages import passage_of, radii_off, way_in_radii
 from hypcheck.runs.score import score
 from hypcheck.vectors.families import WAY_FAMILIES
 from tests.tools.mutants import passages
@@ -129,6 +129,14 @@ def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_t
     row = (*BODY, *BY_HAND["runs into the waist"][0], *BY_HAND["runs into the waist"][1])
     assert radii_off(row, 0.75) == pytest.approx(1.0)  # a quarter of a way of 4 radii
     assert radii_off(row, 0.25) == pytest.approx(1.0)
+
+
+def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
+    sizes, start, end = (1.0, 2.0, 0.5, 0.25), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0)
+    assert way_in_radii((*sizes, *start, *end)) == 6.0
+    assert way_in_radii((*sizes, *start, *end, 0.0, 0.0, 1e300)) == 6.0
+    assert way_in_radii((*sizes, *start, *end, -1e-300, 0.0, 0.0)) == 12.0
+    assert way_in_radii((*sizes, *start, *end, 1.0, 1.0, 0.0)) == pytest.approx(3 * math.hypot(4, 2) / 2**0.5)
 
 
 def test_answer_that_cannot_say_is_not_wrong(rows):

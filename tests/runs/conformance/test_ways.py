@@ -1,0 +1,81 @@
+"""Conformance runs of implementations that answer about ways: verdicts, records, reports and what is refused."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.geometry.rows import WAYS
+from hypcheck.implementations.session import Allowance
+from hypcheck.record import read
+from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.runs.cases import CaseChunk
+from hypcheck.runs.results import CasesResult, PendingRetest
+from hypcheck.runs.resume import restored_state, saved_state
+from hypcheck.runs.schedule import RunState
+from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
+from tests.tools.miniatures import function
+
+FEW = ("--families", "way-tunnelling", "--count", "6")
+ROW = (1.0, 2.0, 1.0, 1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def verified(folder, *words):
+    return main(["verify", *words, "--out", str(folder)])
+
+
+def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_path):
+    assert verified(tmp_path, "builtin:passage-sampled-4", *FEW) == 1
+    (group,) = (line for line in read(tmp_path).of(GroupLine))
+    assert group.question == "passage"
+    assert group.counts == {"wrong": 6}
+    assert set(group.mistakes) <= {"false-clear", "late"}
+    for case in group.worst:
+        assert len(case.row) == 7
+        assert len(case.end) == 3
+        assert (case.mistake == "late") is bool(case.time)
+    (line,) = read(tmp_path).of(ImplementationLine)
+    assert line.used.times is True
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    counted = summary["implementations"][0]["mistakes"]
+    assert counted["false-clear"] + counted.get("late", 0) == 6
+    report = (tmp_path / "report.md").read_text()
+    assert "in contact on the way" in report
+
+
+def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
+    assert verified(tmp_path, function("passage"), *FEW) == 0
+    (group,) = (line for line in read(tmp_path).of(GroupLine))
+    assert group.counts == {"right": 6}
+    (line,) = read(tmp_path).of(ImplementationLine)
+    assert (line.again.asked, line.again.within, line.again.beyond) == (6, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("builtin:passage-exact", "--families", "ring"), "ring: no case of these is about the question 'passage'"),
+        (("builtin:fast", "--families", "way-anywhere"), "no case of these is about the question 'position'"),
+        (("builtin:fast", "--question", "passage"), 'its description must say "question": "passage"'),
+    ],
+)
+def test_families_and_questions_that_do_not_fit_together_are_refused(words, sentence, tmp_path, capsys):
+    assert verified(tmp_path, *words) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_progress_keeps_ways_and_times():
+    worst = WorstCase((1, 0), "way-anywhere/1/1/0", ROW, 1, 1, "late", "wrong", 0.5, 0.75)
+    lost = UnansweredCase((1, 1), "way-anywhere/1/1/1", (*ROW, 0.0, 3.0, 4.0), "crash", "it crashed")
+    pending = PendingRetest(
+        CaseChunk("way-anywhere", 1, 2, 4), np.arange(2), np.array([1, 0], dtype=np.int8), np.array([0.25, np.nan])
+    )
+    total = CasesResult({"way-anywhere": Tally(asked=2, worst=(worst,), unanswered=(lost,))}, (pending,))
+    back = restored_state(saved_state(RunState(Allowance(1, 1), 1, total), WAYS)).total
+    assert back.tallies["way-anywhere"].worst == (worst,)
+    assert back.tallies["way-anywhere"].unanswered == (lost,)
+    np.testing.assert_array_equal(back.pending[0].times, pending.times)
+    assert back.pending[0].answers.tolist() == [1, 0]
