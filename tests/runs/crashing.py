@@ -20,11 +20,7 @@ ENVIRONMENT = {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()}
 
 
 def steps_of(names, count):
-    return list(
-        steps_of_chunks(
-            (chunk for name in names for chunk in cases.family_chunks(FAMILIES[name], 1, count)), refuses=False
-        )
-    )
+    return list(steps_of_chunks(chunk for name in names for chunk in cases.family_chunks(FAMILIES[name], 1, count)))
 
 
 def rules_of(it):

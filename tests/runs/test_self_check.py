@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from hypcheck.record import read
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import DriftLine, OracleLine, TimingLine
 from hypcheck.runs import oracles, self_check
+from tests.support.shared_folders import made_once
 
 SMALL = ["--count", "6", "--workers", "1", "--families", "ring,tangent"]
 MORE = ["--count", "12", "--families", "ring,tangent,tower-body,regime-borders"]
@@ -33,9 +35,14 @@ def exit_code(tmp_path):
 
 
 @pytest.fixture(scope="module")
-def derived():
+def derived(tmp_path_factory):
     """The derivation, made once for all tests here, because it is the same in every run."""
-    return self_check.check_equations(), self_check.prove_formulas()
+
+    def make(folder):
+        (folder / "derived").write_bytes(pickle.dumps((self_check.check_equations(), self_check.prove_formulas())))
+
+    made = made_once(tmp_path_factory, "derivation", make) / "derived"
+    return pickle.loads(made.read_bytes())  # noqa: S301 - it was written a moment ago
 
 
 def shorten(monkeypatch, derived):

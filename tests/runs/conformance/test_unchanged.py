@@ -128,7 +128,7 @@ print("late", sorted(name for name in set(sys.modules) - before[0] if name.split
     [("too_clear", ""), ("dies_on_the_axis", "sys.modules.update(matplotlib=None, jinja2=None)")],
 )
 def test_hypcheck_imports_no_module_of_its_own_after_foreign_code_has_started(tmp_path, name, before):
-    words = ["verify", f"python:tests.runs.faulty:{name}", "--families", "axis,ring", "--count", "9"]
+    words = ["verify", f"python:tests.runs.faulty:{name}", "--families", "axis,ring", "--count", "9", "--restarts", "2"]
     done = subprocess.run(
         [sys.executable, "-c", LATE.format(before=before), *words, "--out", str(tmp_path / "out")],
         capture_output=True,
