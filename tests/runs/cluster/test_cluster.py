@@ -71,7 +71,7 @@ def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client
 
 
 def test_only_cases_that_kill_their_worker_end_as_crashes(client):
-    some = steps_of(["uniform", "tower-body"], 4000)
+    some = steps_of(["uniform", "tower-body"], 2600)
     culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
     reason = "4 workers of the cluster ended while they asked these cases"

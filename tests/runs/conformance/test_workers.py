@@ -39,7 +39,7 @@ def small(monkeypatch):
 
 
 def test_only_cases_that_kill_their_worker_end_as_crashes(monkeypatch):
-    some = steps_of(["uniform", "tower-body"], 4000)
+    some = steps_of(["uniform", "tower-body"], 2600)
     culprit, others = without_culprit(some)
     expected = here(KILLS, others).total
     for name, value in ENVIRONMENT.items():
