@@ -12,7 +12,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.description import Description, described_by_json
+from hypcheck.implementations.description import Description, described_by_json, domain_of
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.leaning import FRAME_NAMES, leaning_search
@@ -76,6 +76,19 @@ def test_a_kernel_for_a_mover_that_leans_answers_each_question_within_its_bound(
     worst, asked = worst_error(asking(built(tmp_path, chosen, "c"), "c"), plan_of(chosen), 64)
     assert asked > 100
     assert worst <= plan_of(chosen).bound_u
+
+
+@needs("c")
+def test_a_kernel_for_a_mover_that_leans_never_errs_about_clear_where_everything_is_contracted(tmp_path):
+    """An FMA where a product is taken apart would lose its lower half; some of the answers +1 and -1 are wrong then."""
+    options = ("-O3", "-march=native", "-ffp-contract=fast")
+    library = built(tmp_path, tower(FREE), "c", "float64", *options)
+    (setting,) = domain_of(description(plan_of(tower(FREE)), "c")["domain"], "the domain").settings
+    beside = next(family for family in families.families_for((setting,)) if family.name.startswith("leaning-beside"))
+    rows = beside.rows(0, 3000)
+    truth, found = judge.exact_positions(rows), answers(library, rows)
+    assert (found[found != 0] == truth[found != 0]).all()
+    assert ((found == 0) & (truth != 0)).sum() < 10
 
 
 @needs("c")
