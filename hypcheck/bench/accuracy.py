@@ -201,13 +201,15 @@ def _worst(scored: Score, exponents: Floats, given: MethodAnswers) -> list[Mista
     cases = [
         Mistaken(
             case=f"{given.workload}/{int(given.places[index])}",
-            **row_fields(row),
+            row=fields["row"],
+            axis=fields["axis"],
             truth=int(scored.truth[index]),
             answer=answer,
             flip_distance=Unsigned(judge.about_error_of(row, answer, scored.criterion.question)),
         )
         for index in tried
         for row, answer in [(scored.rows[index].tolist(), int(scored.answers[index]))]
+        for fields in [row_fields(row)]
     ]
     return sorted(cases, key=lambda case: -case.flip_distance)[:WORST_KEPT]
 
