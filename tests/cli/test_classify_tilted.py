@@ -13,7 +13,7 @@ from hypcheck.tables.numbers import exact_text
 from hypcheck.truth.tilted.pair import TiltedPair
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
-from tests.tilted_fractions import combined, derivative, exact_position, interpolated, matrices, value
+from tests.support.tilted_fractions import combined, derivative, exact_position, interpolated, matrices, value
 
 
 def options(row):

@@ -11,7 +11,7 @@ from hypcheck.implementations.description import Domain, claimed, representable
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.protocol import row_text
 from hypcheck.implementations.session import StartError
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 from tests.tools.miniatures import LIMITS, command, compiled, function, rows, signs, truth
 
 SHARED = ("-shared", "-fPIC")

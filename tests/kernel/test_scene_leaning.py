@@ -17,7 +17,7 @@ from hypcheck.kernel.scene_pairs import is_within_height, position_leaning, with
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 
 CONTACT, EXTERIOR, INTERIOR, SILENT = 0, 1, -1, 2
 

@@ -16,7 +16,7 @@ from hypcheck.kernel import integers, tilted_integers
 from hypcheck.kernel.core import tilted
 from hypcheck.kernel.programs.tilted_integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
-from tests.tilted_fractions import exact_position, interpolated, matrices
+from tests.support.tilted_fractions import exact_position, interpolated, matrices
 
 
 def small_rows(seed, count):

@@ -13,7 +13,7 @@ from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel.programs import tilted
 from hypcheck.kernel.programs.certified import SLACK, U
 from tests.kernel.test_tilted_integers import small_rows
-from tests.tilted_fractions import derivative, exact_position, interpolated, matrices, value
+from tests.support.tilted_fractions import derivative, exact_position, interpolated, matrices, value
 
 EXACTLY = {name: Fraction(each) for name, each in tilted.CONSTANTS.items()}
 

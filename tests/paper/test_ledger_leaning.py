@@ -11,7 +11,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import entries, leaning
 from hypcheck.paper.ledger.leaning import first_change
 from hypcheck.truth.tilted.pair import TiltedPair
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from hypcheck.paper.pitch import Lean, PitchVerdicts, leaning_interior, near_wal
 from hypcheck.paper.quadcopter import any_angle, craft_of
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.scene.reading import read_scene
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 
 TOWER = read_scene("tower")
 CRAFT = craft_of(TOWER)

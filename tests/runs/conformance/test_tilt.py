@@ -29,7 +29,7 @@ from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.runs import leaning
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 
 pytestmark = [pytest.mark.usefixtures("text_reports"), pytest.mark.slow]
 

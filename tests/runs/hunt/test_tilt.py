@@ -17,7 +17,7 @@ from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.tilted.format import read_tilted_vectors
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 
 UPRIGHT = "python:tests.runs.leaning:upright"
 ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)

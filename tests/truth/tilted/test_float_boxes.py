@@ -15,7 +15,7 @@ from hypcheck.truth.tilted.backward_error import goal_of, is_limit, is_out_of_re
 from hypcheck.truth.tilted.float_boxes import Enclosures
 from hypcheck.truth.tilted.pair import TiltedLengths
 from hypcheck.vectors import frozen
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 from tests.tools.tilted_agreement import rows
 
 FAMILIES = ("tilted-uniform", "tilted-near-contact", "tilted-tangent", "tilted-stiff", "tilted-twins", "extreme-tilted")

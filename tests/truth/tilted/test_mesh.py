@@ -11,7 +11,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.truth.mesh import availability
 from hypcheck.truth.tilted import mesh
 from hypcheck.truth.tilted.pair import TiltedPair
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
 

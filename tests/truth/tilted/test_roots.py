@@ -11,7 +11,7 @@ from hypcheck.truth.tilted import roots
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.truth.tilted.roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
 from hypcheck.vectors import frozen
-from tests.tilted_fractions import exact_position, interpolated, matrices, value
+from tests.support.tilted_fractions import exact_position, interpolated, matrices, value
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
 

@@ -24,7 +24,7 @@ from hypcheck.vectors.labels import faults_of_invalid_rows
 from hypcheck.vectors.tilted.format import CASE_FIELDS, read_tilted_vectors, tilted_vectors_text
 from hypcheck.vectors.tilted.labels import faults_of_tilted, shows_tilted_crossing
 from tests.support.records import violations
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
 STEP = 40
