@@ -22,6 +22,9 @@ ROWS = (
     (4.0, 4.0, 1e-300, 1.0, 4.0, 0.1, 1e10),
 )
 COLUMNS = ("alpha", "gamma", "b", "d", "x", "y", "z")
+AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, -1e-300), (-1.0, 0.5, 0.0))
+TILTED_ROWS = tuple((*row, *axis) for row, axis in zip(ROWS, AXES, strict=True))
+TILTED_COLUMNS = (*COLUMNS, "axis_x", "axis_y", "axis_z")
 
 SEPARATOR = b"\x1e\x1e"
 """Between what an implementation says to one question and to the next."""
@@ -37,17 +40,17 @@ def case_file(name: str, wanted: int) -> bytes:
 
 @cache
 def case_files() -> tuple[bytes, ...]:
-    return tuple(case_file(name, 2) for name in ("ring", "tangent", "uniform", "extreme-float64"))
+    return tuple(case_file(name, 2) for name in ("ring", "tangent", "uniform", "extreme-float64", "tilted-twins"))
 
 
 @cache
 def proved_files() -> tuple[bytes, ...]:
-    return tuple(case_file(name, 1) for name in ("ring", "tangent", "small-integers"))
+    return tuple(case_file(name, 1) for name in ("ring", "tangent", "small-integers", "tilted-tangent"))
 
 
 @cache
 def refusal_files() -> tuple[bytes, ...]:
-    return (case_file("invalid", 4),)
+    return case_file("invalid", 4), case_file("tilted-invalid", 4)
 
 
 @cache
@@ -79,7 +82,7 @@ def _written(line: dict) -> bytes:
 
 @cache
 def scenes() -> tuple[bytes, ...]:
-    return (*(shipped_text(name).encode()[:4000] for name in shipped_scenes()), SCENE)
+    return (*(shipped_text(name).encode()[:4000] for name in shipped_scenes()), SCENE, LEANING)
 
 
 SCENE = b"""\
@@ -106,6 +109,21 @@ angle = 45.0
 [region]
 x = [-1, 1]
 z = 0.0
+"""
+
+LEANING = b"""\
+name = "a leaning pole"
+question = "position"
+[[hyperboloid]]
+name = "pole"
+alpha = 0.5
+gamma = 10.0
+center = [0, 0, 0]
+axis = [0, 1, 8]
+[mover]
+b = 0.25
+d = 0.15
+axis = [1, 0, 2.5]
 """
 
 KNOWN_FAILURES = b"""\
@@ -141,7 +159,7 @@ memory = "512M"
 
 _DESCRIPTION = (
     b'{"protocol":1,"name":"mine","version":"1.0","language":"c","precision":"float64","question":"position",'
-    b'"domain":{"regimes":["a>=1","c2>=a"],"ratio":[1e-3,1e3],"magnitude":[1e-6,1e6]},"refuses":true,"binary":false}'
+    b'"domain":{"regimes":["a>=1","c2>=a"],"ratio":[1e-3,1e3],"magnitude":[1e-6,1e6]},"refuses":true,"binary":false,"tilt":true}'
 )
 DESCRIPTIONS = (_DESCRIPTION, b'{"protocol":1,"name":"brief"}')
 SETTINGS_DOMAIN = b'{"settings":[{"sizes":[2.0,17.8,0.25,0.15],"z":[-17.8,17.8]},{"sizes":[1,2,1e-3,1],"x":[0,0]}]}'
@@ -185,26 +203,26 @@ WORKERS = tuple(
 )
 
 
-def _csv() -> bytes:
-    lines = [",".join((*COLUMNS, "note")), *(",".join((*map(repr, row), '"a, b"')) for row in ROWS)]
+def _csv(columns=COLUMNS, rows=ROWS) -> bytes:
+    lines = [",".join((*columns, "note")), *(",".join((*map(repr, row), '"a, b"')) for row in rows)]
     return "\n".join(lines).encode() + b"\n"
 
 
-def _jsonl() -> bytes:
-    rows = [{**dict(zip(COLUMNS, row, strict=True)), "note": 'α "'} for row in ROWS]
-    return b"".join(json.dumps(row).encode() + b"\n" for row in rows)
+def _jsonl(columns=COLUMNS, rows=ROWS) -> bytes:
+    objects = [{**dict(zip(columns, row, strict=True)), "note": 'α "'} for row in rows]
+    return b"".join(json.dumps(each).encode() + b"\n" for each in objects)
 
 
-def _npy(version: tuple[int, int], order: str) -> bytes:
+def _npy(version: tuple[int, int], order: str, rows=ROWS) -> bytes:
     file = io.BytesIO()
-    np.lib.format.write_array(file, np.array(ROWS, order=order), version=version)
+    np.lib.format.write_array(file, np.array(rows, order=order), version=version)
     return file.getvalue()
 
 
 TABLE_FILES = {
-    "csv": (_csv(), _csv().replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + _csv()),
-    "jsonl": (_jsonl(), b"\xef\xbb\xbf" + _jsonl()),
-    "npy": (_npy((1, 0), "C"), _npy((1, 0), "F"), _npy((2, 0), "C")),
+    "csv": (_csv(), _csv().replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + _csv(), _csv(TILTED_COLUMNS, TILTED_ROWS)),
+    "jsonl": (_jsonl(), b"\xef\xbb\xbf" + _jsonl(), _jsonl(TILTED_COLUMNS, TILTED_ROWS)),
+    "npy": (_npy((1, 0), "C"), _npy((1, 0), "F"), _npy((2, 0), "C"), _npy((1, 0), "C", TILTED_ROWS)),
 }
 assert set(TABLE_FILES) == set(TABLES)
 
@@ -224,6 +242,9 @@ CASES = (
     b"razor@2.0,17.8,0.25,0.15,z=-17.8:17.8/1/1/7",
     b"tower-body/1/0/17",
     b"2,5,1,1,3,0,0",
+    b"2,5,1,0.5,2.5,0,0,1,0,0x1p-3",
+    b"tilted-invalid-0003",
+    b"tilted-ring/1/1/7",
     b"0x1p+1,5,1,1,0x1.8p+1,-0.0,0",
     b"record.jsonl:2",
     b"tower-*,ring",
@@ -233,6 +254,8 @@ ARGUMENTS = (
     b"classify\n--alpha\n1\n--gamma\n2\n--b\n1\n--d\n1\n--center\n2.5\n0\n0\n--json",
     b"replay\n2,5,1,1,3,0,0\nbuiltin:table-2-float64\n--tolerance\n8\n--memory\n4G\n--timeout\n10\n--restarts\n2",
     b'replay\nring-0007\nbuiltin:table-2-float32\n--domain\n{"ratio":[0.1,10]}\n--question\nposition\n--startup-timeout\n3',
+    b"classify\n--alpha\n1\n--gamma\n2\n--b\n1\n--d\n1\n--center\n2.5\n0\n0\n--axis\n1\n0\n-2",
     b"cases\nshow\nring-0007\n--json",
+    b"cases\nshow\ntilted-twins-0003\n--json",
     b"record\ncheck\nrecord.jsonl",
 )

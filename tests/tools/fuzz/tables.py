@@ -12,9 +12,11 @@ import warnings
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair
+from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED
 from hypcheck.tables.chunk import ADDED
 from hypcheck.truth import exact
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 
 MOST = 12
 """Rows whose answers are looked at."""
@@ -31,11 +33,17 @@ def _csv(given: bytes, answers: bytes) -> None:
     (names, *rows), (header, *written) = map(_cells, (given, answers))
     assert header == [*names, *ADDED]
     assert [row[: -len(ADDED)] for row in written] == rows
-    columns = [[name.strip() for name in names].index(column) for column in COLUMNS]
+    stripped = [name.strip() for name in names]
+    columns = [stripped.index(column) for column in _columns(stripped)]
     for row, out in itertools.islice(zip(rows, written, strict=True), MOST):
         values = [row[column] for column in columns]
         numbers = map(float, values) if all(map(_DECIMAL.fullmatch, values)) else (math.nan,)
         assert out[-len(ADDED)] == str(_right(numbers)), out
+
+
+def _columns(names) -> tuple[str, ...]:
+    """Those that say what is asked: with the axis where a table has it."""
+    return (*COLUMNS, *AXIS) if {*AXIS} <= {*names} else COLUMNS
 
 
 def _cells(text: bytes) -> list[list[str]]:
@@ -47,7 +55,7 @@ def _jsonl(given: bytes, answers: bytes) -> None:
     rows, written = map(_objects, (given, answers))
     assert [{name: row[name] for name in row if name not in ADDED} for row in written] == rows
     for row, out in itertools.islice(zip(rows, written, strict=True), MOST):
-        values = [row[name] for name in COLUMNS]
+        values = [row[name] for name in _columns(row)]
         assert out["position"] == _right(values if {*map(type, values)} <= {int, float} else (math.nan,)), out
 
 
@@ -69,5 +77,8 @@ def _npy(given: bytes, answers: bytes) -> None:
 def _right(numbers) -> int:
     """The answer about a row, REFUSED where it is none."""
     row = [float(number) for number in numbers]
-    valid = all(map(math.isfinite, row)) and min(row[:4]) > 0
-    return int(exact.position(Pair.from_row(row).lengths)) if valid else REFUSED
+    valid = all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == len(COLUMNS) or any(row[7:]))
+    if not valid:
+        return REFUSED
+    pair = pair_of(row)
+    return int((tilted_exact if isinstance(pair, TiltedPair) else exact).position(pair.lengths))
