@@ -42,8 +42,8 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
 
-    Every method is judged by the flip distance of the rows it answers wrongly, then timed in fresh processes, in rounds
-    of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
+    Every method is judged by how far from right the rows it answers wrongly are, then timed in fresh processes, in
+    rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
     With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
     ratios are to another reference. So it is with a scene whose mover leans.

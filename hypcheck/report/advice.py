@@ -1,6 +1,6 @@
 """Which method to use when: rules over the figures of a benchmark, and the section that states the advice.
 
-A method is *reliable above* a flip distance on a workload if at most 1 in 1000 of its answers beyond that distance is
+A method is *reliable above* a distance on a workload if at most 1 in 1000 of its answers beyond that distance is
 wrong. Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless the need says
 otherwise. Methods whose intervals overlap with that of the fastest, or that differ from it by less than the noise, are
 named with it.
@@ -32,7 +32,7 @@ from hypcheck.report.messages import figure, listed, with_interval
 from hypcheck.report.model import BATCH, SINGLE, MeasuredMethod, measured_methods, noise_floor, reference, workloads
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
-"""Flip distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
+"""Distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
 
 BEYOND = "reliable beyond"
 """The beginning of a need that is about a distance."""
@@ -264,7 +264,7 @@ def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) ->
 _HOW = prose(
     "The fastest method that meets the need, by its ratio to the run's reference; nanoseconds are this machine's."
     " Methods that are as fast within the intervals or the noise of the run are named beside it. *Reliable above* a"
-    " flip distance: at most 1 in 1000 answers beyond it is wrong, on every workload that the need covers. A need"
+    " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that the need covers. A need"
     " without a line of its own is met by the advice for a stricter one. Methods that were not measured are not"
     " advised: gate a method on your own scene before you rely on it."
 )

@@ -56,7 +56,7 @@ class StatusChange:
 
 @dataclass(frozen=True, slots=True)
 class AccuracyChange:
-    """A method whose errors changed on a workload: [wrong, asked], and the flip distance above which it is reliable."""
+    """A method whose errors changed on a workload: [wrong, asked], and the distance above which it is reliable."""
 
     method: str
     workload: str

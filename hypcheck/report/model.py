@@ -314,7 +314,7 @@ class MeasuredMethod:
 
     @property
     def reliable_above(self) -> float:
-        """The flip distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
+        """The distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
         return max((float(line.reliable_above) for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:

@@ -2,8 +2,8 @@
 
 Each label of a file is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
 the certificate alone (truth/certificate.py and shows_crossing, rational arithmetic); the roots give the kind, the
-nearest point the clearance. Labels are made by the exact decision, which shares nothing with these. Flip distances rest
-on exact decisions and are computed anew, and so are the flags.
+nearest point the clearance. Labels are made by the exact decision, which shares nothing with these.
+Distances to other answers rest on exact decisions and are computed anew, and so are the flags.
 """
 
 from __future__ import annotations

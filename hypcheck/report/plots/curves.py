@@ -1,4 +1,4 @@
-"""Share of wrong answers against flip distance: one curve a method, for a verification and for a benchmark.
+"""Share of wrong answers against distance: one curve a method, for a verification and for a benchmark.
 
 If none of n answers was wrong, the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
 three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn as a hollow triangle that points down.
@@ -61,7 +61,7 @@ _LOG2_10 = math.log2(10)
 
 @dataclass(frozen=True, slots=True)
 class Octave:
-    """Cases whose flip distance is in [2^exponent, 2^(exponent + width)), or which are exact tangencies (TANGENT)."""
+    """Cases whose distance is in [2^exponent, 2^(exponent + width)), or which are exact tangencies (TANGENT)."""
 
     exponent: float
     asked: int
@@ -70,7 +70,7 @@ class Octave:
 
     @property
     def middle(self) -> float:
-        """The log2 of the flip distance in its middle."""
+        """The log2 of the distance in its middle."""
         return self.exponent + self.width / 2
 
     @property
@@ -140,7 +140,7 @@ def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
 def _description(curves: Sequence[Curve]) -> str:
     """The plot in words."""
     said = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
-    return f"Share of wrong answers against flip distance, both logarithmic. {'; '.join(said)}."
+    return f"Share of wrong answers against distance to the other answer, both logarithmic. {'; '.join(said)}."
 
 
 def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
@@ -156,7 +156,7 @@ def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
         ticks = [(left, "0"), *(tick for tick in ticks if tick[0] > low)]
         axes.axvline((left + low) / 2, color=colour("soft"), linewidth=0.8, linestyle=(0, (1, 3)))
     axes.set_xticks([place for place, _ in ticks], [label for _, label in ticks])
-    axes.set_xlabel("flip distance (relative change of the inputs)")
+    axes.set_xlabel("distance to the other answer (relative change of the inputs)")
     log_axis(axes, "y", min((octave.share for octave in octaves), default=0.1) / 1.6, 1.5)
     axes.set_ylabel("share of wrong answers")
     return left

@@ -120,7 +120,7 @@ ENOUGH = 3000
 
 @dataclass(frozen=True, slots=True)
 class ParetoPoint:
-    """A method: nanoseconds a row, and the flip distance above which at most 1 answer in 1000 is wrong (0: none)."""
+    """A method: nanoseconds a row, and the distance above which at most 1 answer in 1000 is wrong (0: none)."""
 
     name: str
     tier: str
@@ -276,7 +276,7 @@ def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, f
         axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
     axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
     axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
-    axes.set_ylabel("at most 1 in 1000 wrong above this flip distance")
+    axes.set_ylabel("at most 1 in 1000 wrong above this distance")
     times = [point.time_ns for point in found]
     least, most = min(times) / 2, max(times) * 3
     log_axis(axes, "x", least, most)

@@ -34,7 +34,7 @@ PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
 _JUDGED_AND_TIMED = "the record has no method that was both judged and timed"
 
 FILES = {
-    "errors": ("Share of wrong answers against flip distance", "the record has no errors by distance"),
+    "errors": ("Share of wrong answers against distance", "the record has no errors by distance"),
     "pareto": ("Error against run time", _JUDGED_AND_TIMED),
     "front": ("Error against run time", _JUDGED_AND_TIMED),
 }

@@ -60,7 +60,8 @@ HEAT = tuple((f"share-{place}", words) for place, (_, words) in enumerate(STEPS)
 _BAD = {status.value for status in Status} - {"right", "skipped", "tolerated", "refused", "excused"}
 
 _FAMILY_DISTANCE = prose(
-    "The *flip distance* of a case is the least relative change of its inputs that leads to another position. A method"
+    "The *distance to the other answer* is the least relative change of a case's inputs that leads to another position;"
+    " of a tilted spheroid, what it is proved to be at least. A method"
     " whose errors end at a distance can be trusted beyond it. All families together, tolerated answers among the"
     " wrong; a point stands for up to three octaves."
 )
@@ -177,7 +178,8 @@ def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays
 
 
 _WORKLOAD_DISTANCE = prose(
-    "The *flip distance* of a case is the least relative change of its inputs that leads to another position: a method"
+    "The *distance to the other answer* is the least relative change of a case's inputs that leads to another position:"
+    " a method"
     " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
 _FRONT = prose(
@@ -185,12 +187,13 @@ _FRONT = prose(
     " Every mark has a tooltip. The *worst of all workloads* includes those that are only judged, such as the ring."
 )
 _TABLE = prose(
-    "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*: the flip"
-    " distance beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there is no such distance."
+    "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*:"
+    " the distance to the other answer beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there"
+    " is no such distance."
 )
 FRONT = Figures("front", "error against run time near contact, and with the errors of all workloads", "front.svg")
 PARETO = Figures("pareto", "error against run time on the other workloads", "pareto.svg")
-ERRORS = Figures("errors", "share of wrong answers against flip distance", "errors.svg")
+ERRORS = Figures("errors", "share of wrong answers against distance to the other answer", "errors.svg")
 
 _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
