@@ -27,7 +27,7 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 gc.disable()
 
 SLOW = {
-    "": "action processes wheel",
+    "": "action processes tutorial wheel",
     "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
     "cli": "completion detach exits pytest_plugin settings startup",
     "derivation": "formulas proofs repaired_formulas rounding",

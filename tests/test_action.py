@@ -124,9 +124,13 @@ def test_options_that_the_action_names_are_options_of_verify():
 
 @pytest.mark.parametrize(
     ("given", "what"),
-    [({"ACTION": "/an action"}, "/an action[report]"), ({"VERSION": "0.2.0"}, "hypcheck[report]==0.2.0")],
+    [
+        ({"ACTION": "/an action"}, "/an action[report]"),
+        ({"FROM": "dist/hypcheck-1.2.0-py3-none-any.whl"}, "dist/hypcheck-1.2.0-py3-none-any.whl[report]"),
+        ({"FROM": "git+https://example.org/h.git@v1"}, "hypcheck[report] @ git+https://example.org/h.git@v1"),
+    ],
 )
-def test_the_action_installs_its_own_version_or_the_one_that_is_named(tmp_path, given, what):
+def test_the_action_installs_itself_or_what_is_named_and_asks_no_package_index_for_a_name(tmp_path, given, what):
     lines = step_run("Install", tmp_path, **given)
     assert lines[:4] == ["python3", "-m", "venv", "--system-site-packages"]
     assert lines[5:8] == ["hypcheck/bin/python", "-m", "pip"]

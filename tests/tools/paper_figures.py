@@ -1,4 +1,7 @@
-"""The pictures of docs/figures.md, redrawn from simulations: `python -m tests.tools.paper_figures` (`make figures`)."""
+"""The pictures of docs/figures.md, redrawn from simulations, and the README's of the two bodies.
+
+`python -m tests.tools.paper_figures` (`make figures`) writes them.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ import numpy as np
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.report.plots import forest_walk, paper_figures
+from hypcheck.report.plots import bodies, forest_walk, paper_figures
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import standalone
 from hypcheck.report.plots.tower import flights
@@ -42,11 +45,21 @@ def pictures() -> dict[str, bytes]:
         }
 
 
+BODIES = DOCS / "figures" / "bodies.svg"
+
+
+def bodies_picture() -> bytes:
+    """The picture of the two bodies, which takes no simulation."""
+    with styled():
+        return standalone(bodies.plot())
+
+
 def main() -> None:
     """Write them."""
     DRAWN_WITH.parent.mkdir(exist_ok=True)
     for name, content in pictures().items():
         (DOCS / name).write_bytes(content)
+    BODIES.write_bytes(bodies_picture())
     DRAWN_WITH.write_text(versions(), encoding="utf-8")
 
 

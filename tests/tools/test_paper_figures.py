@@ -8,8 +8,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from hypcheck.report.plots import paper_figures
-from tests.tools.paper_figures import DOCS, DRAWN_WITH, pictures, versions
+from hypcheck.geometry.pair import Position
+from hypcheck.report.plots import bodies, paper_figures
+from tests.support.fractions_truth import exact_position
+from tests.tools.paper_figures import BODIES, DOCS, DRAWN_WITH, bodies_picture, pictures, versions
 
 PAGE = (DOCS / "figures.md").read_text(encoding="utf-8")
 
@@ -38,6 +40,24 @@ def test_a_figure_is_fresh(name):
 def test_a_picture_of_a_simulation_is_fresh(name):
     """`make figures` draws it anew."""
     assert (DOCS / "simulate" / f"{name}.svg").read_bytes() == pictures()[f"simulate/{name}.svg"]
+
+
+@pytest.mark.skipif(
+    DRAWN_WITH.read_text(encoding="utf-8") != versions(),
+    reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
+)
+def test_the_picture_of_the_two_bodies_is_fresh():
+    """`make figures` draws it anew."""
+    assert BODIES.read_bytes() == bodies_picture()
+
+
+def test_the_picture_of_the_two_bodies_is_the_first_of_the_readme_and_names_sizes_and_positions():
+    readme = (DOCS.parent / "README.md").read_text(encoding="utf-8")
+    assert re.findall(r"\]\(([\w/-]+\.svg)\)", readme)[0] == "docs/figures/bodies.svg"
+    texts = {"".join(each.itertext()).strip() for each in ElementTree.fromstring(BODIES.read_bytes()).iter()}  # noqa: S314
+    rows = [(bodies.ALPHA, bodies.GAMMA, bodies.B, bodies.D, x, 0.0, z) for x, z in bodies.CENTRES]
+    assert {exact_position(row) for row in rows} == {1, 0, -1}
+    assert {"α", "γ", "b", "d", "waist, z = 0", *(each.label for each in Position)} <= texts
 
 
 def test_each_picture_has_a_title_and_a_description():
