@@ -69,12 +69,12 @@ def ask_exact(rows: Rows) -> list[Opinion]:
         decision = exact.decide(pair.lengths)
         found = prove.prove(pair, decision)
         proved = found.position is decision.position and certificate.check_certificate(pair, found)
-        opinions.append(
-            Opinion(decision.position, decision.tangent, decision.kind.value, "proved")
-            if proved
-            else Opinion(None, stage="certificate refused")
-        )
+        opinions.append(_if_proved(decision.position, decision.tangent, decision.kind.value, proved=proved))
     return opinions
+
+
+def _if_proved(position: Position, tangent: bool, kind: str | None, *, proved: bool) -> Opinion:
+    return Opinion(position, tangent, kind, "proved") if proved else Opinion(None, stage="certificate refused")
 
 
 def ask_nearest(rows: Rows) -> list[Opinion]:
@@ -122,11 +122,7 @@ def ask_exact_tilted(rows: Rows) -> list[Opinion]:
         decision = tilted_exact.decide(pair.lengths)
         found = tilted_prove.prove(pair, decision)
         proved = found.position is decision.position and tilted_certificate.check_certificate(pair, found)
-        opinions.append(
-            Opinion(decision.position, decision.tangent, None, "proved")
-            if proved
-            else Opinion(None, stage="certificate refused")
-        )
+        opinions.append(_if_proved(decision.position, decision.tangent, None, proved=proved))
     return opinions
 
 

@@ -46,29 +46,28 @@ from hypcheck.vectors.tilted.format import TiltedVectorFile, read_tilted_vectors
 
 INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
 EXPECTED = "refused"
-_INVALID = Metadata(
-    name=INVALID_NAME,
-    version=1,
-    title="rows that must be refused",
+
+
+def _to_be_refused(name: str, title: str, **described: str) -> Metadata:
+    made_by = f"hypcheck cases freeze {name}"
+    return Metadata(name=name, version=1, title=title, **described, regimes="none", extreme=False, made_by=made_by)
+
+
+_INVALID = _to_be_refused(
+    INVALID_NAME,
+    "rows that must be refused",
     source="semi-axes that are 0, negative, infinite or NaN, centres that are infinite or NaN, alone and together",
     purpose="squares hide a sign, comparisons with NaN are false, and 0/0 reads as contact: a bad row gets an answer",
     game="a corrupted object collides with everything, or with nothing",
     drone="a sensor's NaN is answered as clear",
-    regimes="none",
-    extreme=False,
-    made_by=f"hypcheck cases freeze {INVALID_NAME}",
 )
-_TILTED_INVALID = Metadata(
-    name=TILTED_INVALID_NAME,
-    version=1,
-    title="rows of tilted spheroids that must be refused",
+_TILTED_INVALID = _to_be_refused(
+    TILTED_INVALID_NAME,
+    "rows of tilted spheroids that must be refused",
     source="axes that are 0, infinite or NaN, alone and beside bad sizes and centres",
     purpose="an axis of 0 has no direction, and normalising it gives NaN, which compares as contact",
     game="an object whose orientation was never set collides with everything, or with nothing",
     drone="a failed attitude estimate is answered as clear",
-    regimes="none",
-    extreme=False,
-    made_by=f"hypcheck cases freeze {TILTED_INVALID_NAME}",
 )
 INVALID_METADATA = {INVALID_NAME: _INVALID, TILTED_INVALID_NAME: _TILTED_INVALID}
 """What the files of rows without an answer say at their heads."""
