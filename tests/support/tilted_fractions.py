@@ -1,4 +1,4 @@
-"""Expected positions of tilted spheroids, from the 4×4 matrices alone, in fractions.
+"""Expected positions of tilted spheroids, from the 4×4 matrices alone, in fractions and whole numbers.
 
 The spheroid is exterior where S + λH is positive definite for some λ > 0, interior where it is for some λ < 0, and in
 contact otherwise. det(S + λH) is interpolated from five determinants; between each two of its neighbouring real roots
@@ -8,15 +8,16 @@ sequence of the squarefree part. Nothing of the kernel's formulas is used.
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from itertools import pairwise
 
 
 def exact_position(row, hyperboloid=(0, 0, 1)):
     """+1, 0 or −1 for alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, beside a hyperboloid with that axis."""
-    S, H = matrices(row, hyperboloid)
+    S, H = map(whole, matrices(row, hyperboloid))
     samples = between_roots(interpolated(S, H))
-    sides = {1 if at > 0 else -1 for at in samples if at and positive_definite(combined(S, H, at))}
+    sides = {1 if at > 0 else -1 for at in samples if at and positive_definite(whole(combined(S, H, at)))}
     assert len(sides) <= 1
     return sides.pop() if sides else 0
 
@@ -39,6 +40,12 @@ def matrices(row, hyperboloid=(0, 0, 1)):
     return S, H
 
 
+def whole(matrix):
+    """The matrix times the least positive number that makes it whole: signs of minors stay, and so does that of λ."""
+    times = math.lcm(*(each.denominator for line in matrix for each in line))
+    return [[int(each * times) for each in line] for line in matrix]
+
+
 def combined(S, H, at):
     return [[S[i][j] + at * H[i][j] for j in range(4)] for i in range(4)]
 
@@ -59,7 +66,7 @@ def positive_definite(matrix):
 
 def interpolated(S, H):
     """The coefficients of det(S + λH), lowest first, from its values at λ = 0 … 4."""
-    values = [determinant(combined(S, H, Fraction(at))) for at in range(5)]
+    values = [determinant(combined(S, H, at)) for at in range(5)]
     total = [Fraction(0)] * 5
     for at, value in enumerate(values):
         basis, scale = [Fraction(1)], Fraction(1)
@@ -90,7 +97,7 @@ def divided(poly, by):
 
 
 def derivative(poly):
-    return trimmed([k * each for k, each in enumerate(poly)][1:] or [Fraction(0)])
+    return trimmed([k * each for k, each in enumerate(poly)][1:] or [0])
 
 
 def value(poly, at):
@@ -100,31 +107,51 @@ def value(poly, at):
     return total
 
 
+def primitive(poly):
+    """The polynomial times a positive number: whole coefficients without a common divisor."""
+    (numbers,) = whole([poly])
+    return [each // (math.gcd(*numbers) or 1) for each in numbers]
+
+
+def sign(poly, at):
+    """The sign of a polynomial with whole coefficients at a rational number."""
+    total, scale = 0, 1
+    for each in reversed(poly):
+        total, scale = total * at.numerator + each * scale, scale * at.denominator
+    return (total > 0) - (total < 0)
+
+
+def remainder(poly, by):
+    """The remainder times a positive number, in whole numbers."""
+    return primitive(divided(list(map(Fraction, poly)), by)[1])
+
+
 def between_roots(poly):
     """A rational number in each gap between neighbouring real roots, and one beyond the first and the last."""
-    common, other = poly, derivative(poly)
+    common, other = primitive(poly), primitive(derivative(poly))
     while any(other):
-        common, other = other, divided(common, other)[1]
-    free, _ = divided(poly, common)
-    chain = [trimmed(free), derivative(free)]
+        common, other = other, remainder(common, other)
+    free = primitive(trimmed(divided(poly, common)[0]))
+    chain = [free, derivative(free)]
     while len(chain[-1]) > 1:
-        rest = divided(chain[-2], chain[-1])[1]
+        rest = remainder(chain[-2], chain[-1])
         if not any(rest):
             break
         chain.append([-each for each in rest])
 
     def below(at):
-        signs = [each > 0 for each in (value(one, at) for one in chain) if each]
+        signs = [each for each in (sign(one, at) for one in chain) if each]
         return -sum(a != b for a, b in pairwise(signs))
 
-    bound = 1 + max(abs(each / free[-1]) for each in free)
+    largest = max(abs(each) for each in free) // abs(free[-1])
+    bound = Fraction(1 << (1 + largest).bit_length())  # more than 1 + |each coefficient / the first|
     found, open_parts = [-bound, bound], [(-bound, bound)]
     while open_parts:
         low, high = open_parts.pop()
         if below(high) - below(low) < 2:
             continue
         middle = (low + high) / 2
-        while value(free, middle) == 0:
+        while sign(free, middle) == 0:
             middle = (low + middle) / 2
         found.append(middle)
         open_parts += [(low, middle), (middle, high)]
