@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
-from hypcheck.truth.tilted.certificate import Matrix, Point, TiltedCertificate, check_certificate, matrices, pivots
+from hypcheck.truth.tilted.certificate import Matrix, Point, TiltedCertificate, check_certificate, matrices
 
 Rationals = tuple[Fraction, ...]
 
@@ -63,11 +63,13 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     S, H = matrices(place(row, last))
     M, D = [each[:3] for each in S[:3]], [H[i][i] for i in range(3)]
     for multiplier, end in certificate.pieces:
-        form = [[M[i][j] + (i == j) * multiplier * D[i] for j in range(3)] for i in range(3)]
-        if not last < end <= 1 or min(pivots(form)) <= 0:
+        if not last < end <= 1:
             return None
+        form = [[M[i][j] + (i == j) * multiplier * D[i] for j in range(3)] for i in range(3)]
         centres = [place(row, time).row[len(SIZES) :] for time in (last, end)]
-        solved = [_solved(form, [a * b for a, b in zip(D, centre, strict=True)]) for centre in centres]
+        solved = _solved(form, [[a * b for a, b in zip(D, centre, strict=True)] for centre in centres])
+        if solved is None:
+            return None
         images = [[sum((a * b for a, b in zip(line, each, strict=True)), Fraction(0)) for line in M] for each in solved]
         first, middle, final = (
             multiplier * sum((a * b for a, b in zip(centres[i], images[j], strict=True)), Fraction(0)) - 1 - multiplier
@@ -79,15 +81,17 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     return last if certificate.pieces else None
 
 
-def _solved(matrix: Matrix, right: list[Fraction]) -> list[Fraction]:
-    """The solution of a linear system with a positive definite matrix, by elimination."""
-    rows = [[*line, each] for line, each in zip(matrix, right, strict=True)]
-    for i in range(3):
-        for j in range(3):
-            if j != i and rows[j][i]:
-                factor = rows[j][i] / rows[i][i]
-                rows[j] = [a - factor * b for a, b in zip(rows[j], rows[i], strict=True)]
-    return [rows[i][3] / rows[i][i] for i in range(3)]
+def _solved(matrix: Matrix, right: Sequence[Sequence[Fraction]]) -> Matrix | None:
+    """The solutions of a linear system for each right side, by elimination; None unless all three pivots are > 0."""
+    rows = [[*line, *(each[i] for each in right)] for i, line in enumerate(matrix)]
+    for i, row in enumerate(rows):
+        if row[i] <= 0:
+            return None
+        for other in rows[:i] + rows[i + 1 :]:
+            if other[i]:
+                factor = other[i] / row[i]
+                other[:] = [a - factor * b for a, b in zip(other, row, strict=True)]
+    return [[row[3 + place] / row[i] for i, row in enumerate(rows)] for place in range(len(right))]
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:

@@ -69,11 +69,11 @@ class Family(FamilyDescription):
         return self.layout.tilted if self.tilted else self.layout.upright
 
     def block(self, seed: int, number: int) -> Rows:
-        """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, 7 or 10), all valid."""
+        """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""
         return self.make(Draw(self.name, self.version, seed, number), BLOCK)
 
     def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
-        """Rows start to stop − 1 of the seed by columns, float64 (7 or 10, stop − start); those before are not made."""
+        """Rows start to stop − 1 of the seed by columns, (len(columns), stop − start); those before are not made."""
         columns = np.empty((len(self.columns), stop - start))
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
@@ -90,7 +90,7 @@ class Family(FamilyDescription):
         return self.make(Draw.of_blocks(names), (last - first) * BLOCK)
 
     def rows(self, seed: int, count: int) -> Rows:
-        """The first `count` rows of the seed: float64 (count, 7 or 10), as `columns` says, all valid.
+        """The first `count` rows of the seed: float64 (count, len(columns)), all valid.
 
         A shorter call gives the beginning of a longer one. Raises InputError for a negative seed or count.
         """
@@ -103,7 +103,10 @@ SCHEMA = "1.0.0"
 """The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
 
 TILTED_SCHEMA = "1.1.0"
-"""The version of the schemas of files about tilted spheroids; a reader refuses any other than these two."""
+"""The version of the schemas of files about tilted spheroids."""
+
+WAY_SCHEMA = "1.2.0"
+"""The version of the schemas of files about ways; a reader refuses any other than these three."""
 
 Row = tuple[float, ...]
 Offset = tuple[Fraction, Fraction, Fraction]

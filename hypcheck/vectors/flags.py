@@ -158,6 +158,18 @@ FLAGS: dict[str, FlagFacts] = {
 }
 """Every flag of upright spheroids, in the order in which a case has them."""
 
+WAY_FLAGS: dict[str, FlagFacts] = {
+    "tunnelling": FlagFacts("both ends are clear, on one side, and there is contact between them", "sampling"),
+    "tangent": FlagFacts("the surfaces are tangent at the time of the proof; tangency is contact", "equality"),
+    "contact-at-start": FlagFacts("the first contact is at t = 0", "open interval"),
+    "contact-at-end-alone": FlagFacts("the first contact is at t = 1, exactly", "open interval"),
+    "still": FlagFacts("both ends are one point", "degenerate input"),
+    "vertical-way": FlagFacts("x and y do not change, z does", "degenerate input"),
+    "horizontal-way": FlagFacts("z does not change, x or y do", "degenerate input"),
+    "upright": FlagFacts("the axis is given, and is vertical or that of a sphere", "degenerate input"),
+}
+"""The flags of ways, in the order in which a case has them."""
+
 TILTED_FLAGS: dict[str, FlagFacts] = {
     "tangent": FLAGS["tangent"],
     "quartic-ring": FlagFacts("clear, though the discriminant of det(S + λH) is 0", "missing case"),

@@ -14,13 +14,21 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Position, trouble_with
+from hypcheck.geometry.pair import (
+    COLUMNS,
+    TILTED_COLUMNS,
+    TILTED_WAY_COLUMNS,
+    WAY_COLUMNS,
+    Position,
+    trouble_with,
+)
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.family import (
     SCHEMA,
     TILTED_SCHEMA,
+    WAY_SCHEMA,
     FlagFacts,
     Metadata,
     Offset,
@@ -29,7 +37,7 @@ from hypcheck.vectors.family import (
     Vector,
     VectorFile,
 )
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 
 Case = TypeVar("Case")
 
@@ -39,13 +47,30 @@ POSITIONS, INVALID = "positions", "refusals"
 TILTED_POSITIONS, TILTED_INVALID = "tilted-positions", "tilted-refusals"
 """The same of rows of ten numbers."""
 
-SCHEMAS = {POSITIONS: SCHEMA, INVALID: SCHEMA, TILTED_POSITIONS: TILTED_SCHEMA, TILTED_INVALID: TILTED_SCHEMA}
+WAYS, TILTED_WAYS = "ways", "tilted-ways"
+"""Ways, rows of ten numbers, and those of spheroids that lean, rows of thirteen."""
+
+SCHEMAS = {
+    POSITIONS: SCHEMA,
+    INVALID: SCHEMA,
+    TILTED_POSITIONS: TILTED_SCHEMA,
+    TILTED_INVALID: TILTED_SCHEMA,
+    WAYS: WAY_SCHEMA,
+    TILTED_WAYS: WAY_SCHEMA,
+}
 """The version of the schema of each content."""
 
-COLUMNS_OF = {POSITIONS: COLUMNS, INVALID: COLUMNS, TILTED_POSITIONS: TILTED_COLUMNS, TILTED_INVALID: TILTED_COLUMNS}
+COLUMNS_OF = {
+    POSITIONS: COLUMNS,
+    INVALID: COLUMNS,
+    TILTED_POSITIONS: TILTED_COLUMNS,
+    TILTED_INVALID: TILTED_COLUMNS,
+    WAYS: WAY_COLUMNS,
+    TILTED_WAYS: TILTED_WAY_COLUMNS,
+}
 """The numbers of a row of each content."""
 
-_FLAGS_OF = {POSITIONS: FLAGS, TILTED_POSITIONS: TILTED_FLAGS}
+_FLAGS_OF = {POSITIONS: FLAGS, TILTED_POSITIONS: TILTED_FLAGS, WAYS: WAY_FLAGS, TILTED_WAYS: WAY_FLAGS}
 
 MEMBERS = ("schema", "content", "family", "flags", "count")
 HEAD_FIELDS = tuple(Metadata.__dataclass_fields__)
@@ -76,10 +101,10 @@ def content_of(document: JsonDocument, path: str) -> str:
         if name not in document.members:
             raise InputError(f"{path}: the document lacks {name}")
     place, version = document.members["schema"]
-    if version not in (SCHEMA, TILTED_SCHEMA):
+    if version not in (SCHEMA, TILTED_SCHEMA, WAY_SCHEMA):
         raise InputError(
-            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r} and, of tilted spheroids, "
-            f"{TILTED_SCHEMA!r}"
+            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, of tilted spheroids "
+            f"{TILTED_SCHEMA!r}, and of ways {WAY_SCHEMA!r}"
         )
     place, content = document.members["content"]
     known = [name for name, of in SCHEMAS.items() if of == version]
@@ -267,21 +292,23 @@ def witness_of(place: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN4
         )
     ((name, proof),) = value.items()
     if name == "multiplier":
-        return StoredCertificate(multiplier=_rational(place, name, proof))
+        return StoredCertificate(multiplier=rational_at(place, name, proof))
     if name == "double_root":
-        return StoredCertificate(double_root=_rational(place, name, proof))
+        return StoredCertificate(double_root=rational_at(place, name, proof))
     points = listed(place, "points", proof)
     if not 1 <= len(points) <= 2:
         raise InputError(f"{place}: points has {len(points)} points; it must have one or two")
-    return StoredCertificate(offsets=tuple(_offset(place, point) for point in points))
+    return StoredCertificate(offsets=tuple(offset_of(place, point) for point in points))
 
 
-def _offset(place: JsonPlace, value: Any) -> Offset:  # noqa: ANN401 - JSON
-    s, t, w = (_rational(place, "a point", part) for part in listed(place, "a point", value, 3))
+def offset_of(place: JsonPlace, value: Any) -> Offset:  # noqa: ANN401 - JSON
+    """Three fractions. Raises InputError."""
+    s, t, w = (rational_at(place, "a point", part) for part in listed(place, "a point", value, 3))
     return (s, t, w)
 
 
-def _rational(place: JsonPlace, what: str, value: Any) -> Fraction:  # noqa: ANN401 - JSON
+def rational_at(place: JsonPlace, what: str, value: Any) -> Fraction:  # noqa: ANN401 - JSON
+    """A fraction in lowest terms, as a text. Raises InputError."""
     text = text_of(place, what, value)
     try:
         return rational_of(text)

@@ -1,0 +1,488 @@
+"""Families of ways: rows of ten numbers, or of thirteen with an axis, with the traps that a way has beside its ends.
+
+First where ways are put (between two places beside the surface, through a place where the surfaces touch), then the
+generators, then the families. What is said to touch does so exactly: places come from the constructions of tangencies
+and rings, and both ends of a way are checked to be without rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hypcheck.derivation.float_arithmetic import two_sum
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.vectors import double_roots, random_pairs
+from hypcheck.vectors.double_roots import gather, in_metres
+from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
+from hypcheck.vectors.scenes import BODY, TOWER
+from hypcheck.vectors.tangency import tangent
+from hypcheck.vectors.tilted import coincidences
+from hypcheck.vectors.tilted import families as leaning
+
+_CENTRE = slice(4, 7)
+
+
+def between(rows: Rows, ends: Rows) -> Rows:
+    """The ways from the centres of rows (n, 7 or 10) to those of `ends`, (n, 3): (n, 10 or 13), no negative zeros."""
+    return np.concatenate([rows[:, :7], ends, rows[:, 7:]], axis=1) + 0.0
+
+
+def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
+    """Ways through the centres of rows, a step before and `after` steps behind, and which have exact ends."""
+    centres, ways = rows[:, _CENTRE], rows.copy()
+    (start, lost), (end, missed) = two_sum(centres, -steps), two_sum(centres, steps * after[:, None])
+    ways[:, _CENTRE] = start
+    moved = (start != end).any(axis=1)
+    return between(ways, end), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
+
+
+def _beside(draw: Draw, size: Sizes) -> Rows:
+    return random_pairs.beside(draw, size, heights(draw, size.c), offsets(draw, len(size.b)))
+
+
+def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
+    """Half of them all around the surface, half within three radii of the start, in each direction."""
+    far, near = _beside(draw, size)[:, _CENTRE], start[:, _CENTRE].copy()
+    for place, reach in enumerate((size.b, size.b, size.d)):
+        near[:, place] += 3 * reach * draw.between(len(near), -1, 1)
+    return np.where(turns(len(near), True, True, False, False, False)[:, None], far, near)
+
+
+def uniform(draw: Draw, n: int) -> Rows:
+    """All regimes, both ends all around the surface, or near to each other."""
+    size = sizes(draw, *all_regimes(draw, n))
+    start = random_pairs.beside(draw, size, heights(draw, size.c), 2 * offsets(draw, n))
+    return between(start, _ends(draw, size, start))
+
+
+def tower(draw: Draw, n: int) -> Rows:
+    """The paper's body in its tower, down through the waist and out: about as near to the wall as it may come."""
+    size = Sizes(*(np.full(n, value) for value in TOWER + BODY))
+    cosine, sine = draw.circle(n)
+    radius = draw.between(n, 1.5, 1.9)
+    top, bottom = draw.between(n, 4, 18), draw.between(n, -18, -4)
+    rows = random_pairs.stack(size, radius * cosine, radius * sine, top)
+    aside = draw.between(n, -0.25, 0.25)
+    end = np.stack([radius * cosine - aside * sine, radius * sine + aside * cosine, bottom], axis=1)
+    return between(rows, end)
+
+
+def tunnelling(draw: Draw, n: int) -> Rows:
+    """Both ends outside, or inside above and below, and the surface between them: steps far too long."""
+    size = sizes(draw, *all_regimes(draw, n))
+    cosine, sine = draw.circle(n)
+    reach = size.alpha * draw.log_uniform(n, 0, 5) + size.b * draw.between(n, 1, 3)
+    height = size.gamma * draw.between(n, -0.5, 0.5)
+    rows = random_pairs.stack(size, reach * cosine, reach * sine, height)
+    across = np.stack([-rows[:, 4], -rows[:, 5], rows[:, 6] + size.d * draw.between(n, -1, 1)], axis=1)
+    tall = size.gamma * draw.log_uniform(n, 4, 8) * (1 + size.b / size.alpha) + 4 * size.d
+    narrow = size.alpha * draw.unit(n)
+    down = np.stack([narrow * cosine, narrow * sine, -tall], axis=1)
+    inner = turns(n, False, False, True)[:, None]
+    rows[:, _CENTRE] = np.where(inner, down * [1, 1, -1], rows[:, _CENTRE])
+    return between(rows, np.where(inner, down, across))
+
+
+def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Through an outer tangency along the surface's horizontal section, which bends away."""
+    found = double_roots.by_ratios(draw, n)
+    rows = in_metres(draw, np.where(found.usable[:, None], found.rows, 1.0))
+    share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
+    steps = np.stack([-rows[:, 5] * share, rows[:, 4] * share, np.zeros(n)], axis=1)
+    ways, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
+    return ways, exact & found.usable & found.outer & found.tangent
+
+
+def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Up or down through an inner tangency at the waist, which is the narrowest place."""
+    rows = gather(draw, n, double_roots.waist_points)
+    rows = in_metres(draw, rows)
+    radius = np.sqrt(rows[:, 4] ** 2 + rows[:, 5] ** 2)
+    steps = np.zeros((n, 3))
+    steps[:, 2] = rows[:, 1] * ldexp(draw.signs(n), draw.integers(n, -6, 3))
+    ways, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
+    return ways, exact & (radius < rows[:, 0])
+
+
+def grazing(draw: Draw, n: int) -> Rows:
+    """Exact tangency at one instant, clear before and after, outside and inside."""
+    return in_turn(
+        lambda own, some: gather(own, some, _exterior_graze), lambda own, some: gather(own, some, _interior_graze)
+    )(draw, n)
+
+
+def near_graze(draw: Draw, n: int) -> Rows:
+    """The same, the spheroid larger or smaller by 2⁻⁵⁰ to 2⁻³."""
+    rows = grazing(draw, n)
+    factor = 1 + ldexp(draw.signs(n), -3 - draw.places(n) % 48)
+    rows[:, 2] *= factor
+    rows[:, 3] *= factor
+    return rows
+
+
+def _ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    rows, usable = double_roots.waist_roots(draw, n, ring=True)
+    rows = in_metres(draw, np.where(usable[:, None], rows, 1.0))
+    share = ldexp(np.ones(n), draw.integers(n, -30, -5))
+    pick = draw.integers(n, 0, 3)
+    zero = np.zeros(n)
+    x, y = rows[:, 4], rows[:, 5]
+    steps = np.select(
+        [(pick == each)[:, None] for each in range(4)],
+        [
+            np.stack([x * share, y * share, zero], axis=1),
+            np.stack([zero, zero, rows[:, 3] * share], axis=1),
+            np.stack([-y * share, x * share, zero], axis=1),
+            np.stack([x * share, y * share, rows[:, 3] * share], axis=1),
+        ],
+    )
+    ways, exact = through(rows, steps, turns(n, 1.0, 2.0))
+    return ways, exact & usable
+
+
+def ring(draw: Draw, n: int) -> Rows:
+    """Across the ring, where the discriminant is 0 in free air, along, up and out."""
+    return gather(draw, n, _ring_attempt)
+
+
+def at_an_end(draw: Draw, n: int) -> Rows:
+    """Contact at t = 1 alone, or at t = 0 alone: a tangency at an end, the other end away from the surface."""
+    rows = tangent(draw, n)
+    alpha, z = rows[:, 0], rows[:, 6]
+    outside = (rows[:, 4] ** 2 + rows[:, 5] ** 2) / alpha**2 > 1 + (z / rows[:, 1]) ** 2
+    factor = np.where(outside, draw.between(n, 1.25, 4), draw.between(n, -0.5, 0.75))
+    away = np.stack([rows[:, 4] * factor, rows[:, 5] * factor, z], axis=1)
+    away[:, 2] = np.where(outside, z * draw.unit(n), z * draw.between(n, 1, 4))
+    ways = between(rows, away)
+    backward = turns(n, False, True)
+    ways[backward, 4:7], ways[backward, 7:10] = away[backward] + 0.0, rows[backward, _CENTRE]
+    return ways
+
+
+def begun_in_contact(draw: Draw, n: int) -> Rows:
+    """The first end crosses the surface: the first contact is at t = 0, wherever the way leads."""
+    size = sizes(draw, *all_regimes(draw, n))
+    start = random_pairs.beside(draw, size, heights(draw, size.c), draw.between(n, -0.9, 0.9))
+    return between(start, _beside(draw, size)[:, _CENTRE])
+
+
+def still(draw: Draw, n: int) -> Rows:
+    """Both ends are one point: anywhere, at a tangency, on the ring."""
+    rows = in_turn(random_pairs.uniform, tangent, lambda own, some: gather(own, some, _ring_place))(draw, n)
+    return between(rows, rows[:, _CENTRE])
+
+
+def _ring_place(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    rows, usable = double_roots.waist_roots(draw, n, ring=True)
+    return in_metres(draw, np.where(usable[:, None], rows, 1.0)), usable
+
+
+def along_a_line(draw: Draw, n: int) -> Rows:
+    """Along a straight line of the hyperboloid, or beside one by up to 2.5 radii: the distance hardly changes."""
+    size = sizes(draw, *all_regimes(draw, n))
+    cosine, sine = draw.circle(n)
+    first, last = draw.between(n, -3, 0), draw.between(n, 0, 3)
+    radius = size.alpha + size.b * turns(n, 0.0, 1.0, -1.0) * draw.between(n, 0.5, 2.5)
+    turn, up = draw.signs(n), size.gamma
+
+    def at(share: Floats) -> tuple[Floats, Floats, Floats]:
+        aside = turn * share * size.alpha
+        return radius * cosine - aside * sine, radius * sine + aside * cosine, share * up
+
+    return between(random_pairs.stack(size, *at(first)), np.stack(at(last), axis=1))
+
+
+def vertical(draw: Draw, n: int) -> Rows:
+    """Parallel to the hyperboloid's axis, and on it: x and y do not change."""
+    size = sizes(draw, *all_regimes(draw, n))
+    rows = _beside(draw, size)
+    rows[:, 4:6] *= turns(n, 1.0, 1.0, 1.0, 0.0)[:, None]
+    end = rows[:, _CENTRE].copy()
+    end[:, 2] = draw.signs(n) * size.d * draw.between(n, 0, 2) * heights(draw, size.c)
+    return between(rows, end)
+
+
+def horizontal(draw: Draw, n: int) -> Rows:
+    """At constant height; a third in the plane of the waist."""
+    size = sizes(draw, *all_regimes(draw, n))
+    rows, end = _beside(draw, size), _beside(draw, size)[:, _CENTRE]
+    rows[:, 6] *= turns(n, 1.0, 1.0, 0.0)
+    end[:, 2] = rows[:, 6]
+    return between(rows, end)
+
+
+def very_long(draw: Draw, n: int) -> Rows:
+    """Past the surface, from 2¹⁰ to 2⁴⁰ times as far as the spheroid is large: contact lasts for an instant."""
+    size = sizes(draw, *all_regimes(draw, n))
+    rows = _beside(draw, size)
+    cosine, sine = draw.circle(n)
+    reach = draw.log_uniform(n, 10, 40)
+    way = np.stack([size.b * cosine * reach, size.b * sine * reach, size.d * draw.between(n, -1, 1) * reach], axis=1)
+    share = draw.unit(n)[:, None]
+    start, end = rows[:, _CENTRE] - share * way, rows[:, _CENTRE] + (1 - share) * way
+    rows[:, _CENTRE] = start
+    return between(rows, end)
+
+
+def very_short(draw: Draw, n: int) -> Rows:
+    """From a place within 2⁻²⁰ radii of contact, by 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends all but coincide."""
+    size = sizes(draw, *all_regimes(draw, n))
+    offset = draw.signs(n) + ldexp(draw.signs(n), draw.integers(n, -50, -20))
+    rows = random_pairs.beside(draw, size, heights(draw, size.c), offset)
+    return between(rows, rows[:, _CENTRE] * (1 + ldexp(draw.signs(n), draw.integers(n, -50, -10)))[:, None])
+
+
+def stiff(draw: Draw, n: int) -> Rows:
+    """Ratios of sizes up to 2²⁶, both ends beside the surface."""
+    a = np.where(turns(n, True, False), draw.log_uniform(n, 12, 26), draw.log_uniform(n, -12, 12))
+    c = np.where(turns(n, False, True, True), draw.log_uniform(n, 12, 26), draw.log_uniform(n, -12, 12))
+    size = sizes(draw, a, c)
+    start = _beside(draw, size)
+    return between(start, _ends(draw, size, start))
+
+
+def small_integers(draw: Draw, n: int) -> Rows:
+    """Whole numbers as a person types them."""
+    columns = [draw.integers(n, 1, 7) for _ in range(4)] + [draw.integers(n, -9, 9) for _ in range(6)]
+    return np.stack(columns, axis=1).astype(np.float64) + 0.0
+
+
+def tilted_uniform(draw: Draw, n: int) -> Rows:
+    """All regimes and all directions, both ends all around the surface."""
+    rows = leaning.uniform(draw, n)
+    return between(rows, _ends(draw, Sizes(rows[:, 0], rows[:, 1], rows[:, 2], rows[:, 3]), rows))
+
+
+def tilted_end(draw: Draw, n: int) -> Rows:
+    """A tangency at t = 0 or at t = 1, the other end twice as far from the origin, or half as far."""
+    rows = coincidences.tangent(draw, n)
+    ways = between(rows, rows[:, _CENTRE] * turns(n, 2.0, 0.5)[:, None])
+    backward = turns(n, False, False, True, True)
+    ways[backward, 4:7], ways[backward, 7:10] = ways[backward, 7:10], ways[backward, 4:7]
+    return ways
+
+
+def tilted_ring(draw: Draw, n: int) -> Rows:
+    """Across the ring of a spheroid that leans, or through a neighbour of it."""
+    rows = coincidences.ring(draw, n)
+    steps = rows[:, 2:3] * ldexp(draw.signs(n), draw.integers(n, -30, -9))[:, None] * _directions(draw, n)
+    return through(rows, steps, np.ones(n))[0]
+
+
+def _directions(draw: Draw, n: int) -> Rows:
+    return np.stack([draw.integers(n, -1, 1) for _ in range(3)], axis=1).astype(np.float64)
+
+
+def tilted_integers(draw: Draw, n: int) -> Rows:
+    """Whole numbers; vertical axes and spheres among them, which are upright ways."""
+    axis = np.stack([draw.integers(n, -2, 2), draw.integers(n, -2, 2), draw.integers(n, 1, 3)], axis=1)
+    return np.concatenate([small_integers(draw, n), axis.astype(np.float64) + 0.0], axis=1)
+
+
+def _family(
+    name: str, make: Maker, title: str, source: str, purpose: str, game: str, drone: str, **more: str
+) -> Family:
+    leans = name.startswith("tilted-")
+    regimes = more.get("regimes", "all four")
+    return Family(
+        name=name,
+        version=1,
+        title=title,
+        source=source,
+        purpose=purpose,
+        game=game,
+        drone=drone,
+        regimes=regimes,
+        make=make,
+        way=True,
+        tilted=leans,
+    )
+
+
+FAMILIES = (
+    _family(
+        "way-uniform",
+        uniform,
+        "ordinary sizes, both ends all around the surface",
+        "own; two places as in the family uniform",
+        "nothing special: a program that fails here has a plain error, or looks at the ends alone",
+        "objects pass through each other at any speed",
+        "any flight between two waypoints",
+    ),
+    _family(
+        "way-tower",
+        tower,
+        "the paper's quadcopter, down through the waist of its tower and out",
+        "the paper's tower and body; from above the waist to below it, 1.5 to 1.9 from the axis",
+        "the waist is narrower than both ends of the way: samples miss the contact there",
+        "a chimney lets a wide object fall through",
+        "a descent that was checked at its waypoints scrapes the wall",
+        regimes="a ≥ 1, c² ≥ a",
+    ),
+    _family(
+        "way-tunnelling",
+        tunnelling,
+        "both ends clear, on one side, and the surface between them",
+        "own; from one side of the hyperboloid to the other, and down its inside",
+        "a test at the end of the step sees nothing: the object has jumped through the wall",
+        "bullets go through walls",
+        "a slow control loop flies through a tower and is told that all is clear",
+    ),
+    _family(
+        "way-grazing",
+        grazing,
+        "exactly tangent at one instant, clear before and after",
+        "rational tangencies; outside along the horizontal section, inside up through the waist",
+        "contact for a single instant: no sample meets it, and a float answers by luck",
+        "resting contacts flicker",
+        "the closest approach is the limit, exactly",
+    ),
+    _family(
+        "way-near-graze",
+        near_graze,
+        "the grazing ways with the spheroid larger or smaller by 2⁻⁵⁰ to 2⁻³",
+        "rational tangencies on the way, b and d both changed",
+        "a ladder: how near to grazing can a program still tell, and how long contact must last to be seen",
+        "the object clips through a corner that it should touch",
+        "how much of the safety distance is eaten by rounding",
+    ),
+    _family(
+        "way-ring",
+        ring,
+        "across the ring, where the discriminant is 0 in free air",
+        "rational rings, crossed outward, upward and along",
+        "no contact at all: a program that looks for roots of the discriminant meets an invisible wall",
+        "an invisible wall",
+        "a free corridor is closed",
+        regimes="c² > a",
+    ),
+    _family(
+        "way-end",
+        at_an_end,
+        "tangent at t = 0 or at t = 1, away from the surface elsewhere",
+        "rational tangencies as one end",
+        "the way is closed: contact at its ends counts, and the first contact is exactly 0 or 1",
+        "contact is reported a step late, or never",
+        "a stop at the limit is not seen",
+    ),
+    _family(
+        "way-begun-in-contact",
+        begun_in_contact,
+        "the first end is in contact",
+        "own; beside the surface by less than a radius",
+        "the first contact is at t = 0, wherever the way leads; a root finder reports where it ends",
+        "an object that starts inside a wall falls through it",
+        "a take-off from contact is called clear",
+    ),
+    _family(
+        "way-still",
+        still,
+        "both ends are one point",
+        "places of the families uniform, tangent and ring",
+        "nothing moves: divisions by the length of the way give NaN, and NaN compares as clear",
+        "objects at rest lose their contacts",
+        "hovering is answered by NaN",
+    ),
+    _family(
+        "way-along-a-line",
+        along_a_line,
+        "along a straight line of the hyperboloid, or beside one",
+        "own; the surface is ruled: on such a line the equation of the surface is constant",
+        "the quadratic of a ray has no leading coefficient: a division by 0, or a root far away",
+        "sliding along a wall jitters",
+        "a flight beside a tower's straight strut",
+    ),
+    _family(
+        "way-vertical",
+        vertical,
+        "parallel to the hyperboloid's axis, a quarter on it",
+        "own; x and y do not change",
+        "a direction with two components 0",
+        "elevators and falling objects",
+        "climb and descent",
+    ),
+    _family(
+        "way-horizontal",
+        horizontal,
+        "at constant height, a third in the plane of the waist",
+        "own; z does not change",
+        "a direction with z component 0; at the waist the ring is crossed",
+        "everything that walks or drives",
+        "level flight",
+    ),
+    _family(
+        "way-long",
+        very_long,
+        "past the surface on ways 2¹⁰ to 2⁴⁰ times as long as the spheroid",
+        "own; a place beside the surface, both ends far away",
+        "contact lasts for 10⁻¹² of the way: sampling misses it, t in single precision has no digit left",
+        "a teleport, or a frame that took too long",
+        "a lost connection: one step over kilometres",
+    ),
+    _family(
+        "way-short",
+        very_short,
+        "very short ways within 2⁻²⁰ radii of contact",
+        "own; the ends differ by 2⁻⁵⁰ to 2⁻¹⁰ of their distance from the origin",
+        "the difference of the ends cancels; the answer is that of a position near contact",
+        "high frame rates: the object is seen to stick",
+        "the control loop at a kilohertz",
+    ),
+    _family(
+        "way-stiff",
+        stiff,
+        "ratios of sizes up to 2²⁶",
+        "own; both ends beside the surface",
+        "powers of the ratios lose all digits before the way is looked at",
+        "an insect and a planet",
+        "a wire beside a tower",
+    ),
+    _family(
+        "way-small-integers",
+        small_integers,
+        "whole numbers as a person types them",
+        "own; sizes from 1 to 7, coordinates from −9 to 9",
+        "grazing ways, ends on the surface, rings and ways through the origin abound",
+        "what a person types first",
+        "what a person types first",
+    ),
+    _family(
+        "tilted-way-uniform",
+        tilted_uniform,
+        "ordinary sizes, axes in every direction, both ends all around the surface",
+        "own; two places as in the family tilted-uniform",
+        "nothing special: a program that fails here has a plain error, or takes the spheroid for upright",
+        "anything that leans",
+        "a quadcopter leans while it flies",
+    ),
+    _family(
+        "tilted-way-end",
+        tilted_end,
+        "tangent at t = 0 or at t = 1, axes in every direction",
+        "rational tangencies of spheroids that lean as one end",
+        "the way is closed: contact at its ends counts",
+        "contact is reported a step late, or never",
+        "a stop at the limit is not seen",
+    ),
+    _family(
+        "tilted-way-ring",
+        tilted_ring,
+        "across the ring of a spheroid that leans, or beside it",
+        "rational double roots at a pole, and neighbours of them",
+        "no contact: the discriminant of the quartic is 0 in free air",
+        "an invisible wall",
+        "a free corridor is closed",
+    ),
+    _family(
+        "tilted-way-small-integers",
+        tilted_integers,
+        "whole numbers, axes among them",
+        "own; axes from −2 to 3, some vertical, some of spheres",
+        "symmetric axes, grazing ways and upright spheroids abound",
+        "what a person types first",
+        "what a person types first",
+    ),
+)
+"""The families of ways, in the order in which they are listed."""
