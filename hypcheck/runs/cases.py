@@ -31,7 +31,7 @@ _SMALLEST = 1e-300
 
 @dataclass(frozen=True, slots=True)
 class FrozenVectors:
-    """The vectors of a family: ids, rows (n, 7 or 10), positions, int8 (n,), and exponents, float64 (n,).
+    """The vectors of a family: ids, rows, positions or hits, int8 (n,), and exponents, float64 (n,).
 
     An exponent is floor(log2) of the distance to the nearest other position; NaN if the vector's float is too small.
     """
@@ -181,7 +181,7 @@ def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
 
 def frozen_count(name: str) -> int:
     """The number of frozen vectors of a family."""
-    return len(frozen_vectors(name).rows) if name in (*vectors.NAMES, *vectors.TILTED_NAMES) else 0
+    return len(frozen_vectors(name).rows) if name in (*vectors.NAMES, *vectors.TILTED_NAMES, *vectors.WAY_NAMES) else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:

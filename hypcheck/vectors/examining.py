@@ -15,19 +15,30 @@ from hypcheck.errors import NothingJudgedError
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.vectors import cancellation, frozen
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
-from hypcheck.vectors.format import INVALID, TILTED_INVALID, TILTED_POSITIONS, content_of, vectors_of
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
+from hypcheck.vectors.format import (
+    INVALID,
+    TILTED_INVALID,
+    TILTED_POSITIONS,
+    TILTED_WAYS,
+    WAYS,
+    content_of,
+    vectors_of,
+)
 from hypcheck.vectors.frozen import invalid_rows_of
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors
 from hypcheck.vectors.tilted.format import tilted_vectors_of
 from hypcheck.vectors.tilted.labels import faults_of_tilted
+from hypcheck.vectors.ways.format import ways_of
+from hypcheck.vectors.ways.labels import faults_of_ways
 
 DESCRIPTIONS: Mapping[str, FamilyDescription] = {
     **FAMILIES,
     cancellation.NAME: cancellation.METADATA,
     **TILTED_FAMILIES,
+    **WAY_FAMILIES,
     **frozen.INVALID_METADATA,
 }
 
@@ -41,10 +52,10 @@ def wrong_description(head: Metadata) -> Iterator[str]:
         yield f"family.{name} is {said}; of {head.name} it is {right}"
 
 
-def wrong_meanings(flags: Mapping[str, FlagFacts]) -> Iterator[str]:
+def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
     """A sentence for each flag whose description in a file is not the meaning that is checked."""
     for flag, facts in flags.items():
-        for name, said, right in _differences(FlagFacts, facts, {**FLAGS, **TILTED_FLAGS}[flag]):
+        for name, said, right in _differences(FlagFacts, facts, known[flag]):
             yield f"the {name} of the flag {flag} is {said}; it is {right}"
 
 
@@ -77,12 +88,12 @@ class MetadataFault:
 
 
 def shipped_files(*, tilted: bool = True) -> list[str]:
-    """The paths of the frozen files, all of which must be there; without `tilted`, those about upright spheroids."""
+    """The paths of the frozen files, all of which must be there; without `tilted`, those about single upright pairs."""
     names = (*frozen.NAMES, frozen.INVALID_NAME)
     return [str(frozen.path_of(name)) for name in (*names, *(TILTED if tilted else ()))]
 
 
-TILTED = (*frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME)
+TILTED = (*frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME, *frozen.WAY_NAMES)
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:
@@ -99,20 +110,26 @@ def examine(paths: Iterable[str]) -> Iterator[FileReport]:
             report = FileReport(path, len(bad.cases), head, tuple(faults_of_invalid_rows(bad)))
         elif content == TILTED_POSITIONS:
             tilted = tilted_vectors_of(document, path)
-            head = _head_faults(document, tilted.head, tilted.flags)
+            head = _head_faults(document, tilted.head, tilted.flags, TILTED_FLAGS)
             report = FileReport(path, len(tilted.cases), head, tuple(faults_of_tilted(tilted)))
+        elif content in (WAYS, TILTED_WAYS):
+            ways = ways_of(document, path)
+            head = _head_faults(document, ways.head, ways.flags, WAY_FLAGS)
+            report = FileReport(path, len(ways.cases), head, tuple(faults_of_ways(ways)))
         else:
             file = vectors_of(document, path)
-            head = _head_faults(document, file.head, file.flags)
+            head = _head_faults(document, file.head, file.flags, FLAGS)
             report = FileReport(path, len(file.cases), head, tuple(faults_of_vectors(file)))
         if not report.count:
             raise NothingJudgedError(f"{path} has no cases; nothing was checked")
         yield report
 
 
-def _head_faults(document: JsonDocument, head: Metadata, flags: Mapping[str, FlagFacts]) -> tuple[MetadataFault, ...]:
+def _head_faults(
+    document: JsonDocument, head: Metadata, flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]
+) -> tuple[MetadataFault, ...]:
     family = _metadata_faults(document, "family", wrong_description(head))
-    return family + _metadata_faults(document, "flags", wrong_meanings(flags))
+    return family + _metadata_faults(document, "flags", wrong_meanings(flags, known))
 
 
 def _metadata_faults(document: JsonDocument, member: str, sentences: Iterable[str]) -> tuple[MetadataFault, ...]:

@@ -26,11 +26,12 @@ from hypcheck.messages import suggestion
 from hypcheck.truth import exact
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, ways
+from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
 from hypcheck.vectors.draw import Draw, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
 from hypcheck.vectors.tilted import families as tilted_families
+from hypcheck.vectors.ways import families as way_families
 
 MARK = "@"
 OPEN = 2.0
@@ -382,7 +383,7 @@ FAMILIES: dict[str, Family] = {
 TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted_families.TILTED_FAMILIES}
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
-WAY_FAMILIES: dict[str, Family] = {family.name: family for family in ways.WAY_FAMILIES}
+WAY_FAMILIES: dict[str, Family] = {family.name: family for family in way_families.FAMILIES}
 """Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
 
 _ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}

@@ -162,7 +162,7 @@ WAY_FLAGS: dict[str, FlagFacts] = {
     "tunnelling": FlagFacts("both ends are clear, on one side, and there is contact between them", "sampling"),
     "tangent": FlagFacts("the surfaces are tangent at the time of the proof; tangency is contact", "equality"),
     "contact-at-start": FlagFacts("the first contact is at t = 0", "open interval"),
-    "contact-at-end-alone": FlagFacts("the first contact is at t = 1, exactly", "open interval"),
+    "contact-at-end-alone": FlagFacts("the first contact is at t = 1, to the last digit", "open interval"),
     "still": FlagFacts("both ends are one point", "degenerate input"),
     "vertical-way": FlagFacts("x and y do not change, z does", "degenerate input"),
     "horizontal-way": FlagFacts("z does not change, x or y do", "degenerate input"),

@@ -17,18 +17,20 @@ from typing import TypeVar
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import WAYS, Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id, parse_case_id
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, case_id, parse_case_id
 from hypcheck.vectors.family import BLOCK, Family, FamilyDescription, Metadata, Row, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import read_vectors, vectors_text
 from hypcheck.vectors.frozen import InvalidRowFile, invalid_rows_text, read_invalid_rows
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors, labelled
 from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, read_tilted_vectors, tilted_vectors_text
 from hypcheck.vectors.tilted.labels import faults_of_tilted, labelled_tilted
+from hypcheck.vectors.ways.format import WayFile, WayVector, read_ways, ways_text
+from hypcheck.vectors.ways.labels import faults_of_ways, labelled_ways
 
 SEED = 1
 
@@ -96,12 +98,15 @@ TILTED_COUNTS = {
 }
 """The same of the families of tilted spheroids."""
 
+WAY_COUNTS = {name: 60 if family.tilted else 120 for name, family in WAY_FAMILIES.items()}
+"""The same of the families of ways."""
+
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
 
-NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME, *TILTED_COUNTS, refusals.TILTED_INVALID_NAME)
+NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME, *TILTED_COUNTS, refusals.TILTED_INVALID_NAME, *WAY_COUNTS)
 
 Progress = Callable[[str], object]
-File = TypeVar("File", VectorFile, TiltedVectorFile)
+File = TypeVar("File", VectorFile, TiltedVectorFile, WayFile)
 
 
 def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) -> None:
@@ -133,6 +138,10 @@ def _text(name: str, path: Path) -> str:
         tilted = frozen_tilted(name, _before(name, path, read_tilted_vectors))
         _require_no_faults(faults_of_tilted(tilted))
         return tilted_vectors_text(tilted)
+    if name in WAY_COUNTS:
+        ways = frozen_ways(name, _before(name, path, read_ways))
+        _require_no_faults(faults_of_ways(ways))
+        return ways_text(ways)
     file = frozen(name, _before(name, path, read_vectors))
     _require_no_faults(faults_of_vectors(file))
     return vectors_text(file)
@@ -156,6 +165,15 @@ def frozen_tilted(name: str, before: TiltedVectorFile | None = None) -> TiltedVe
     wanted = [tuple(row) for row in family.rows(SEED, TILTED_COUNTS[name]).tolist()]
     added = extended(name, [(case.id, case.row) for case in kept], wanted)[len(kept) :]
     return assembled_tilted(metadata_of(family, f"hypcheck cases freeze {name}"), (*kept, *labelled_tilted(added)))
+
+
+def frozen_ways(name: str, before: WayFile | None = None) -> WayFile:
+    """The file about ways of that name; the cases of an earlier one are kept with their labels."""
+    family = WAY_FAMILIES[name]
+    kept = before.cases if before else ()
+    wanted = [tuple(row) for row in family.rows(SEED, WAY_COUNTS[name]).tolist()]
+    added = extended(name, [(case.id, case.row) for case in kept], wanted)[len(kept) :]
+    return assembled_ways(metadata_of(family, f"hypcheck cases freeze {name}"), (*kept, *labelled_ways(added)))
 
 
 def planned(name: str) -> Rows:
@@ -202,12 +220,21 @@ def assembled_tilted(head: Metadata, cases: Iterable[TiltedVector]) -> TiltedVec
     return TiltedVectorFile(head, {name: facts for name, facts in TILTED_FLAGS.items() if name in used}, kept)
 
 
-def generated_case(name: str) -> Vector | TiltedVector:
+def assembled_ways(head: Metadata, cases: Iterable[WayVector]) -> WayFile:
+    """A file of these cases, with the meaning of the flags that they have."""
+    kept = tuple(cases)
+    used = {flag for case in kept for flag in case.flags}
+    return WayFile(head, {name: facts for name, facts in WAY_FLAGS.items() if name in used}, kept)
+
+
+def generated_case(name: str) -> Vector | TiltedVector | WayVector:
     """The generated case of that id, labelled and proved. Raises InputError where there is none."""
     case = parse_case_id(name)
     block, place = divmod(case.index, BLOCK)
     row = tuple(case.family.block(case.seed, block)[place].tolist())
     named = [(case_id(case.family, case.seed, case.index), row)]
+    if case.family.layout is WAYS:
+        return labelled_ways(named)[0]
     return labelled_tilted(named)[0] if case.family.tilted else labelled(named)[0]
 
 
@@ -215,6 +242,8 @@ def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
     head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
+    if family.layout is WAYS:
+        return ways_text(assembled_ways(head, labelled_ways(named)))
     if family.tilted:
         return tilted_vectors_text(assembled_tilted(head, labelled_tilted(named)))
     return vectors_text(assembled(head, labelled(named)))

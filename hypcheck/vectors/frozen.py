@@ -25,7 +25,7 @@ from hypcheck.messages import suggestion
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
 from hypcheck.vectors import cancellation
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import Metadata, Row, VectorFile
 from hypcheck.vectors.format import (
     COLUMNS_OF,
@@ -43,6 +43,7 @@ from hypcheck.vectors.format import (
     read_vectors,
 )
 from hypcheck.vectors.tilted.format import TiltedVectorFile, read_tilted_vectors
+from hypcheck.vectors.ways.format import WayFile, read_ways
 
 INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
 EXPECTED = "refused"
@@ -280,10 +281,13 @@ NAMES = (*FAMILIES, cancellation.NAME)
 TILTED_NAMES = tuple(TILTED_FAMILIES)
 """Those of tilted spheroids; TILTED_INVALID_NAME is the one of rows without."""
 
+WAY_NAMES = tuple(WAY_FAMILIES)
+"""Those of ways; the rows of names that begin with tilted have an axis."""
+
 
 @dataclass(frozen=True, slots=True)
 class FrozenRows:
-    """The cases of a file as arrays: their ids, rows (n, 7 or 10) and right answers, int8 (n,)."""
+    """The cases of a file as arrays: their ids, rows and right answers, positions or hits on ways, int8 (n,)."""
 
     ids: tuple[str, ...]
     rows: Rows
@@ -299,7 +303,7 @@ def folder() -> Path:
 
 def path_of(name: str) -> Path:
     """The file of that name. Raises InputError where there is none of that name."""
-    known = (*NAMES, INVALID_NAME, *TILTED_NAMES, TILTED_INVALID_NAME)
+    known = (*NAMES, INVALID_NAME, *TILTED_NAMES, TILTED_INVALID_NAME, *WAY_NAMES)
     if name not in known:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, known)}")
     return folder() / f"{name}.json"
@@ -319,6 +323,13 @@ def load_tilted(name: str) -> TiltedVectorFile:
     return read_tilted_vectors(str(path_of(name)))
 
 
+@cache
+def load_ways(name: str) -> WayFile:
+    """The frozen ways of that name. Raises InputError as `load` does."""
+    _require_answers(name)
+    return read_ways(str(path_of(name)))
+
+
 def _require_answers(name: str) -> None:
     if name in INVALID_METADATA:
         raise InputError(f"the rows of {name!r} have no answers; they must be refused")
@@ -332,5 +343,8 @@ def load_invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
 
 def frozen_rows(name: str) -> FrozenRows:
     """The rows and right answers of the frozen cases of that name. Raises InputError as load does."""
+    if name in WAY_NAMES:
+        ways = load_ways(name)
+        return FrozenRows(tuple(case.id for case in ways.cases), ways.rows, ways.hits)
     file = load_tilted(name) if name in TILTED_NAMES else load(name)
     return FrozenRows(tuple(case.id for case in file.cases), file.rows, file.positions)

@@ -10,23 +10,31 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Position
-from hypcheck.messages import suggestion
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, TILTED_WAY_COLUMNS, Position
+from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import hex_of, readable_text
 from hypcheck.tables.streams import writing
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import vector_text
 from hypcheck.vectors.frozen import InvalidRow, InvalidRowFile
 from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, tilted_vector_text
+from hypcheck.vectors.ways.format import WayFile, WayVector, way_text
 
-SHOWN = (*frozen.NAMES, frozen.INVALID_NAME, *frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME)
+SHOWN = (
+    *frozen.NAMES,
+    frozen.INVALID_NAME,
+    *frozen.TILTED_NAMES,
+    frozen.TILTED_INVALID_NAME,
+    *frozen.WAY_NAMES,
+)
 """The files, in the order in which they are listed."""
 
-AnyFile = VectorFile | TiltedVectorFile | InvalidRowFile
+AnyFile = VectorFile | TiltedVectorFile | WayFile | InvalidRowFile
+AnyVector = Vector | TiltedVector | WayVector
 
 WIDTH = 100
 """Columns of a line of running text."""
@@ -47,6 +55,8 @@ def list_lines() -> Iterator[str]:
 def _load(name: str) -> AnyFile:
     if name in frozen.INVALID_METADATA:
         return frozen.load_invalid_rows(name)
+    if name in frozen.WAY_NAMES:
+        return frozen.load_ways(name)
     return frozen.load_tilted(name) if name in frozen.TILTED_NAMES else frozen.load(name)
 
 
@@ -58,7 +68,10 @@ def family_lines(name: str) -> Iterator[str]:
     yield from _titled("cases", f"{len(file.cases)}, {file.cases[0].id} to {file.cases[-1].id}{refused}")
     if isinstance(file, InvalidRowFile):
         return
-    yield from _titled("positions", _counted(Counter(case.position.label for case in file.cases)))
+    if isinstance(file, WayFile):
+        yield from _titled("answers", _counted(Counter("contact" if case.hit else "clear" for case in file.cases)))
+    else:
+        yield from _titled("positions", _counted(Counter(case.position.label for case in file.cases)))
     if isinstance(file, VectorFile):
         yield from _titled("kinds", _counted(Counter(case.kind.value for case in file.cases)))
     for flag, facts in file.flags.items():
@@ -66,8 +79,11 @@ def family_lines(name: str) -> Iterator[str]:
         yield from _titled("flag", f"{flag}, {count} times: {facts.meaning} ({facts.bug_type})")
 
 
-def case_lines(case: Vector | TiltedVector) -> Iterator[str]:
+def case_lines(case: AnyVector) -> Iterator[str]:
     """A case with its labels and its proof."""
+    if isinstance(case, WayVector):
+        yield from _way_lines(case)
+        return
     tilted = isinstance(case, TiltedVector)
     yield case.id
     for name, value in zip(TILTED_COLUMNS if tilted else COLUMNS, case.row, strict=True):
@@ -81,6 +97,24 @@ def case_lines(case: Vector | TiltedVector) -> Iterator[str]:
     yield from _titled("proof", _tilted_proof(case) if isinstance(case, TiltedVector) else _proof(case))
     for flag in case.flags:
         yield from _titled("flag", f"{flag}: {(TILTED_FLAGS if tilted else FLAGS)[flag].meaning}")
+
+
+def _way_lines(case: WayVector) -> Iterator[str]:
+    yield case.id
+    for name, value in zip(TILTED_WAY_COLUMNS, case.row, strict=False):
+        yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
+    yield from _titled("answer", "contact on the way" if case.hit else "clear all along")
+    if case.first is not None:
+        yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
+    pieces = case.witness.pieces
+    if pieces:
+        until = readable_text(pieces[-1][1])
+        yield from _titled("proof", f"clear up to t {_said(until)}, by {counted(len(pieces), 'multiplier')}")
+    if case.witness.time is not None:
+        proof = "a double root" if case.witness.double_root is not None else "points"
+        yield from _titled("proof", f"contact at t {_said(readable_text(case.witness.time))}, by {proof}")
+    for flag in case.flags:
+        yield from _titled("flag", f"{flag}: {WAY_FLAGS[flag].meaning}")
 
 
 def _distance(distance: float | Bracket) -> str:
@@ -98,12 +132,12 @@ def invalid_row_lines(case: InvalidRow) -> Iterator[str]:
     yield from _titled("expected", frozen.EXPECTED)
 
 
-def vector_of(name: str) -> Vector | TiltedVector:
+def vector_of(name: str) -> AnyVector:
     """The case of that id, frozen or generated. Raises InputError where there is none."""
     if "/" in name:
         return _generated(name)
     file = _load(_family_of(name)) if _family_of(name) in SHOWN else None
-    if isinstance(file, VectorFile | TiltedVectorFile):
+    if isinstance(file, VectorFile | TiltedVectorFile | WayFile):
         for case in file.cases:
             if case.id == name:
                 return case
@@ -134,11 +168,13 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
         yield from (_json_text(case),) if as_json else case_lines(case)
 
 
-def _json_text(case: Vector | TiltedVector) -> str:
+def _json_text(case: AnyVector) -> str:
+    if isinstance(case, WayVector):
+        return way_text(case)
     return tilted_vector_text(case) if isinstance(case, TiltedVector) else vector_text(case)
 
 
-def _generated(name: str) -> Vector | TiltedVector:
+def _generated(name: str) -> AnyVector:
     from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases are shown without the oracles
 
     return generated_case(name)
@@ -244,7 +280,7 @@ def as_csv(family: Family, seed: int, count: int) -> bytes:
 
 
 def as_npy(family: Family, seed: int, count: int) -> bytes:
-    """The rows alone, little-endian float64 (n, 7 or 10)."""
+    """The rows alone, little-endian float64."""
     file = io.BytesIO()
     np.lib.format.write_array(file, family.rows(seed, count).astype("<f8"), version=(1, 0))
     return file.getvalue()

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.geometry.rows import WAYS, Floats, Mask, Rows
 from hypcheck.vectors import double_roots, random_pairs
 from hypcheck.vectors.double_roots import gather, in_metres
 from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
@@ -50,6 +50,34 @@ def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
     return np.where(turns(len(near), True, True, False, False, False)[:, None], far, near)
 
 
+def _about_the_waist(draw: Draw, n: int) -> tuple[Floats, Floats, Floats, Floats]:
+    """α, γ, b, d: the hyperboloid's from 1 to 32, the spheroid's up to twice as large and down to 1/256 of it."""
+    alpha, gamma = draw.log_uniform(n, 0, 5), draw.log_uniform(n, 0, 5)
+    return alpha, gamma, alpha * draw.log_uniform(n, -8, 1), gamma * draw.log_uniform(n, -8, 1)
+
+
+def anywhere(draw: Draw, n: int) -> Rows:
+    """Both ends uniform in a box about the waist."""
+    alpha, gamma, b, d = _about_the_waist(draw, n)
+    across, along = 2 * (alpha + b), 2 * (gamma + d)
+    ends = [draw.between(n, -reach, reach) for _ in range(2) for reach in (across, across, along)]
+    return np.stack([alpha, gamma, b, d, *ends], axis=1)
+
+
+def tunnelling(draw: Draw, n: int) -> Rows:
+    """Straight through the wall from outside to inside, or through the whole waist from one side to the other."""
+    alpha, gamma, b, d = _about_the_waist(draw, n)
+    b, d = np.minimum(b, alpha / 8), np.minimum(d, gamma / 8)
+    cosine, sine = draw.circle(n)
+    aside = draw.between(n, -0.5, 0.5) * alpha
+    far = alpha * draw.between(n, 1.5, 4.0) + 2 * b
+    near = turns(n, 0.0, -1.0) * alpha * draw.between(n, 1.5, 4.0)
+    z0, z1 = (gamma * draw.between(n, -0.5, 0.5) for _ in range(2))
+    start = (far * cosine - aside * sine, far * sine + aside * cosine, z0)
+    end = (near * cosine - aside * sine, near * sine + aside * cosine, z1)
+    return np.stack([alpha, gamma, b, d, *start, *end], axis=1) + 0.0
+
+
 def uniform(draw: Draw, n: int) -> Rows:
     """All regimes, both ends all around the surface, or near to each other."""
     size = sizes(draw, *all_regimes(draw, n))
@@ -69,20 +97,20 @@ def tower(draw: Draw, n: int) -> Rows:
     return between(rows, end)
 
 
-def tunnelling(draw: Draw, n: int) -> Rows:
+def across(draw: Draw, n: int) -> Rows:
     """Both ends outside, or inside above and below, and the surface between them: steps far too long."""
     size = sizes(draw, *all_regimes(draw, n))
     cosine, sine = draw.circle(n)
     reach = size.alpha * draw.log_uniform(n, 0, 5) + size.b * draw.between(n, 1, 3)
     height = size.gamma * draw.between(n, -0.5, 0.5)
     rows = random_pairs.stack(size, reach * cosine, reach * sine, height)
-    across = np.stack([-rows[:, 4], -rows[:, 5], rows[:, 6] + size.d * draw.between(n, -1, 1)], axis=1)
+    beyond = np.stack([-rows[:, 4], -rows[:, 5], rows[:, 6] + size.d * draw.between(n, -1, 1)], axis=1)
     tall = size.gamma * draw.log_uniform(n, 4, 8) * (1 + size.b / size.alpha) + 4 * size.d
     narrow = size.alpha * draw.unit(n)
     down = np.stack([narrow * cosine, narrow * sine, -tall], axis=1)
     inner = turns(n, False, False, True)[:, None]
     rows[:, _CENTRE] = np.where(inner, down * [1, 1, -1], rows[:, _CENTRE])
-    return between(rows, np.where(inner, down, across))
+    return between(rows, np.where(inner, down, beyond))
 
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -296,12 +324,36 @@ def _family(
         drone=drone,
         regimes=regimes,
         make=make,
-        way=True,
+        layout=WAYS,
         tilted=leans,
     )
 
 
 FAMILIES = (
+    Family(
+        name="way-anywhere",
+        version=1,
+        title="ways from anywhere to anywhere about the waist",
+        source="both ends uniform in a box of twice the hyperboloid's size",
+        purpose="a program that tests the ends alone, or mixes up their columns, is wrong on every third way",
+        game="a bullet passes through the pillar, or stops in front of nothing",
+        drone="a leg of the route is called free that crosses the tower's wall",
+        regimes="all four",
+        make=anywhere,
+        layout=WAYS,
+    ),
+    Family(
+        name="way-tunnelling",
+        version=1,
+        title="ways through the wall, clear at both ends or inside at the second",
+        source="from far outside to the waist's inside, or through the waist and out again, past the axis",
+        purpose="a test at the ends of a step misses what happened inside it",
+        game="a fast ball tunnels through the wall",
+        drone="a step of the simulation jumps over the shell of the tower",
+        regimes="a > 1",
+        make=tunnelling,
+        layout=WAYS,
+    ),
     _family(
         "way-uniform",
         uniform,
@@ -322,8 +374,8 @@ FAMILIES = (
         regimes="a ≥ 1, c² ≥ a",
     ),
     _family(
-        "way-tunnelling",
-        tunnelling,
+        "way-across",
+        across,
         "both ends clear, on one side, and the surface between them",
         "own; from one side of the hyperboloid to the other, and down its inside",
         "a test at the end of the step sees nothing: the object has jumped through the wall",
