@@ -13,7 +13,7 @@ from fractions import Fraction
 from hypcheck.geometry.pair import WAY_COLUMNS
 from hypcheck.truth import prove as upright
 from hypcheck.truth.journey import Journey, UprightJourney, piece, shortened
-from hypcheck.truth.passage_certificate import PassageCertificate, Place, contact_at, place
+from hypcheck.truth.passage_certificate import PassageCertificate, Place, place
 from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.steps import reach
 from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, rounded
@@ -25,7 +25,8 @@ from hypcheck.truth.tilted.journey import TiltedJourney
 Bounds = tuple[float, float]
 
 _STEP_BITS = 12
-_FEW = 2
+_FEW = 6
+"""So many multipliers, each of twice as many bits, are tried at most once one of them proves a time clear."""
 _MOST_BITS = 1 << 12
 
 
@@ -84,20 +85,24 @@ def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction
 
 
 def _multiplier(journey: Journey, time: Fraction) -> tuple[Fraction, Fraction | None]:
-    """The first multiplier that proves a time clear, or the next where that reaches farther; and how far it reaches."""
-    found: list[tuple[Fraction, Fraction | None]] = []
-    for multiplier in journey.multipliers(time):
+    """The first multiplier that proves a time clear, or the next one where that reaches farther; and how far."""
+    best: tuple[Fraction, Fraction | None] | None = None
+    for number, multiplier in enumerate(journey.multipliers(time)):
+        if best is not None and number >= _FEW:
+            break
         proof = piece(journey.pencil, multiplier)
-        if value(proof, time) > 0:
-            found.append((multiplier, reach(proof, time)))
-            far = found[0][1]
-            if far is None or time + far > 1 or len(found) == _FEW:
-                break
-    nearest = found[0][1]
-    if nearest is None or len(found) == 1:
-        return found[0]
-    step = found[1][1]
-    return found[1] if step is None or step > nearest * Fraction(9, 8) else found[0]
+        if value(proof, time) <= 0 or (best is not None and multiplier == best[0]):
+            continue
+        step = reach(proof, time)
+        if step is None or time + step > 1:
+            return multiplier, step
+        if best is not None:
+            farther = best[1] is not None and step > best[1] * Fraction(9, 8)
+            return (multiplier, step) if farther else best
+        best = multiplier, step
+    if best is None:
+        raise AssertionError("unreachable: the multipliers do not end")
+    return best
 
 
 def _double_root(journey: UprightJourney | TiltedJourney, time: Fraction) -> Fraction:
@@ -117,21 +122,35 @@ def _points(row: Sequence[float], journey: UprightJourney | TiltedJourney, time:
     if len(points) == 1:
         return points
     centre, far = points
-    for shorter in _rounded(here, far):
-        if contact_at(row, PassageCertificate((), time, (centre, shorter))) is not None:
-            return centre, shorter
+    side = _level(here, centre)
+    for offset in _rounded([(a - c) / here.row[2] for a, c in zip(far, centre, strict=True)]):
+        x, y, z = (c + here.row[2] * part for c, part in zip(centre, offset, strict=True))
+        if _within(here, offset) and _level(here, (x, y, z)) * side < 0:
+            return centre, (x, y, z)
     return points
 
 
-def _rounded(here: Place, far: Point) -> Iterator[Point]:
-    """The point, drawn a little towards the centre, with more and more bits in units of the spheroid's b."""
-    b, centre = here.row[2], here.row[4:]
-    offset = [(a - c) / b for a, c in zip(far, centre, strict=True)]
+def _level(here: Place, point: Point) -> Fraction:
+    """The hyperboloid's equation at a point."""
+    alpha, gamma = here.row[:2]
+    x, y, z = point
+    return (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
+
+
+def _within(here: Place, offset: Sequence[Fraction]) -> bool:
+    """Whether the spheroid has the point C + b · offset."""
+    b, d = here.row[2:4]
+    along = sum((a * v for a, v in zip(offset, here.axis, strict=True)), Fraction(0)) ** 2
+    length = sum((v * v for v in here.axis), Fraction(0))
+    return sum((a * a for a in offset), Fraction(0)) + ((b / d) ** 2 - 1) * along / length <= 1
+
+
+def _rounded(offset: Sequence[Fraction]) -> Iterator[tuple[Fraction, ...]]:
+    """The offset, a little shortened, with more and more bits."""
     longest = max(map(abs, offset))
     unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
-    bits = 1
+    bits = 2
     while bits < _MOST_BITS:
         step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
-        x, y, z = (c + b * (round(part * share / step) * step) for c, part in zip(centre, offset, strict=True))
-        yield (x, y, z)
+        yield tuple(round(part * share / step) * step for part in offset)
         bits += 1 + bits // 4

@@ -98,7 +98,7 @@ TILTED_COUNTS = {
 }
 """The same of the families of tilted spheroids."""
 
-WAY_COUNTS = {name: 60 if family.tilted else 120 for name, family in WAY_FAMILIES.items()}
+WAY_COUNTS = {name: 40 if family.tilted else 108 for name, family in WAY_FAMILIES.items()}
 """The same of the families of ways."""
 
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)

@@ -45,6 +45,7 @@ def test_the_list_names_every_family_with_its_count(capsys):
     for name in ("invalid", "tilted-invalid"):
         assert counts.pop(name) == len(vectors.load_invalid_rows(name).cases)
     files = [*map(vectors.load, vectors.NAMES), *map(vectors.load_tilted, vectors.TILTED_NAMES)]
+    files += map(vectors.load_ways, vectors.WAY_NAMES)
     assert counts == {file.head.name: len(file.cases) for file in files}
     assert all(FAMILIES[name].title in line for line in lines for name in FAMILIES if line.split()[0] == name)
     assert sum("extreme: taken when asked for" in line for line in lines) == sum(file.head.extreme for file in files)

@@ -19,7 +19,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.vectors import cancellation, freezing
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import SCHEMA
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import vectors_text
@@ -27,7 +27,13 @@ from hypcheck.vectors.tangency import RUNGS, ULPS
 from tests.support.records import violations
 
 FOLDER = vectors.folder()
-ALL = (*vectors.NAMES, vectors.INVALID_NAME, *vectors.TILTED_NAMES, vectors.TILTED_INVALID_NAME)
+ALL = (
+    *vectors.NAMES,
+    vectors.INVALID_NAME,
+    *vectors.TILTED_NAMES,
+    vectors.TILTED_INVALID_NAME,
+    *vectors.WAY_NAMES,
+)
 FULLY_COMPARED = ("ring", "tangent", "float16-exact", "coefficient-zero", "extreme-subnormal")
 
 
@@ -52,13 +58,14 @@ def schema(name, version=SCHEMA):
 
 def test_there_is_a_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
-    assert found == set(ALL) == {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
+    pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
+    assert found == set(ALL) == {*pairs, *WAY_FAMILIES}
 
 
-def test_there_are_at_least_7000_cases_in_at_most_7_megabytes():
+def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_megabytes():
     rows = {row for name in (*vectors.NAMES, *vectors.TILTED_NAMES) for row in bits(vectors.frozen_rows(name).rows)}
     assert len(rows) >= 7000
-    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 7_000_000
+    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 10_000_000
 
 
 def test_frozen_families_have_60_to_500_cases_and_all_positions_are_common():
@@ -231,6 +238,7 @@ def test_the_readme_has_a_line_for_each_family_as_its_file_says():
     heads = {name: vectors.load(name) for name in vectors.NAMES} | {vectors.INVALID_NAME: vectors.load_invalid_rows()}
     heads |= {name: vectors.load_tilted(name) for name in vectors.TILTED_NAMES}
     heads |= {vectors.TILTED_INVALID_NAME: vectors.load_invalid_rows(vectors.TILTED_INVALID_NAME)}
+    heads |= {name: vectors.load_ways(name) for name in vectors.WAY_NAMES}
     rows = [f"| [{n}]({n}.json) | {len(f.cases)} | {f.head.title} | {f.head.purpose} |" for n, f in heads.items()]
     listed = [line for line in readme().splitlines() if ".json) | " in line]
     assert listed == rows

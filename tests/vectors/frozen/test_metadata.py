@@ -10,6 +10,7 @@ from hypcheck.cli.main import main
 from hypcheck.vectors import frozen
 from hypcheck.vectors.examining import wrong_description, wrong_meanings
 from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import vectors_text
 from hypcheck.vectors.frozen import invalid_rows_text
 
@@ -84,10 +85,14 @@ def test_descriptions_in_the_shipped_files_are_right():
     for name in frozen.NAMES:
         file = frozen.load(name)
         assert file.head.name == name
-        assert [*wrong_description(file.head), *wrong_meanings(file.flags)] == []
+        assert [*wrong_description(file.head), *wrong_meanings(file.flags, FLAGS)] == []
     for name in frozen.TILTED_NAMES:
         tilted = frozen.load_tilted(name)
         assert tilted.head.name == name
-        assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags)] == []
+        assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags, TILTED_FLAGS)] == []
+    for name in frozen.WAY_NAMES:
+        ways = frozen.load_ways(name)
+        assert ways.head.name == name
+        assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, WAY_FLAGS)] == []
     for name in frozen.INVALID_METADATA:
         assert list(wrong_description(frozen.load_invalid_rows(name).head)) == []

@@ -1,0 +1,174 @@
+"""The frozen files about ways: enough of them, fresh, proved, read strictly, and confirmed by dense exact sampling."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.truth.swept import by_roots, journey_of
+from hypcheck.vectors import freezing, frozen
+from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.family import WAY_SCHEMA
+from hypcheck.vectors.flags import WAY_FLAGS
+from hypcheck.vectors.ways.format import read_ways, ways_text
+from hypcheck.vectors.ways.labels import faults_of_ways
+from tests.support import fractions_truth
+from tests.support.records import violations
+from tests.tilted_fractions import exact_position
+from tests.vectors.frozen.test_files import bits, schema, text_of
+
+every_file = pytest.mark.parametrize("name", frozen.WAY_NAMES)
+STEP = 12
+
+
+def sample(name, step=STEP):
+    return frozen.load_ways(name).cases[::step]
+
+
+def position_at(row, time):
+    centre = tuple(Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(row[4:7], row[7:10], strict=True))
+    if len(row) == 10:
+        return fractions_truth.exact_position((*row[:4], *centre))
+    return exact_position((*row[:4], *centre, *row[10:]))
+
+
+def test_there_are_at_least_2000_ways_in_at_least_14_families():
+    files = [frozen.load_ways(name) for name in frozen.WAY_NAMES]
+    assert len(files) >= 14
+    cases = [case for file in files for case in file.cases]
+    assert len({struct for file in files for struct in bits(file.rows)}) == len(cases) >= 2000
+    answers = Counter(case.hit for case in cases)
+    assert min(answers.values()) >= 0.2 * len(cases)
+    assert {flag for case in cases for flag in case.flags} == set(WAY_FLAGS)
+    assert sum("tunnelling" in case.flags for case in cases) >= 200
+
+
+@every_file
+def test_the_rows_of_a_file_of_ways_are_the_first_of_its_family_each_once(name):
+    file = frozen.load_ways(name)
+    wanted = list(dict.fromkeys(bits(WAY_FAMILIES[name].rows(freezing.SEED, freezing.WAY_COUNTS[name]))))
+    assert bits(file.rows) == wanted
+    assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
+    assert file.head == freezing.metadata_of(WAY_FAMILIES[name], f"hypcheck cases freeze {name}")
+    assert ways_text(file) == text_of(name)
+    assert frozen.frozen_rows(name).positions.tolist() == file.hits.tolist()
+    assert not invalid(file.rows, WAYS).any()
+    assert np.isnan(file.firsts).any(axis=1).tolist() == (file.hits == 0).tolist()
+
+
+@every_file
+def test_dense_exact_sampling_confirms_the_answers_about_ways(name):
+    """No contact before the first, clear on one side all along where the way is clear, and contact where it is said."""
+    for case in sample(name):
+        start = position_at(case.row, Fraction(0))
+        last = Fraction(1) if case.first is None else Fraction(case.first[0])
+        for number in range(17):
+            found = position_at(case.row, last * Fraction(number, 16))
+            assert found == start, case.id
+        assert (start == 0) == (case.first is not None and case.first[1] == 0), case.id
+        if case.hit:
+            assert position_at(case.row, case.witness.time) == 0, case.id
+            assert case.first[0] <= case.witness.time <= case.first[1], case.id
+
+
+@every_file
+def test_the_roots_of_the_discriminant_decide_ways_as_their_files_say(name):
+    for case in sample(name, 60 if name.startswith("tilted") else 36):
+        found = by_roots(journey_of(case.row[:4], case.row[4:7], case.row[7:10], case.row[10:] or None))
+        assert found.hit == case.hit, case.id
+        if case.hit:
+            assert found.first_lower <= case.first[1], case.id
+            assert case.first[0] <= found.first_upper, case.id
+
+
+@every_file
+def test_the_labels_of_a_file_of_ways_hold(name):
+    assert faults_of_ways(replace(frozen.load_ways(name), cases=sample(name), lines=())) == []
+
+
+@every_file
+def test_a_file_of_ways_fits_its_published_schema(name):
+    document = json.loads(text_of(name))
+    document["cases"] = document["cases"][::9]
+    wanted = schema("tilted-ways" if name.startswith("tilted") else "ways", WAY_SCHEMA)
+    assert list(violations(document, wanted)) == []
+
+
+def test_families_of_ways_hold_what_they_promise():
+    def flagged(name, flag):
+        cases = frozen.load_ways(name).cases
+        return sum(flag in case.flags for case in cases) / len(cases)
+
+    assert flagged("way-grazing", "tangent") == flagged("way-grazing", "tunnelling") == 1
+    assert flagged("way-end", "tangent") == 1
+    assert flagged("way-begun-in-contact", "contact-at-start") == 1
+    assert flagged("way-still", "still") == 1
+    assert flagged("way-vertical", "vertical-way") > 0.9
+    assert flagged("way-horizontal", "horizontal-way") > 0.9
+    assert flagged("way-across", "tunnelling") > 0.5
+    assert not any(case.hit for case in frozen.load_ways("way-ring").cases)
+    for name in ("way-near-graze", "way-uniform", "way-tower", "way-short", "way-long", "tilted-way-uniform"):
+        assert 0.05 < frozen.load_ways(name).hits.mean() < 0.99, name
+
+
+def changed(name, place, **changes):
+    file = frozen.load_ways(name)
+    return [
+        fault.sentence
+        for fault in faults_of_ways(replace(file, cases=(replace(file.cases[place], **changes),), lines=()))
+    ]
+
+
+def test_wrong_labels_of_a_way_are_found():
+    case = frozen.load_ways("way-grazing").cases[0]
+    assert changed("way-grazing", 0) == []
+    assert changed("way-grazing", 0, first=None)[0] == "the certificate does not prove that the way is clear"
+    later = replace(case.witness, time=case.witness.time + Fraction(1, 64))
+    assert changed("way-grazing", 0, witness=later)[0] == "the certificate does not prove contact at its time"
+    early = (case.first[0] / 2, case.first[0])
+    assert changed("way-grazing", 0, first=early)[0].startswith("the certificate does not prove that the first contact")
+    short = replace(case.witness, pieces=case.witness.pieces[:-1])
+    assert changed("way-grazing", 0, witness=short)[0].startswith("the certificate does not prove that the first")
+    assert changed("way-grazing", 0, flags=())[0].startswith("flags are none; they are ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"hit":true', '"hit":false', "hit is false; with first"),
+        ('"schema": "1.2.0"', '"schema": "1.3.0"', "schema is \"1.3.0\"; this program reads '1.0.0'"),
+        ('"content": "ways"', '"content": "tilted-ways"', "row is .* it must be a list of 13"),
+        ('"time":"', '"time":"x', 'time is "x'),
+        ('"double_root":"', '"double_root":null,"other":"', "other"),
+    ],
+)
+def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
+    text = text_of("way-grazing")
+    assert old in text
+    path = tmp_path / "ways.json"
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        read_ways(str(path))
+
+
+def test_the_commands_about_cases_know_ways(tmp_path, capsys):
+    assert main(["cases", "show", "way-ring"]) == 0
+    assert "answers     108 clear" in capsys.readouterr().out
+    assert main(["cases", "show", "way-grazing-0001"]) == 0
+    shown = capsys.readouterr().out
+    assert "contact on the way" in shown
+    assert "by a double root" in shown
+    assert main(["cases", "show", "way-uniform/1/1/0", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["id"] == "way-uniform/1/1/0"
+    target = tmp_path / "made.json"
+    assert main(["cases", "generate", "tilted-way-ring", "--count", "3", "--output", str(target)]) == 0
+    assert main(["cases", "check", str(target)]) == 0
+    assert "3 cases checked, none with a wrong label" in capsys.readouterr().out
