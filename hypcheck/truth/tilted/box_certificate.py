@@ -55,7 +55,8 @@ Box = list[tuple[Fraction, Fraction]]
 class Form:
     """The two surfaces for fixed sizes, in numbers of one kind, such as intervals; centre C and axis v are given later.
 
-    Numbers of other kinds serve as well: float64 intervals of many rows (float_boxes.py), and floats, for a hint.
+    Intervals prove; plain numbers of as many bits point the way. Other kinds serve as well: float64 intervals of many
+    rows (float_boxes.py), and floats, for a hint.
 
     Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) stands for M wherever it can: its entries change with the axis as much as the
     spheroid does, those of M much more where the spheroid is thin.
@@ -108,7 +109,7 @@ class Form:
     def nearest(self, at: ivmpf, C: Intervals, v: Intervals) -> tuple[Intervals, list[Intervals]] | None:
         """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
         M, adjugate, minors = self.pencil(at, v)
-        if min(map(_low, minors)) <= 0:
+        if not all(each > 0 for each in minors):  # of an interval: each of its numbers
             return None
         inverse = [[dot(row, column) / minors[2] for column in M] for row in adjugate]
         return [dot(row, C) for row in inverse], inverse
@@ -119,40 +120,35 @@ _SHARES = (Fraction(1), 1 - Fraction(1, 1 << 20), Fraction(1, 2))
 
 
 class State:
-    """What matters at one row, not rounded safely: the margin on the goal's side, and its derivatives.
+    """The margin on the goal's side and its derivatives at one row, in plain numbers, which prove nothing.
 
-    Where φ is largest on the goal's side, the margin is that maximum; else h at the centre, which has to change its
-    sign first.
+    Where φ is largest on the goal's side, the margin is that maximum. Elsewhere λ is 0 and the margin φ₀ = −1, and the
+    derivatives are those of h at the centre, which has to change its sign first.
     """
 
     def __init__(self, sizes: Row, rest: Row, goal: Goal) -> None:
-        self.form, self.side = Form(list(map(_interval, sizes))), int(goal.side)
-        self.C, self.v = [_interval(each) for each in rest[:3]], [_interval(each) for each in rest[3:]]
+        self.sizes, self.side = sizes, int(goal.side)
+        self.form = Form([_number(plain, each) for each in sizes], plain.sqrt)
+        self.C, self.v = _centre_and_axis(plain, rest)
         hint, found = multiplier((*sizes, *rest)), None
         for share in _SHARES if hint * self.side > 0 else ():
-            self.at = _interval(hint * share)
+            self.at = _number(plain, hint * share)
             found = self.form.nearest(self.at, self.C, self.v)
             if found is not None:
                 break
-        self.at = iv.mpf(0) if found is None else self.at
+        self.at = plain.mpf(0) if found is None else self.at
         self.X = self.C if found is None else found[0]
         self.n = self.form.gradient(self.X)
         self.factor = 2 * (self.side if found is None else self.at)
 
     def value(self) -> mpf:
-        """The margin: λ² nᵀ Σ n − 1 + λ h(X), or h."""
-        height = self.form.hyperboloid(self.X)
-        if not self.at:
-            return _middle(self.side * height)
-        return _middle((self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * height)
+        """The margin: λ² nᵀ Σ n − 1 + λ h(X)."""
+        return (self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * self.form.hyperboloid(self.X)
 
     def derivatives(self) -> list[mpf]:
         """The margin's derivatives by the centre and the axis."""
         by_axis = self.form.by_axis(self.v, self.n, self.n)
-        return [
-            _middle(each)
-            for each in (*(self.factor * each for each in self.n), *(-(self.at**2) * each for each in by_axis))
-        ]
+        return [*(self.factor * each for each in self.n), *(-(self.at**2) * each for each in by_axis)]
 
     def size_derivatives(self) -> list[mpf]:
         """The margin's derivatives by the logarithms of the sizes."""
@@ -160,7 +156,7 @@ class State:
         square = 2 * self.at**2 / dot(self.v, self.v)
         thick = square * self.form.b2 * squares(cross(self.v, self.n))
         along = square * self.form.d2 * dot(self.v, self.n) ** 2
-        return [_middle(each) for each in (terms[0] + terms[1], terms[2], thick, along)]
+        return [terms[0] + terms[1], terms[2], thick, along]
 
 
 def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
@@ -187,9 +183,9 @@ def _stays_clear(worst: State, middle: Row, radii: list[Fraction]) -> bool:
 
     Its derivatives are 2λ n by the centre and −λ² times those of nᵀ Σ n by the axis, n = D X held fixed there.
     """
-    form, at = worst.form, worst.at
-    C0, v0 = _at_middle(middle)
-    found = form.nearest(at, C0, v0) if at else None
+    form, at = _enclosed_form(worst.sizes), iv.mpf(worst.at)
+    C0, v0 = _centre_and_axis(iv, middle)
+    found = form.nearest(at, C0, v0) if worst.at else None
     if found is None:
         return False
     X0, inverse = found
@@ -233,30 +229,30 @@ def _stays_off(worst: State, middle: Row, radii: list[Fraction]) -> bool:
     The point is the centre, or C + ρ Σq/√(qᵀΣq), ρ ≤ 1, which turns with the axis and stays in the spheroid; for ρ = 1
     it is the spheroid's farthest in the fixed direction q.
     """
-    form, side = worst.form, worst.side
-    C0, v0 = _at_middle(middle)
+    form, side = _enclosed_form(worst.sizes), worst.side
+    C0, v0 = _centre_and_axis(iv, middle)
     C, v = _over_box(middle, radii)
     zero = [iv.mpf(0)] * 3
     if _crosses(form, side, (C0, zero), (C, zero), zero, radii):
         return True
-    if not worst.at:
-        return False
-    q = [_point(-side * each) for each in worst.n]
+    q = [iv.mpf(-side * each) for each in worst.n]
     return any(
         _crosses(form, side, (C0, way0), (C, way), slopes, radii)
-        for way0, way, slopes in (_outward(form, rho, q, v0, v, C) for rho in _shares_of_radius(worst, q))
+        for way0, way, slopes in (_outward(form, rho, q, v0, v, C) for rho in _shares_of_radius(worst))
     )
 
 
-def _shares_of_radius(worst: State, q: Intervals) -> Iterator[mpf]:
+def _shares_of_radius(worst: State) -> Iterator[mpf]:
     """How far to go along Σq: to the end, half way there from the hyperboloid, or to where h turns before the end."""
-    form, one = worst.form, plain.mpf(1)
-    yield one
+    form, one, q = worst.form, plain.mpf(1), [-worst.side * each for each in worst.n]
     width = form.width(worst.v, q)
-    yield (1 + min(_size(worst.at * width), one)) / 2
+    if not width:  # at the hyperboloid's centre h falls or rises in no direction
+        return
+    yield one
+    yield (1 + min(abs(worst.at * width), one)) / 2
     way = [each / width for each in form.sigma_times(worst.v, q)]
     bend = form.gradient(way)
-    turn = _middle(-dot(bend, worst.C)) / (_middle(dot(bend, way)) or one)
+    turn = -dot(bend, worst.C) / (dot(bend, way) or one)
     if 0 < turn < 1:
         yield turn
 
@@ -288,13 +284,17 @@ def _crosses(
     return bool(_high(height) + _spread([*(2 * each for each in n), *(2 * each for each in by_axis)], radii) <= 0)
 
 
-def _at_middle(middle: Row) -> tuple[Intervals, Intervals]:
-    numbers = [_interval(each) for each in middle]
+def _enclosed_form(sizes: Row) -> Form:
+    return Form([_number(iv, each) for each in sizes])
+
+
+def _centre_and_axis(context: MPContext | MPIntervalContext, row: Row) -> tuple[Intervals, Intervals]:
+    numbers = [_number(context, each) for each in row]
     return numbers[:3], numbers[3:]
 
 
 def _over_box(middle: Row, radii: list[Fraction]) -> tuple[Intervals, Intervals]:
-    numbers = [_interval(a) + iv.mpf([-1, 1]) * _interval(r) for a, r in zip(middle, radii, strict=True)]
+    numbers = [_number(iv, a) + iv.mpf([-1, 1]) * _number(iv, r) for a, r in zip(middle, radii, strict=True)]
     return numbers[:3], numbers[3:]
 
 
@@ -302,12 +302,12 @@ def _spread(slopes: Intervals, radii: list[Fraction]) -> mpf:
     """An upper bound of how much a function can change from the middle of a box to anywhere in it."""
     total = iv.mpf(0)
     for slope, radius in zip(slopes, radii, strict=True):
-        total += iv.mpf(_size(slope)) * _interval(radius)
+        total += iv.mpf(_size(slope)) * _number(iv, radius)
     return _high(total)
 
 
-def _interval(number: Fraction) -> ivmpf:
-    return iv.mpf(number.numerator) / number.denominator
+def _number(context: MPContext | MPIntervalContext, number: Fraction) -> ivmpf | mpf:
+    return context.mpf(number.numerator) / number.denominator
 
 
 def _low(enclosure: ivmpf) -> mpf:
@@ -316,15 +316,6 @@ def _low(enclosure: ivmpf) -> mpf:
 
 def _high(enclosure: ivmpf) -> mpf:
     return plain.mpf(enclosure.b)
-
-
-def _middle(enclosure: ivmpf) -> mpf:
-    return (_low(enclosure) + _high(enclosure)) / 2
-
-
-def _point(enclosure: ivmpf) -> ivmpf:
-    """The middle of an interval, as an interval of one number."""
-    return iv.mpf(_middle(enclosure))
 
 
 def _size(enclosure: ivmpf) -> mpf:

@@ -88,7 +88,7 @@ def position(pair: TiltedPair) -> Position | None:
 
 def multiplier(row: Sequence[float | Fraction], bits: int = STAGES[0]) -> Fraction:
     """About the λ at which φ is largest, for ten valid numbers; a hint, of which nothing is proved."""
-    return _fraction(_Spectrum(row, bits).optimum())
+    return _fraction(_Spectrum(row, bits, enclosed=False).optimum())
 
 
 def _position(at: mpf, lower: mpf, upper: mpf) -> Position | None:
@@ -112,11 +112,12 @@ def _contexts(bits: int) -> tuple[MPIntervalContext, MPContext]:
 
 
 class _Spectrum:
-    """A1, A2, B and P1, P2, Q of a row, enclosed in intervals of `bits` bits."""
+    """A1, A2, B and P1, P2, Q of a row in `bits` bits: enclosed in intervals, or near enough for a hint."""
 
-    def __init__(self, row: Sequence[float | Fraction], bits: int) -> None:
+    def __init__(self, row: Sequence[float | Fraction], bits: int, *, enclosed: bool = True) -> None:
         self.bits = bits
-        self.interval, self.plain = iv, _ = _contexts(bits)
+        self.interval, self.plain = _contexts(bits)
+        self.context = iv = self.interval if enclosed else self.plain
         alpha, gamma, b, d, x, y, z, v_x, v_y, v_z = (
             iv.mpf(each) if isinstance(each, float) else iv.mpf(each.numerator) / each.denominator for each in row
         )
@@ -140,12 +141,11 @@ class _Spectrum:
 
     def _eigenpair(self, e: ivmpf, f: ivmpf, g: ivmpf, minus_det: ivmpf) -> tuple[ivmpf, tuple[ivmpf, ivmpf]]:
         """The positive eigenvalue of [[e, f], [f, g]] and an eigenvector; e g − f² = −minus_det < 0."""
-        iv = self.interval
         half, trace = (e - g) / 2, (e + g) / 2
-        root = iv.sqrt(half * half + f * f)
-        size = iv.sqrt(trace * trace + minus_det)  # the same number, enclosed from another side
-        positive = trace + size if self._low(trace) > 0 else minus_det / (size - trace)
-        first = self._low(half) + self._high(half) > 0
+        root = self.context.sqrt(half * half + f * f)
+        size = self.context.sqrt(trace * trace + minus_det)  # the same number, enclosed from another side
+        positive = trace + size if trace > 0 else minus_det / (size - trace)
+        first = self._middle(half) > 0
         direction = (root + half, f) if first else (f, root - half)
         return positive, direction
 
@@ -163,7 +163,7 @@ class _Spectrum:
 
     def optimum(self) -> mpf:
         """About where φ is largest: by floats in the first stage, as long as those hold the numbers."""
-        numbers = [(self._low(each) + self._high(each)) / 2 for each in self._six()]
+        numbers = [self._middle(each) for each in self._six()]
         floats = [float(each) for each in numbers]
         if self.bits == STAGES[0] and min(floats[:3]) > 1 / _LARGEST and max(floats) < _LARGEST:
             end, odds, steps = *_root(floats, -500, self.bits - 24), 1
@@ -186,6 +186,9 @@ class _Spectrum:
 
     def _six(self) -> tuple[ivmpf, ...]:
         return self.A1, self.A2, self.B, self.P1, self.P2, self.Q
+
+    def _middle(self, number: ivmpf | mpf) -> mpf:
+        return number if self.context is self.plain else (self._low(number) + self._high(number)) / 2
 
     def _low(self, enclosure: ivmpf) -> mpf:
         return self.plain.mpf(enclosure.a)
