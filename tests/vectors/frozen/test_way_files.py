@@ -22,7 +22,7 @@ from hypcheck.vectors.ways.format import read_ways, ways_text
 from hypcheck.vectors.ways.labels import faults_of_ways
 from tests.support import fractions_truth
 from tests.support.records import violations
-from tests.tilted_fractions import exact_position
+from tests.support.tilted_fractions import exact_position
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
 every_file = pytest.mark.parametrize("name", frozen.WAY_NAMES)
