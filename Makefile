@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test lint quick cases check-cases prove paper figures mutants format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -32,13 +32,16 @@ check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): be
 	$(MAKE) --no-print-directory --jobs 2 lint quick
 
 quick: $(VENV)/ready-dev
-	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow'
+	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow and not thorough'
 
-test: $(VENV)/ready-dev ## lint, format, strict types, import layers and every test
+test: $(VENV)/ready-dev ## lint, format, strict types, import layers and every test but the thorough ones
 	$(MAKE) --no-print-directory --jobs 2 lint check-cases
-	$(BIN)/python -m pytest -n auto --dist worksteal || { \
+	$(BIN)/python -m pytest -n auto --dist worksteal -m 'not thorough' || { \
 		echo "What failed beside other tests runs once more, alone: a loaded machine refuses no change. What fails twice fails."; \
-		$(BIN)/python -m pytest --last-failed --last-failed-no-failures none --maxfail 3; }
+		$(BIN)/python -m pytest -m 'not thorough' --last-failed --last-failed-no-failures none --maxfail 3; }
+
+thorough: $(VENV)/ready-dev ## the tests that repeat with many rows or processes what others test with few (ten minutes)
+	$(BIN)/python -m pytest -n auto --dist worksteal -m thorough
 
 cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)
 	$(BIN)/hypcheck cases freeze --into cases

@@ -57,6 +57,23 @@ SLOW = {
 }
 """Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 
+THOROUGH = {
+    "": "tutorial",
+    "bench": "kernel_targets tilted",
+    "kernel": "parallel_lines sanitizers scene_leaning tilted_sanitizers",
+    "kernel/emission": "conformance extremes leaning limits scenes",
+    "paper": "motion simulate_cli",
+    "report": "simulation_pictures",
+    "runs/cluster": "cluster_interrupted cluster_refused cluster_versions local_cluster",
+    "tables": "processes",
+    "tools/attack": "attack",
+    "tools/fuzz": "fuzz",
+    "tools/soak": "soak",
+    "truth": "nearest_bounds roots_table",
+    "truth/tilted": "float_boxes passage",
+}
+"""Modules, by folder, that repeat with many rows or processes what others test with few: `make thorough` runs them."""
+
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers():
@@ -65,15 +82,16 @@ def pytest_xdist_auto_num_workers():
 
 
 def pytest_collection_modifyitems(items):
-    """Mark the tests of slow modules."""
-    slow = {module_of(folder, name) for folder, names in SLOW.items() for name in names.split()}
-    for item in items:
-        if item.path in slow:
-            item.add_marker(pytest.mark.slow)
+    """Mark the tests of slow and of thorough modules."""
+    for marker, table in (("slow", SLOW), ("thorough", THOROUGH)):
+        modules = {module_of(folder, name) for folder, names in table.items() for name in names.split()}
+        for item in items:
+            if item.path in modules:
+                item.add_marker(marker)
 
 
 def module_of(folder, name):
-    """The file of a module that SLOW names."""
+    """The file of a module that a table names."""
     return Path(__file__).parent / folder / f"test_{name}.py"
 
 

@@ -189,7 +189,7 @@ def _kept(found: FileCondition) -> str:
 
 def _ending(found: FileCondition) -> str:
     if found.complete and not found.lost_bytes:
-        return f"it is complete, of a run that ended with {found.exit_code}"
+        return f"it is complete, of a run that ended with {escaped(found.exit_code, 40)}"
     if not found.lost_bytes:
         return "it has no footer, so it is cut off, or its run was interrupted"
     verb = "is" if found.lost_bytes == 1 else "are"

@@ -33,7 +33,7 @@ Mode = Annotated[str, one_of("batch", "single", "build")]
 """Many rows a call, one row a call, or the building of a mesh."""
 
 Octave = tuple[int | Annotated[str, Meta(pattern="^-inf$")], Count, Count]
-"""The floor of log2 of a flip distance ("-inf": an exact tangency), cases asked, and wrong."""
+"""The floor of log2 of a distance to the other answer ("-inf": an exact tangency), cases asked, and wrong."""
 
 Grid = tuple[float, float, Count]
 """The first, the last, and how many."""
@@ -123,7 +123,7 @@ class Mistaken(LinePart, frozen=True, kw_only=True):
 
 
 class AccuracyLine(RecordLine, frozen=True, kw_only=True):
-    """A method's answers on a workload; above the flip distance `reliable_above`, at most 1 in 1000 is wrong."""
+    """A method's answers on a workload; at distances above `reliable_above`, at most 1 in 1000 is wrong."""
 
     method: str
     workload: str

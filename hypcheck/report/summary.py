@@ -55,7 +55,8 @@ SCHEMA = "1.3.0"
 Fields = dict[str, Any]
 
 Distance = Annotated[
-    Unsigned, Meta(description="The flip distance above which at most 1 answer in 1000 is wrong; 0: none is.")
+    Unsigned,
+    Meta(description="The distance to the other answer above which at most 1 answer in 1000 is wrong; 0: none is."),
 ]
 Units = Annotated[Unsigned, Meta(description="A backward error in units u of the declared precision.")]
 CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]

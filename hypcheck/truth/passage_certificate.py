@@ -17,12 +17,13 @@ This module shares no code with what makes certificates: it starts from the floa
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
-from hypcheck.truth.tilted.certificate import Matrix, Point, TiltedCertificate, check_certificate, matrices
+from hypcheck.truth.tilted.certificate import Point, TiltedCertificate, check_certificate, matrices
 
 Rationals = tuple[Fraction, ...]
 
@@ -61,19 +62,13 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     """The time up to which the pieces prove the spheroid clear; None where there is none, or a piece fails."""
     last = Fraction(0)
     S, H = matrices(place(row, last))
-    M, D = [each[:3] for each in S[:3]], [H[i][i] for i in range(3)]
+    unit, numbers = _whole([each for matrix in (S, H) for line in matrix[:3] for each in line[:3]])
+    M, D = [numbers[3 * i : 3 * i + 3] for i in range(3)], [numbers[9 + 4 * i] for i in range(3)]
     for multiplier, end in certificate.pieces:
         if not last < end <= 1:
             return None
-        form = [[M[i][j] + (i == j) * multiplier * D[i] for j in range(3)] for i in range(3)]
-        centres = [place(row, time).row[len(SIZES) :] for time in (last, end)]
-        solved = _solved(form, [[a * b for a, b in zip(D, centre, strict=True)] for centre in centres])
-        if solved is None:
-            return None
-        images = [[sum((a * b for a, b in zip(line, each, strict=True)), Fraction(0)) for line in M] for each in solved]
-        first, middle, final = (
-            multiplier * sum((a * b for a, b in zip(centres[i], images[j], strict=True)), Fraction(0)) - 1 - multiplier
-            for i, j in ((0, 0), (0, 1), (1, 1))
+        first, middle, final = _bernstein(
+            M, D, unit, multiplier, [place(row, each).row[len(SIZES) :] for each in (last, end)]
         )
         if min(first, final) <= 0 or (middle < 0 and middle * middle >= first * final):
             return None
@@ -81,17 +76,36 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     return last if certificate.pieces else None
 
 
-def _solved(matrix: Matrix, right: Sequence[Sequence[Fraction]]) -> Matrix | None:
-    """The solutions of a linear system for each right side, by elimination; None unless all three pivots are > 0."""
-    rows = [[*line, *(each[i] for each in right)] for i, line in enumerate(matrix)]
-    for i, row in enumerate(rows):
-        if row[i] <= 0:
-            return None
-        for other in rows[:i] + rows[i + 1 :]:
-            if other[i]:
-                factor = other[i] / row[i]
-                other[:] = [a - factor * b for a, b in zip(other, row, strict=True)]
-    return [[row[3 + place] / row[i] for i, row in enumerate(rows)] for place in range(len(right))]
+def _bernstein(
+    M: list[list[int]], D: list[int], unit: int, multiplier: Fraction, centers: Sequence[Rationals]
+) -> tuple[int, int, int]:
+    """The Bernstein coefficients of φ between two centres, times one positive number; zeros unless M + λD > 0.
+
+    M and D are times `unit`. With λ = p/q, F = q M + p D has the same `unit`, and (M + λD)⁻¹ = q unit adj F / det F;
+    so with centres that are times k, φ is [p q CᵀM adj(F) D C − unit k² (p + q) det F] / (q unit k² det F).
+    """
+    p, q = multiplier.numerator, multiplier.denominator
+    F = [[q * M[i][j] + (i == j) * p * D[i] for j in range(3)] for i in range(3)]
+    others = ((1, 2), (2, 0), (0, 1))
+    adjugate = [[F[r][u] * F[s][v] - F[r][v] * F[s][u] for r, s in others] for u, v in others]
+    determinant = sum(a * line[0] for a, line in zip(F[0], adjugate, strict=True))
+    if min(F[0][0], adjugate[2][2], determinant) <= 0:
+        return 0, 0, 0
+    k, whole = _whole([each for center in centers for each in center])
+    ends = whole[:3], whole[3:]
+    left = [[sum(c * M[i][j] for i, c in enumerate(end)) for j in range(3)] for end in ends]
+    right = [[sum(line[j] * D[j] * c for j, c in enumerate(end)) for line in adjugate] for end in ends]
+    lost = unit * k * k * (p + q) * determinant
+    first, middle, final = (
+        p * q * sum(a * b for a, b in zip(left[i], right[j], strict=True)) - lost for i, j in ((0, 0), (0, 1), (1, 1))
+    )
+    return first, middle, final
+
+
+def _whole(numbers: Sequence[Fraction]) -> tuple[int, list[int]]:
+    """The least number that makes all of them whole, and them times it."""
+    unit = math.lcm(*(each.denominator for each in numbers))
+    return unit, [each.numerator * (unit // each.denominator) for each in numbers]
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:

@@ -210,8 +210,26 @@ def estimate(row: Sequence[float], truth: TiltedDecision, answer: Position) -> f
     return math.inf if is_out_of_reach(row, goal) else float(_estimate(tuple(map(Fraction, row)), goal))
 
 
-def is_bracket(row: Sequence[float], truth: TiltedDecision, answer: Position, ends: Bracket, cuts: int = CUTS) -> bool:
-    """Whether proofs are found that the backward error of an answer lies between these ends."""
+def excluded_at_once(rows: Sequence[Sequence[float]], goals: Sequence[Goal], changes: Sequence[float]) -> list[bool]:
+    """Where float64 proves that no change up to `changes` attains a goal; False says nothing."""
+    asked = np.array(rows).reshape(len(rows), len(TILTED_COLUMNS))
+    held = float_boxes.excluded(asked, goals, np.array(changes))
+    return [bool(each) and not _stays_upright(row) for each, row in zip(held, rows, strict=True)]
+
+
+def is_bracket(
+    row: Sequence[float],
+    truth: TiltedDecision,
+    answer: Position,
+    ends: Bracket,
+    cuts: int = CUTS,
+    *,
+    lower_holds: bool = False,
+) -> bool:
+    """Whether proofs are found that the backward error of an answer lies between these ends.
+
+    `lower_holds` says that the lower end is proved already, as by excluded_at_once.
+    """
     if is_limit(truth, answer):
         return ends == Bracket(0.0, 0.0)
     goal = goal_of(truth.position, answer)
@@ -220,7 +238,7 @@ def is_bracket(row: Sequence[float], truth: TiltedDecision, answer: Position, en
     low, high = ends.lower, ends.upper
     if not 0 <= low <= high <= 1 or high == 0:
         return False
-    below = low == 0 or (low < 1 and excluded(row, goal, Fraction(low), cuts))
+    below = lower_holds or low == 0 or (low < 1 and excluded(row, goal, Fraction(low), cuts))
     return below and (high == 1 or reached(row, goal, Fraction(high)))
 
 

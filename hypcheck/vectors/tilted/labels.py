@@ -17,7 +17,7 @@ from hypcheck.geometry.rows import within
 from hypcheck.tables.numbers import decimal_of
 from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.backward_error import bracket, is_bracket
+from hypcheck.truth.tilted.backward_error import bracket, excluded_at_once, goal_of, is_bracket
 from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate
 from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.nearest import nearest
@@ -136,14 +136,32 @@ def shows_tilted_crossing(pair: TiltedPair, offsets: Sequence[Offset]) -> bool:
 
 def faults_of_tilted(file: TiltedVectorFile) -> list[LabelFault]:
     """Every wrong label of a file of cases, in order."""
+    proved = _proved_lower_ends(file.cases)
     return [
         LabelFault(line, case.id, sentence)
-        for line, case in zip(file.lines or (0,) * len(file.cases), file.cases, strict=True)
-        for sentence in _sentences(case)
+        for line, case, proofs in zip(file.lines or (0,) * len(file.cases), file.cases, proved, strict=True)
+        for sentence in _sentences(case, proofs)
     ]
 
 
-def _sentences(case: TiltedVector) -> Iterator[str]:
+def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
+    """For each case the other positions whose lower end float64 proves, all cases at once: most, in little time."""
+    proved: list[set[Position]] = [set() for _ in cases]
+    asked = [
+        (place, other, ends.lower)
+        for place, case in enumerate(cases)
+        for other, ends in case.flips.items()
+        if other is not case.position and 0 < ends.lower < 1
+    ]
+    goals = [goal_of(cases[place].position, other) for place, other, _ in asked]
+    rows = [cases[place].row for place, *_ in asked]
+    for (place, other, _), holds in zip(asked, excluded_at_once(rows, goals, [low for *_, low in asked]), strict=True):
+        if holds:
+            proved[place].add(other)
+    return proved
+
+
+def _sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
     pair = case.pair
     yield from _unproved(case, pair)
     measured = nearest(pair)
@@ -153,7 +171,7 @@ def _sentences(case: TiltedVector) -> Iterator[str]:
     if (truth.position, truth.tangent) != (case.position, case.tangent):
         return  # its flips are to other positions
     for other, ends in case.flips.items():
-        if not is_bracket(case.row, truth, other, ends, cuts=0):
+        if not is_bracket(case.row, truth, other, ends, cuts=0, lower_holds=other in proved):
             said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
             yield f"the flip to {other.label} is {said}; no proof of both ends is found"
     flags = tilted_flags(pair, truth)

@@ -25,7 +25,7 @@ from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 from tests.tools.attack.strike import Batch, batches, strike, tally
 from tests.tools.attack.subjects import Subject, of_library, one_by_one, subjects
 
-ROWS = 24_000
+ROWS = 8_000
 
 
 @pytest.fixture(scope="module")
@@ -144,7 +144,7 @@ int set_mode(int mode, int flush) {
 def test_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path):
     """An engine may have set either; the rows are decided beforehand, under the usual rounding."""
     random = np.random.default_rng(mode)
-    rows = near_contact(random, 20_000)
+    rows = near_contact(random, 6_000)
     rows[::50, 4:] *= 1e-310
     scene = next(scenes(random, 1, 5000))
     truth, truth_of_scene = float_filter.positions(rows), float_filter.positions(scene.rows)
