@@ -27,7 +27,7 @@ from hypcheck.truth import exact
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
-from hypcheck.vectors.draw import Draw, stepped, turns
+from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
 from hypcheck.vectors.tilted import families as tilted_families
@@ -343,7 +343,7 @@ def _leaning_edge(row: Rows, way: float) -> Rows:
 def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """Coordinates that are 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
     rows = _leaning_box(setting, draw, n)
-    far = np.exp2(draw.integers(n, 0, 12).astype(np.float64))
+    far = ldexp(1, draw.integers(n, 0, 12))
     rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)
     rows[:, 5] *= turns(n, 0.0, 1.0, 0.0, 1.0, 1.0)
     rows[:, 6] *= turns(n, 1.0, 1.0, 1.0, 0.0, 1.0)

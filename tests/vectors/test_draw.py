@@ -33,6 +33,7 @@ ALLOWED = {
         "uint64",
         "bool_",
         "object_",
+        "nextafter",
         "dtype",
         "ndarray",
         "errstate",

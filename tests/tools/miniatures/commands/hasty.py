@@ -12,4 +12,4 @@ while words := sys.stdin.buffer.readline().split():
     if not sys.argv[1:]:
         if n > 1:
             time.sleep(1)  # who reads on at once is seen only by who looks at once
-        read(sys.stdin.buffer, n, "text")
+        read(sys.stdin.buffer, n, "text", {})
