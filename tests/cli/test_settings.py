@@ -22,7 +22,6 @@ from hypcheck.cli.verify import verify
 from hypcheck.errors import InputError
 from hypcheck.record import read
 from hypcheck.record.fields import as_json
-from hypcheck.vectors.families import FAMILIES
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -187,9 +186,7 @@ def test_settings_that_weaken_the_gate_are_shown_at_the_start_and_in_every_repor
     assert f"S{told[1:]}." in html.unescape((folder / "report.md").read_text()).replace("\\", "")
 
 
-def test_a_run_as_strict_as_the_defaults_shows_no_settings(project, capsys, monkeypatch):
-    for name in set(FAMILIES) - {"ring", "extreme-hair"}:  # which are then all that there are
-        monkeypatch.delitem(FAMILIES, name)
+def test_a_run_as_strict_as_the_defaults_shows_no_settings(project, capsys):
     project("")
     Path(FILE).unlink()
     assert main(["verify", "builtin:fast", "--seed", "3", "--count", "400", "--tolerance", "8", "--out", "out"]) == 0
