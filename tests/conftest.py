@@ -59,18 +59,25 @@ SLOW = {
 
 THOROUGH = {
     "": "tutorial",
-    "bench": "kernel_targets tilted",
-    "kernel": "parallel_lines sanitizers scene_leaning tilted_sanitizers",
-    "kernel/emission": "conformance extremes leaning limits scenes",
-    "paper": "motion simulate_cli",
-    "report": "simulation_pictures",
+    "bench": "c_tier kernel_targets scenes tilted",
+    "derivation": "rounding",
+    "implementations": "fcl_naive",
+    "kernel": "header parallel_lines sanitizers scene_leaning tilted_integers tilted_sanitizers",
+    "kernel/emission": "conformance extremes kernels leaning limits scenes",
+    "paper": "ledger_search motion pitch simulate_cli tower",
+    "report": "hostile junit plots simulation_pictures",
     "runs/cluster": "cluster_interrupted cluster_refused cluster_versions local_cluster",
+    "runs/conformance": "extremes unchanged workers",
+    "runs/hunt": "minimise search",
+    "runs/resume": "resume",
+    "scaffold": "adapters",
     "tables": "processes",
     "tools/attack": "attack",
     "tools/fuzz": "fuzz",
     "tools/soak": "soak",
-    "truth": "nearest_bounds roots_table",
+    "truth": "mesh nearest nearest_bounds roots_table swept",
     "truth/tilted": "float_boxes passage",
+    "vectors/frozen": "files tilted_files",
 }
 """Modules, by folder, that repeat with many rows or processes what others test with few: `make thorough` runs them."""
 
