@@ -34,6 +34,9 @@ NEARNESS = 1e-6
 ROUNDING = 64 * 2.0**-53
 """What the rounding of a distance may amount to, in radii, for each radius of the lengths that go into it."""
 
+LEAST_RADIUS = 2.0**-900
+"""The certified method decides exactly where b or d is less: what underflows is nothing beside it."""
+
 LARGEST_SLACK, LEAST_GROWTH = 2.0**-20, 2.0**-16
 """The certified method decides exactly where rounding may exceed the first, or less than the second is left to step."""
 
@@ -152,12 +155,13 @@ def certified(rows: Rows) -> NDArray[np.int8]:
 
     A spheroid that has contact at some time with b and d shrunk has contact then. One that is clear with b and d grown
     by a factor k is clear for as much of the way as is shorter than k − 1 radii. Both factors leave room for the
-    rounding of the centre, which is at most ROUNDING times the lengths in radii.
+    rounding of the centre, which is at most ROUNDING times the lengths in radii: x0 + t (x1 − x0) has three errors of
+    at most 2⁻⁵³ (2|x0| + 2|x1|) each, b (1 ± slack) one of 2⁻⁵³ b; beside LEAST_RADIUS underflow is nothing.
     """
     n, speed = len(rows), lengths_of(rows)
     hits = np.full(n, CANNOT_SAY, dtype=np.int8)
     slack = ROUNDING * (2 + np.abs(rows[:, 4:10] / rows[:, [2, 2, 3, 2, 2, 3]]).sum(axis=1))
-    safe = np.flatnonzero(slack < LARGEST_SLACK)
+    safe = np.flatnonzero((slack < LARGEST_SLACK) & (rows[:, 2:4].min(axis=1) >= LEAST_RADIUS))
     for time in np.linspace(0.0, 1.0, LOOKS):
         found = _touches(rows[safe], np.full(len(safe), time), 1 - slack[safe])
         hits[safe[found]] = 1
