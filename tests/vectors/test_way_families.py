@@ -11,8 +11,12 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.truth.passage_error import hits_at_size
+from hypcheck.vectors.double_roots import gather
+from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES, case_id, family_of, parse_case_id, row_of, select
 from hypcheck.vectors.family import BLOCK
+from hypcheck.vectors.ways import families as ways
 
 DIGESTS = {
     "way-anywhere": "c884c53f71228633130e82191fad30f9ee7dac62c2bd9bc9a7dd0c309a6cfbb5",
@@ -22,7 +26,7 @@ DIGESTS = {
     "way-across": "d0b68be6b2abf98e3bfaea7fdd21a721fa6c79e3fd6b258a8838a242eadae765",
     "way-grazing": "8d70281046dd285067fd6a5f37ce67cc8e835408b95dfbd164e395414ad30b12",
     "way-near-graze": "ce79b11cf3f1455d15dabe06f6bbde2197e4a4347d4e8c96712573e9898b395b",
-    "way-ring": "aedc72e3f455c13d2db19b7a84d14b2a7bc66ba585af388365dea28c11bd039f",
+    "way-ring": "274a0a36193fdcfa096ef27e23e06a689b63e66d7b81d540d17d0a20febaf1ed",
     "way-end": "c09fc4ef6c88ae3c8e9d4ca12643a6d3e10c2a80484a76c19566283ff6231267",
     "way-begun-in-contact": "4a1a8d8f0c60bf7618554140c5e7f075048903a97f1f7e7a038d022ecbe31e6d",
     "way-still": "7945635714050544d10fb482d035d977485093b10955db3f88d884a74909aeee",
@@ -73,6 +77,18 @@ def test_rows_of_ways_are_valid_and_a_longer_call_begins_with_a_shorter_one(fami
 
 def test_rows_of_ways_are_those_of_their_generator_versions():
     assert {family.name: digest(family) for family in WAY_FAMILIES.values()} == DIGESTS
+
+
+def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced():
+    rows = WAY_FAMILIES["way-ring"].rows(1, BLOCK)
+    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ways.ring_attempt)
+    replaced = (rows != before).any(axis=1)
+    assert 0 < replaced.sum() < 0.05 * BLOCK
+    assert all(hits_at_size(row) for row in before[replaced].tolist())
+    assert not any(hits_at_size(row) for row in rows[:64].tolist())
+    near = ~ways.more_than_a_radius_away(rows)
+    assert near.any()
+    assert not any(hits_at_size(row) for row in rows[near].tolist())
 
 
 def test_ways_are_chosen_only_where_they_are_wanted():

@@ -11,6 +11,7 @@ import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import WAYS, Floats, Mask, Rows
+from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import double_roots, random_pairs
 from hypcheck.vectors.double_roots import gather, in_metres
 from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
@@ -150,7 +151,8 @@ def near_graze(draw: Draw, n: int) -> Rows:
     return rows
 
 
-def _ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Ways across rings, and which of them have exact ends; some begin in contact, where the ring is near."""
     rows, usable = double_roots.waist_roots(draw, n, ring=True)
     rows = in_metres(draw, np.where(usable[:, None], rows, 1.0))
     share = ldexp(np.ones(n), draw.integers(n, -30, -5))
@@ -171,8 +173,37 @@ def _ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def ring(draw: Draw, n: int) -> Rows:
-    """Across the ring, where the discriminant is 0 in free air, along, up and out."""
-    return gather(draw, n, _ring_attempt)
+    """Across the ring, where the discriminant is 0 in free air, along, up and out.
+
+    A ring may be so near to the surface that a way across it begins in contact. Others stand in for such ways.
+    """
+    ways = gather(draw, n, ring_attempt)
+    near = np.flatnonzero(~more_than_a_radius_away(ways))
+    touching = [place for place in near.tolist() if hits_at_size(ways[place].tolist())]
+    ways[touching] = gather(draw, len(touching), _clear_ring_attempt)
+    return ways
+
+
+def _clear_ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    ways, usable = ring_attempt(draw, n)
+    return ways, usable & more_than_a_radius_away(ways)
+
+
+def more_than_a_radius_away(ways: Rows) -> Mask:
+    """Ways about a ring that are clear all along, as the waist shows.
+
+    In radii, a centre in the plane of the waist between the waist and the ring is r − a away from the surface, and one
+    that is z above it is farther than r − a − z. The margin is far more than what r is rounded by.
+    """
+    alpha, _, b, d = ways[:, :4].T
+    x, y, end_x, end_y = ways[:, [4, 5, 7, 8]].T
+    step_x, step_y = end_x - x, end_y - y
+    passing = (x * step_x + y * step_y < 0) & (end_x * step_x + end_y * step_y > 0)
+    with np.errstate(invalid="ignore"):  # a way that leads nowhere does not pass
+        foot = np.abs(x * step_y - y * step_x) / np.sqrt(step_x**2 + step_y**2)
+    nearest = np.where(passing, foot, np.sqrt(np.minimum(x**2 + y**2, end_x**2 + end_y**2))) / b
+    rise = np.abs(ways[:, [6, 9]]).max(axis=1) / d
+    return np.asarray(nearest * (1 - 2.0**-40) - alpha / b - rise > 1)
 
 
 def at_an_end(draw: Draw, n: int) -> Rows:

@@ -27,6 +27,8 @@ from tests.vectors.frozen.test_files import bits, schema, text_of
 
 every_file = pytest.mark.parametrize("name", frozen.WAY_NAMES)
 STEP = 12
+WITHDRAWN = {"way-ring": (14, 43, 55)}
+"""Ids that are never given again: these ways began in contact. Those in their places have the next ids."""
 
 
 def sample(name, step=STEP):
@@ -55,8 +57,11 @@ def test_there_are_at_least_2000_ways_in_at_least_14_families():
 def test_the_rows_of_a_file_of_ways_are_the_first_of_its_family_each_once(name):
     file = frozen.load_ways(name)
     wanted = list(dict.fromkeys(bits(WAY_FAMILIES[name].rows(freezing.SEED, freezing.WAY_COUNTS[name]))))
-    assert bits(file.rows) == wanted
-    assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
+    withdrawn = WITHDRAWN.get(name, ())
+    numbers = [number for number in range(len(wanted) + len(withdrawn)) if number not in withdrawn]
+    assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in numbers]
+    kept = [place for place in range(len(wanted)) if place not in withdrawn]
+    assert bits(file.rows) == [wanted[place] for place in (*kept, *withdrawn)]
     assert file.head == freezing.metadata_of(WAY_FAMILIES[name], f"hypcheck cases freeze {name}")
     assert ways_text(file) == text_of(name)
     assert frozen.frozen_rows(name).positions.tolist() == file.hits.tolist()
@@ -114,7 +119,8 @@ def test_families_of_ways_hold_what_they_promise():
     assert flagged("way-vertical", "vertical-way") > 0.9
     assert flagged("way-horizontal", "horizontal-way") > 0.9
     assert flagged("way-across", "tunnelling") > 0.5
-    assert frozen.load_ways("way-ring").hits.mean() < 0.05
+    assert not frozen.load_ways("way-ring").hits.any()
+    assert not frozen.load_ways("tilted-way-ring").hits.any()
     for name in ("way-near-graze", "way-uniform", "way-tower", "way-short", "way-long", "tilted-way-uniform"):
         assert 0.05 < frozen.load_ways(name).hits.mean() < 0.99, name
 
@@ -161,7 +167,7 @@ def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
 
 def test_the_commands_about_cases_know_ways(tmp_path, capsys):
     assert main(["cases", "show", "way-ring"]) == 0
-    assert "answers     105 clear, 3 contact" in capsys.readouterr().out
+    assert "answers     108 clear" in capsys.readouterr().out
     assert main(["cases", "show", "way-grazing-0001"]) == 0
     shown = capsys.readouterr().out
     assert "contact on the way" in shown
