@@ -205,7 +205,7 @@ def _convergence_line(pairing: str, triangles: int, rows: Rows, truth: Answers) 
     queries = []
     for _ in range(5):
         started = time.perf_counter_ns()
-        answers = mesh.positions(rows)
+        answers = mesh.answers(rows)
         queries.append((time.perf_counter_ns() - started) / len(rows))
     return ConvergenceLine(
         method=f"{FCL.name}-{pairing}",

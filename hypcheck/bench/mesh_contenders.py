@@ -51,7 +51,7 @@ class InEngine:
         """Its answers, scene by scene; missing meshes are built and kept."""
         found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         for sizes, places in rows_by_sizes(rows):
-            found[places] = self.mesh(sizes, rows[places]).positions(rows[places])
+            found[places] = self.mesh(sizes, rows[places]).answers(rows[places])
         return found
 
     def mesh(self, sizes: Sizes, rows: Rows) -> SceneMesh:
@@ -73,7 +73,7 @@ class InEngine:
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
         sizes = scene_of(rows)
         if sizes is not None:
-            return self.mesh(sizes, rows).positions
+            return self.mesh(sizes, rows).answers
         self.answer(rows)  # builds them
         return self.answer
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -22,6 +23,7 @@ from hypcheck.implementations.description import EVERYWHERE, Description, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
 from hypcheck.implementations.meshes import ellipsoid_mesh, point_mesh, sphere_mesh
 from hypcheck.implementations.method import Answers, Method, by_rows
+from hypcheck.implementations.way_meshes import WAY_SOLVERS, WaySolver, hits_and_times
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel
@@ -198,6 +200,30 @@ def _passage_method(
     )
 
 
+@cache
+def passage_mesh_methods() -> dict[str, Method]:
+    """Every built-in method that asks a collision engine about ways, by its name, whether the engine is here or not."""
+    return {name: _way_mesh_method(solver) for name, solver in WAY_SOLVERS.items()}
+
+
+def _way_mesh_method(solver: WaySolver) -> Method:
+    def timed(rows: Rows) -> tuple[Answers, Floats]:
+        return hits_and_times(solver, rows)
+
+    found = _passage_method(solver.name, solver.title, timed, max_rows=FCL_ROWS)
+    return found if solver.times else replace(found, timed=None)
+
+
+def _passage_mesh_method(name: str) -> Method | None:
+    """The method of that name, if there is one. Raises InputError where its engine is missing."""
+    if name not in WAY_SOLVERS:
+        return None
+    trouble = WAY_SOLVERS[name].engine.trouble()
+    if trouble is not None:
+        raise InputError(f"the built-in method {name!r} cannot be used: {trouble}")
+    return passage_mesh_methods()[name]
+
+
 PRECISIONS = ("float32", "float64")
 
 FCL_ROWS = 12
@@ -262,11 +288,11 @@ def builtin_methods() -> dict[str, Method]:
 
 
 def builtin(name: str) -> Method:
-    """The built-in method of that name; raises InputError naming those that exist."""
-    method = methods_without_meshes().get(name) or passage_methods().get(name)
+    """The built-in method of that name; raises InputError naming those that exist, or what it needs and lacks."""
+    method = methods_without_meshes().get(name) or passage_methods().get(name) or _passage_mesh_method(name)
     method = method or builtin_methods().get(name)  # FCL is loaded only on request
     if method is None:
-        known = [*builtin_methods(), *passage_methods()]
+        known = [*builtin_methods(), *passage_methods(), *WAY_SOLVERS]
         raise InputError(f"there is no built-in method {name!r}; {suggestion(name, known)}")
     return method
 

@@ -39,6 +39,14 @@ class Touches(Protocol):
         ...
 
 
+class Distance(Protocol):
+    """The distance between a point and the mesh."""
+
+    def __call__(self, x: float, y: float, z: float, /) -> float:
+        """Ask the engine."""
+        ...
+
+
 PAIRINGS = ("point", "sphere", "ellipsoid")
 """The pairings: distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
 
@@ -47,29 +55,24 @@ PAIRINGS = ("point", "sphere", "ellipsoid")
 class Engine:
     """A collision engine; `trouble` gives the reason why it cannot be used, or None.
 
-    `question` takes pairing, vertices, triangles, b and d, and returns None if the engine refuses the mesh.
+    `question` takes pairing, vertices, triangles, b and d, and returns None if the engine refuses the mesh; `distance`
+    takes vertices and triangles.
     """
 
     name: str
     title: str
     trouble: Callable[[], str | None]
     question: Callable[[str, Vertices, Triangles, float, float], Touches | None]
+    distance: Callable[[Vertices, Triangles], Distance | None]
 
 
 def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
+    if pairing == "point":
+        return _within_1(_fcl_distance(vertices, triangles))
     fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
     if mesh is None:
         return None
-    shapes = {"point": lambda: fcl.Sphere(0.0), "sphere": lambda: fcl.Sphere(1.0)}
-    body = fcl.CollisionObject(shapes[pairing]() if pairing in shapes else fcl.Ellipsoid(b, b, d))
-    if pairing == "point":
-        near = fcl.DistanceRequest()
-
-        def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
-            body.setTranslation(np.array([x, y, z]))
-            return bool(fcl.distance(body, mesh, near, fcl.DistanceResult()) <= 1.0)
-
-        return within
+    body = fcl.CollisionObject(fcl.Sphere(1.0) if pairing == "sphere" else fcl.Ellipsoid(b, b, d))
     request = fcl.CollisionRequest()
 
     def collides(x: float, y: float, z: float, turn: Floats | None = None) -> bool:
@@ -81,25 +84,37 @@ def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: fl
     return collides
 
 
-def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
-    coal = _coal_module()
-    mesh = coal.BVHModelOBBRSS()
-    mesh.beginModel(len(triangles), len(vertices))
-    mesh.addVertices(vertices)
-    mesh.addTriangles(triangles)
-    if mesh.endModel() != 0:
+def _fcl_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
+    fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
+    if mesh is None:
         return None
-    shapes = {"point": lambda: coal.Sphere(0.0), "sphere": lambda: coal.Sphere(1.0)}
-    shape = shapes[pairing]() if pairing in shapes else coal.Ellipsoid(b, b, d)
-    here, there = coal.Transform3s(), coal.Transform3s()
+    point, near = fcl.CollisionObject(fcl.Sphere(0.0)), fcl.DistanceRequest()
+
+    def distance(x: float, y: float, z: float) -> float:
+        point.setTranslation(np.array([x, y, z]))
+        return float(fcl.distance(point, mesh, near, fcl.DistanceResult()))
+
+    return distance
+
+
+def _within_1(distance: Distance | None) -> Touches | None:
+    if distance is None:
+        return None
+
+    def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
+        return distance(x, y, z) <= 1.0
+
+    return within
+
+
+def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
     if pairing == "point":
-        near = coal.DistanceRequest()
-
-        def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
-            here.setTranslation(np.array([x, y, z]))
-            return bool(coal.distance(shape, here, mesh, there, near, coal.DistanceResult()) <= 1.0)
-
-        return within
+        return _within_1(_coal_distance(vertices, triangles))
+    coal, mesh = _coal_module(), _coal_mesh(vertices, triangles)
+    if mesh is None:
+        return None
+    shape = coal.Sphere(1.0) if pairing == "sphere" else coal.Ellipsoid(b, b, d)
+    here, there = coal.Transform3s(), coal.Transform3s()
     request = coal.CollisionRequest()
 
     def collides(x: float, y: float, z: float, turn: Floats | None = None) -> bool:
@@ -109,6 +124,28 @@ def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: f
         return bool(coal.collide(shape, here, mesh, there, request, coal.CollisionResult()) > 0)
 
     return collides
+
+
+def _coal_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
+    coal, mesh = _coal_module(), _coal_mesh(vertices, triangles)
+    if mesh is None:
+        return None
+    point, here, there, near = coal.Sphere(0.0), coal.Transform3s(), coal.Transform3s(), coal.DistanceRequest()
+
+    def distance(x: float, y: float, z: float) -> float:
+        here.setTranslation(np.array([x, y, z]))
+        return float(coal.distance(point, here, mesh, there, near, coal.DistanceResult()))
+
+    return distance
+
+
+def _coal_mesh(vertices: Vertices, triangles: Triangles) -> Any:  # noqa: ANN401 - it has no types
+    """coal's model of a mesh, or None where coal refuses it."""
+    mesh = _coal_module().BVHModelOBBRSS()
+    mesh.beginModel(len(triangles), len(vertices))
+    mesh.addVertices(vertices)
+    mesh.addTriangles(triangles)
+    return None if mesh.endModel() != 0 else mesh
 
 
 def _coal_module() -> Any:  # noqa: ANN401 - it has no types
@@ -126,8 +163,8 @@ def _coal_trouble() -> str | None:
     return None
 
 
-FCL = Engine("fcl", "FCL", availability, _fcl)
-COAL = Engine("coal", "coal", _coal_trouble, _coal)
+FCL = Engine("fcl", "FCL", availability, _fcl, _fcl_distance)
+COAL = Engine("coal", "coal", _coal_trouble, _coal, _coal_distance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,7 +246,7 @@ class SceneMesh:
     triangles: int
     touches: Touches | None
 
-    def positions(self, rows: Rows) -> Answers:
+    def answers(self, rows: Rows) -> Answers:
         """Positions (n,) of rows that have these sizes, (n, 7), or of an ellipsoid also (n, 10)."""
         touches = self.touches
         if touches is None:
@@ -245,7 +282,7 @@ def rows_by_sizes(rows: Rows) -> Iterator[tuple[Sizes, NDArray[np.intp]]]:
         yield (alpha, gamma, b, d), np.flatnonzero(scene_of.reshape(-1) == index)
 
 
-_LARGEST = 1e100
+LARGEST = 1e100
 """Beyond this, a product of three lengths inside FCL may overflow, and its answer is meaningless without any
 warning."""
 
@@ -298,7 +335,7 @@ def _position(body: FclBody, triangles: int, touches: Query) -> int:
     vertices, indices = _mesh(body, triangles)
     if not len(indices):
         return side
-    if not max(np.abs(vertices).max(), *np.abs(astuple(body))) < _LARGEST:
+    if not max(np.abs(vertices).max(), *np.abs(astuple(body))) < LARGEST:
         return CANNOT_SAY
     mesh = mesh_object(vertices, indices)
     if mesh is None:

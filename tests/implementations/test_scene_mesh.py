@@ -67,7 +67,7 @@ def test_scene_mesh_is_right_beyond_its_deviation(engine, pairing):
     rows = WORKLOADS["uniform"].rows(1, 400)
     mesh = scene_mesh(engine, pairing, TOWER, height_of(TOWER, rows), 3000)
     doubtful = np.abs(clearances(rows).clearance) <= mesh.deviation
-    answers, truth = mesh.positions(rows), float_filter.positions(rows)
+    answers, truth = mesh.answers(rows), float_filter.positions(rows)
     assert (answers[~doubtful] == truth[~doubtful]).all()
     assert set(answers.tolist()) == {-1, 0, 1}
 
@@ -77,10 +77,10 @@ def test_a_leaning_ellipsoid_is_posed_by_its_axis(engine):
     rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)
     mesh = scene_mesh(engine, "ellipsoid", TOWER, height_of(TOWER, rows), 20_000)
     far = np.array([abs(nearest(TiltedPair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation
-    answers, truth = mesh.positions(rows), hypcheck.classify(rows)
+    answers, truth = mesh.answers(rows), hypcheck.classify(rows)
     assert far.sum() > 250
     assert (answers[far] == truth[far]).all()
-    assert (mesh.positions(rows[:, :7])[far] != truth[far]).sum() > 10  # as if it stood upright
+    assert (mesh.answers(rows[:, :7])[far] != truth[far]).sum() > 10  # as if it stood upright
 
 
 def test_turns_are_rotations_that_take_the_z_axis_to_each_axis():
@@ -96,7 +96,7 @@ def test_more_triangles_are_wrong_less_often_near_contact(engine):
     rows = WORKLOADS["near-contact"].rows(1, 1800)[::6]
     truth, height = float_filter.positions(rows), height_of(TOWER, rows)
     wrong = [
-        np.count_nonzero(scene_mesh(engine, "point", TOWER, height, n).positions(rows) != truth) for n in (100, 10_000)
+        np.count_nonzero(scene_mesh(engine, "point", TOWER, height, n).answers(rows) != truth) for n in (100, 10_000)
     ]
     assert wrong[1] < wrong[0]
 
@@ -104,7 +104,7 @@ def test_more_triangles_are_wrong_less_often_near_contact(engine):
 def test_a_mesh_that_the_engine_refuses_answers_nothing():
     refusing = replace(FCL, question=lambda *_: None)
     rows = WORKLOADS["uniform"].rows(1, 3)
-    assert scene_mesh(refusing, "point", TOWER, 25.0, 100).positions(rows).tolist() == [CANNOT_SAY] * 3
+    assert scene_mesh(refusing, "point", TOWER, 25.0, 100).answers(rows).tolist() == [CANNOT_SAY] * 3
 
 
 def test_rows_are_grouped_by_their_sizes():

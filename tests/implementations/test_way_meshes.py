@@ -1,0 +1,109 @@
+"""Collision engines asked about ways: what each solver sees, what it misses, and what it cannot be asked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations import ways
+from hypcheck.implementations.builtin import builtin
+from hypcheck.implementations.meshes import COAL, FCL
+from hypcheck.implementations.way_meshes import WAY_SOLVERS, ball_mesh, height_of_ways, hits_and_times, way_mesh
+
+HERE = [name for name, solver in WAY_SOLVERS.items() if solver.engine.trouble() is None]
+NEEDS_FCL = pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
+
+SIZES = (4.0, 6.0, 1.0, 0.5)
+IN_CONTACT, THROUGH_A_WALL, BETWEEN, PAST, TUNNEL, NARROW = range(6)
+ROWS = np.array(
+    [
+        (*SIZES, *start, *end)
+        for start, end in (
+            ((4, 0, 0), (9, 0, 0)),
+            ((9, 0.5, 0), (0, 0.5, 0)),
+            ((9, 0, 0), (7, 0, 1)),
+            ((9, -6, 0), (9, 6, 0)),
+            ((60, 1, 0.2), (-140, 1, 0.2)),
+            ((3.5, 0, 9), (3.5, 0, -9)),
+        )
+    ]
+)
+
+
+@pytest.fixture(scope="module")
+def found():
+    """Hits and times of each solver that is here."""
+    return {name: hits_and_times(WAY_SOLVERS[name], ROWS) for name in HERE}
+
+
+@pytest.mark.parametrize("name", [name for name in HERE if name.endswith("-distance")])
+def test_steps_by_an_engines_distance_find_each_contact_and_about_when(name, found):
+    hits, times = ways.exact(ROWS)
+    assert hits.tolist() == [1, 1, 0, 0, 1, 1]
+    assert found[name][0].tolist() == hits.tolist()
+    np.testing.assert_allclose(found[name][1], times, atol=0.02)
+
+
+@NEEDS_FCL
+def test_the_naive_solver_jumps_over_what_lies_between_its_times(found):
+    assert found["passage-fcl-naive-10"][0].tolist() == [1, 1, 0, 0, 0, 1]
+    assert found["passage-fcl-naive-100"][0].tolist() == [1, 1, 0, 0, 1, 1]
+    times = found["passage-fcl-naive-10"][1]
+    assert times[THROUGH_A_WALL] == pytest.approx(5 / 9)  # the first of its ten times behind 4/9
+
+
+@NEEDS_FCL
+def test_fcls_conservative_advancement_sees_contact_at_the_start_alone(found):
+    assert found["passage-fcl-advancement"][0].tolist() == [1, 0, 0, 0, 0, 0]
+
+
+@NEEDS_FCL
+def test_the_polynomial_solver_sees_crossings_and_tells_no_first_time(found):
+    assert found["passage-fcl-polynomial"][0].tolist() == [1, 1, 0, 0, 1, 1]
+    assert builtin("passage-fcl-polynomial").timed is None
+    mesh = way_mesh(WAY_SOLVERS["passage-fcl-polynomial"], SIZES, height_of_ways(SIZES, ROWS))
+    assert mesh.answers(np.concatenate([ROWS, ROWS])).tolist() == [1, 1, 0, 0, 1, 1] * 2  # no mesh stays moved
+
+
+@pytest.mark.skipif(COAL.trouble() is not None, reason="coal is not installed")
+def test_coal_has_no_continuous_collision_of_its_own():
+    import coal
+
+    assert coal.Ellipsoid
+    assert [name for name in dir(coal) if "continuous" in name.lower()] == []
+
+
+@pytest.mark.skipif(COAL.trouble() is None, reason="coal is installed")
+def test_a_method_whose_engine_is_missing_says_what_it_needs():
+    with pytest.raises(InputError, match=r"^the built-in method 'passage-coal-distance' cannot be used: coal cannot"):
+        builtin("passage-coal-distance")
+
+
+@pytest.mark.parametrize("name", HERE)
+def test_a_way_that_is_too_long_for_an_engine_has_no_answer(name):
+    far = ROWS[:2].copy()
+    far[0, 7] = 1e120
+    assert way_mesh(WAY_SOLVERS[name], SIZES, height_of_ways(SIZES, far), 100).answers(far)[0] == CANNOT_SAY
+    far[0, 9] = 1e120
+    assert hits_and_times(WAY_SOLVERS[name], far[:1])[0].tolist() == [CANNOT_SAY]
+
+
+def test_a_mesh_that_the_engine_refuses_answers_nothing():
+    refusing = replace(WAY_SOLVERS["passage-fcl-naive-10"], meets=lambda *_: None)
+    assert way_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
+
+
+def test_the_mesh_of_a_ball_is_inscribed_and_closed():
+    vertices, triangles = ball_mesh(500)
+    assert 400 < len(triangles) < 600
+    np.testing.assert_allclose(np.linalg.norm(vertices, axis=1), 1)
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    _, uses = np.unique(edges, axis=0, return_counts=True)
+    assert set(uses.tolist()) == {2}
+    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    assert abs(volume) == pytest.approx(4 * np.pi / 3, rel=0.05)
