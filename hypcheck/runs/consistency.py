@@ -58,7 +58,8 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if families.MARK in family and not plan.filtered}
     layout = QUESTIONS[whole.used.question].layout
-    planned = planned_cases(plan, refuses=frozen.INVALID_NAME in tallied, tilt=whole.used.tilt is True, layout=layout)
+    refuses = frozen.INVALID_NAMES[layout][0] in tallied
+    planned = planned_cases(plan, refuses=refuses, tilt=whole.used.tilt is True, layout=layout)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:
         trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)

@@ -121,10 +121,8 @@ def planned_cases(
 
 
 def invalid_rows(*, refuses: bool, tilt: bool, layout: Layout = PAIRS) -> tuple[InvalidRows, ...]:
-    """The invalid rows that an implementation is asked: with an axis too if it takes `tilt`; of ways there are none."""
-    if layout is not PAIRS:
-        return ()
-    names = (frozen.INVALID_NAME, frozen.TILTED_INVALID_NAME) if tilt else (frozen.INVALID_NAME,)
+    """The invalid rows of its layout that an implementation is asked: with an axis too if it takes `tilt`."""
+    names = frozen.INVALID_NAMES[layout][: 1 + tilt]
     return tuple(map(InvalidRows, names)) if refuses else ()
 
 

@@ -23,8 +23,6 @@ from hypcheck.geometry.pair import (
     WAY_COLUMNS,
     Pair,
     Position,
-    columns_of,
-    trouble_with,
     trouble_with_row,
 )
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout, Rows
@@ -70,9 +68,7 @@ class ReplayCase:
     @property
     def at_fault(self) -> tuple[str, ...]:
         """The columns that make the row invalid, so that it must be refused; none of a valid row."""
-        named = tuple(zip(columns_of(self.row), self.row, strict=True))
-        axis = AXIS if len(self.row) > len(COLUMNS) and not any(self.row[len(COLUMNS) :]) else ()
-        return (*(name for name, value in named if trouble_with(name, value)), *axis)
+        return frozen.columns_at_fault(self.row, (self.layout or PAIRS).columns(len(self.row)))
 
 
 def case_of(text: str) -> ReplayCase:
@@ -94,7 +90,8 @@ def case_of(text: str) -> ReplayCase:
         row = tuple(case.family.block(case.seed, block)[place].tolist())
         return ReplayCase(text, row, case.family.layout)
     if text.rpartition("-")[0] in frozen.INVALID_METADATA:
-        return ReplayCase(text, invalid_row_of(text).row, PAIRS)
+        of_ways = text.rpartition("-")[0] in frozen.INVALID_NAMES[WAYS]
+        return ReplayCase(text, invalid_row_of(text).row, WAYS if of_ways else PAIRS)
     way = text.rpartition("-")[0] in WAY_FAMILIES
     return ReplayCase(text, vector_of(text).row, WAYS if way else PAIRS)
 
@@ -212,12 +209,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
             "true"
         )
     if case.at_fault:
-        if not used.refuses:
-            raise InputError(
-                f"{case.name} is an invalid row ({', '.join(case.at_fault)}), and {used.name} does not declare that it "
-                "refuses such rows"
-            )
-        return Replay(*known, None, _refused(implementation, rows), None, None)
+        return Replay(*known, None, refused(case, implementation), None, None)
     truth = truth_of(pair_of(case.row))
     judgement = _judged(implementation, rows, truth, criterion)
     choice = None
@@ -302,8 +294,15 @@ def _error(case: WrongCase, truth: ProvedTruth, question: str) -> float:
     return min(low if case.status is Status.WRONG else high for low, high in pairs)
 
 
-def _refused(implementation: Implementation, rows: Rows) -> ReplayJudgement:
-    answered = implementation.classify(rows, batch=1)
+def refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgement:
+    """The judgement of an invalid row. Raises InputError if the implementation does not promise to refuse such rows."""
+    used = implementation.description
+    if not used.refuses:
+        raise InputError(
+            f"{case.name} is an invalid row ({', '.join(case.at_fault)}), and {used.name} does not declare that it "
+            "refuses such rows"
+        )
+    answered = implementation.classify(np.array([case.row]), batch=1)
     status, answer = STATUSES[status_of(answered)[0]], int(answered.answers[0])
     if not answered.answered[0]:
         return ReplayJudgement(status, None, answered.reasons.get(0, ""))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position, trouble_with_row
+from hypcheck.geometry.pair import REFUSED, Position, trouble_with_row
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS
 from hypcheck.implementations.description import Description, claimed
 from hypcheck.implementations.implementation import Implementation
@@ -19,7 +19,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.passages import LABELS, passage_of, radii_off, way_in_radii
-from hypcheck.runs.replay import REPEATED_ROWS, ReplayCase, ReplayJudgement
+from hypcheck.runs.replay import REPEATED_ROWS, ReplayCase, ReplayJudgement, refused
 from hypcheck.runs.score import score
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import hex_of
@@ -32,37 +32,45 @@ _LABEL = 12
 
 @dataclass(frozen=True, slots=True)
 class WayReplay:
-    """The result of a replay; `time` is that of the answer, if it has one, and `radii` how far off it is."""
+    """The result of a replay; `truth` is None for an invalid row.
+
+    `time` is that of the answer, if it has one, and `radii` how far off it is.
+    """
 
     case: ReplayCase
     spec: str
     declared: Description
     used: Description
     criterion: Criterion
-    truth: Passage
+    truth: Passage | None
     judgement: ReplayJudgement
-    time: float | None
-    radii: float
-    skipped: str | None
+    time: float | None = None
+    radii: float = 0.0
+    skipped: str | None = None
 
 
 def replay_way(case: ReplayCase, implementation: Implementation, criterion: Criterion) -> WayReplay:
-    """Ask and judge. Raises InputError if the row is no valid way, or leans and the implementation takes no axis."""
+    """Ask and judge. Raises InputError if the row is no way, or leans and the implementation takes no axis.
+
+    An invalid row is asked if it is one of the frozen ones, and the implementation promises to refuse such rows.
+    """
     declared, used = implementation.declared, implementation.description
     row = case.row
     if case.layout is PAIRS or len(row) not in (len(WAYS.upright), len(WAYS.tilted)):
         raise InputError(f"{case.name} is no way between two positions, and {used.name} answers {used.question!r}")
     trouble = trouble_with_row(row, WAYS.upright)
-    if trouble is not None:
+    if trouble is not None and case.layout is None:
         raise InputError(f"{case.name}: {trouble}")
     if len(row) == len(WAYS.tilted) and not used.tilt:
         raise InputError(f'{case.name} has an axis, but {used.name} takes none; its description must say "tilt": true')
+    known = (case, str(implementation.spec), declared, used, criterion)
+    if trouble is not None:
+        return WayReplay(*known, None, refused(case, implementation))
     judgement, time = _judged(implementation, row, criterion)
     radii = 0.0 if time is None or not passage_of(row).hit else radii_off(row, time)
     rows = np.array([row])
     inside = claimed(rows, used.domain, criterion.precision, extreme=is_extreme(case.name), layout=WAYS)
     outside = "the row lies outside the implementation's domain, or its precision cannot hold it"
-    known = (case, str(implementation.spec), declared, used, criterion)
     return WayReplay(*known, passage_of(row), judgement, time, radii, None if len(inside) else outside)
 
 
@@ -95,13 +103,7 @@ def way_replay_as_json(done: WayReplay) -> str:
         "case": done.case.name,
         "row": done.case.row,
         "row_hex": [hex_of(value) for value in done.case.row],
-        "truth": {
-            "hit": truth.hit,
-            "first": [truth.first_lower, truth.first_upper] if truth.hit else None,
-            "grazes": truth.grazes,
-            "start": Position(truth.start).label,
-            "end": Position(truth.end).label,
-        },
+        "truth": None if truth is None else _told(truth),
         "spec": done.spec,
         "declared": {"name": done.declared.name, "question": done.declared.question},
         "used": {"name": done.used.name, "question": done.used.question},
@@ -119,17 +121,23 @@ def way_replay_as_json(done: WayReplay) -> str:
     return json.dumps(plain(told), allow_nan=False)
 
 
+def _told(truth: Passage) -> dict[str, Any]:
+    return {
+        "hit": truth.hit,
+        "first": [truth.first_lower, truth.first_upper] if truth.hit else None,
+        "grazes": truth.grazes,
+        "start": Position(truth.start).label,
+        "end": Position(truth.end).label,
+    }
+
+
 def way_replay_lines(done: WayReplay) -> Iterator[str]:
     """The whole replay, line by line."""
-    row, truth, judgement = done.case.row, done.truth, done.judgement
+    row, judgement = done.case.row, done.judgement
     yield _titled("case", done.case.name)
     for name, value in zip(WAYS.columns(len(row)), row, strict=True):
         yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
-    yield _titled("length", f"{way_in_radii(row):.6g} spheroid radii")
-    yield _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
-    yield _titled("ends", f"{Position(truth.start).label} at the start, {Position(truth.end).label} at the end")
-    if truth.hit:
-        yield _titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
+    yield from _truth(done)
     yield ""
     yield _titled("asked", f"{done.used.name} ({done.spec}): {done.used.question}, {done.used.precision}")
     if judgement.answer is not None:
@@ -139,15 +147,28 @@ def way_replay_lines(done: WayReplay) -> Iterator[str]:
         yield _titled("note", f"verify skips this case: {done.skipped}")
 
 
+def _truth(done: WayReplay) -> Iterator[str]:
+    truth = done.truth
+    if truth is None:
+        columns = ", ".join(done.case.at_fault)
+        yield _titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
+        return
+    yield _titled("length", f"{way_in_radii(done.case.row):.6g} spheroid radii")
+    yield _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
+    yield _titled("ends", f"{Position(truth.start).label} at the start, {Position(truth.end).label} at the end")
+    if truth.hit:
+        yield _titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
+
+
 def _answer(answer: int, time: float | None) -> str:
-    said = "cannot say" if answer == CANNOT_SAY else LABELS.get(answer, "")
+    said = {CANNOT_SAY: "cannot say", REFUSED: "refused", **LABELS}.get(answer, "")
     return f"{answer}, {said}" + ("" if time is None else f", first at {time!r}")
 
 
 def _judgement(done: WayReplay) -> str:
     """The status, and how wrong the answer is: by the size, or by the way between its time and the first contact."""
     judgement, parts = done.judgement, [done.judgement.status.value]
-    if judgement.mistake is not None and done.radii and done.truth.hit:
+    if judgement.mistake is not None and done.radii and done.truth is not None and done.truth.hit:
         parts.append(f"{judgement.mistake.value} by {done.radii:.4g} spheroid radii of the way")
     elif judgement.mistake is not None:
         error = passage_error.tolerance(done.case.row, done.criterion.tolerance, done.criterion.unit)

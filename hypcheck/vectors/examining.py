@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 
 from hypcheck.errors import NothingJudgedError
+from hypcheck.geometry import rows
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.vectors import cancellation, frozen
@@ -19,8 +20,7 @@ from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import (
-    INVALID,
-    TILTED_INVALID,
+    REFUSALS,
     TILTED_POSITIONS,
     TILTED_WAYS,
     WAYS,
@@ -93,7 +93,7 @@ def shipped_files(*, tilted: bool = True) -> list[str]:
     return [str(frozen.path_of(name)) for name in (*names, *(TILTED if tilted else ()))]
 
 
-TILTED = (*frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME, *frozen.WAY_NAMES)
+TILTED = (*frozen.TILTED_NAMES, frozen.TILTED_INVALID_NAME, *frozen.WAY_NAMES, *frozen.INVALID_NAMES[rows.WAYS])
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:
@@ -104,7 +104,7 @@ def examine(paths: Iterable[str]) -> Iterator[FileReport]:
     for path in paths:
         document = read_document(path)
         content = content_of(document, path)
-        if content in (INVALID, TILTED_INVALID):
+        if content in REFUSALS:
             bad = invalid_rows_of(document, path)
             head = _metadata_faults(document, "family", wrong_description(bad.head))
             report = FileReport(path, len(bad.cases), head, tuple(faults_of_invalid_rows(bad)))

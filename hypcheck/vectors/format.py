@@ -50,6 +50,12 @@ TILTED_POSITIONS, TILTED_INVALID = "tilted-positions", "tilted-refusals"
 WAYS, TILTED_WAYS = "ways", "tilted-ways"
 """Ways, rows of ten numbers, and those of spheroids that lean, rows of thirteen."""
 
+WAYS_INVALID, TILTED_WAYS_INVALID = "way-refusals", "tilted-way-refusals"
+"""Rows of as many numbers that are no ways, and must be refused."""
+
+REFUSALS = (INVALID, TILTED_INVALID, WAYS_INVALID, TILTED_WAYS_INVALID)
+"""The contents that have no answers."""
+
 SCHEMAS = {
     POSITIONS: SCHEMA,
     INVALID: SCHEMA,
@@ -57,6 +63,8 @@ SCHEMAS = {
     TILTED_INVALID: TILTED_SCHEMA,
     WAYS: WAY_SCHEMA,
     TILTED_WAYS: WAY_SCHEMA,
+    WAYS_INVALID: WAY_SCHEMA,
+    TILTED_WAYS_INVALID: WAY_SCHEMA,
 }
 """The version of the schema of each content."""
 
@@ -67,6 +75,8 @@ COLUMNS_OF = {
     TILTED_INVALID: TILTED_COLUMNS,
     WAYS: WAY_COLUMNS,
     TILTED_WAYS: TILTED_WAY_COLUMNS,
+    WAYS_INVALID: WAY_COLUMNS,
+    TILTED_WAYS_INVALID: TILTED_WAY_COLUMNS,
 }
 """The numbers of a row of each content."""
 

@@ -103,7 +103,7 @@ WAY_COUNTS = {name: 40 if family.tilted else 108 for name, family in WAY_FAMILIE
 
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
 
-NAMES = (*COUNTS, cancellation.NAME, refusals.INVALID_NAME, *TILTED_COUNTS, refusals.TILTED_INVALID_NAME, *WAY_COUNTS)
+NAMES = (*COUNTS, cancellation.NAME, *TILTED_COUNTS, *WAY_COUNTS, *refusals.INVALID_METADATA)
 
 Progress = Callable[[str], object]
 File = TypeVar("File", VectorFile, TiltedVectorFile, WayFile)
@@ -254,9 +254,10 @@ def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusa
     kept = before.cases if before else ()
     known = {case.bits for case in kept}
     number = _next_number(case.id for case in kept)
-    added = [case for case in refusals.invalid_rows(name).cases if case.bits not in known]
+    made = refusals.invalid_rows(name)
+    added = [case for case in made.cases if case.bits not in known]
     renamed = (replace(case, id=f"{name}-{number + place:04d}") for place, case in enumerate(added))
-    return InvalidRowFile(refusals.INVALID_METADATA[name], (*kept, *renamed))
+    return InvalidRowFile(made.head, (*kept, *renamed), made.content)
 
 
 def _before(name: str, path: Path, read: Callable[[str], File]) -> File | None:

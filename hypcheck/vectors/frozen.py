@@ -1,8 +1,8 @@
 """The frozen vectors that travel with the package: a file of certified cases for each family, and invalid rows.
 
 Files are read when they are asked for. Ids are for ever: a row keeps the id it was given, whatever becomes of the
-generator that made it. The file `invalid` has rows that are no valid query, each with the columns that are at fault.
-Loads numpy, neither sympy nor mpmath.
+generator that made it. The files of INVALID_METADATA have rows that are no valid query, each with the columns
+that are at fault. Loads numpy, neither sympy nor mpmath.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS, trouble_with
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.pair import AXIS, SIZES, trouble_with
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
 from hypcheck.messages import suggestion
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
@@ -30,7 +30,7 @@ from hypcheck.vectors.family import Metadata, Row, VectorFile
 from hypcheck.vectors.format import (
     COLUMNS_OF,
     INVALID,
-    TILTED_INVALID,
+    REFUSALS,
     cases_of,
     content_of,
     document_text,
@@ -46,6 +46,7 @@ from hypcheck.vectors.tilted.format import TiltedVectorFile, read_tilted_vectors
 from hypcheck.vectors.ways.format import WayFile, read_ways
 
 INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
+WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME = "way-invalid", "tilted-way-invalid"
 EXPECTED = "refused"
 
 
@@ -70,18 +71,51 @@ _TILTED_INVALID = _to_be_refused(
     game="an object whose orientation was never set collides with everything, or with nothing",
     drone="a failed attitude estimate is answered as clear",
 )
-INVALID_METADATA = {INVALID_NAME: _INVALID, TILTED_INVALID_NAME: _TILTED_INVALID}
+_WAY_INVALID = _to_be_refused(
+    WAY_INVALID_NAME,
+    "rows that are no ways and must be refused",
+    source="semi-axes that are 0, negative, infinite or NaN, ends that are infinite or NaN, alone and together",
+    purpose="a step from infinity, or to NaN, is NaN: no time compares, and a bad row is answered as clear",
+    game="an object that was lost in one frame goes through everything in the next",
+    drone="a leg to a waypoint that was never set is answered as clear",
+)
+_TILTED_WAY_INVALID = _to_be_refused(
+    TILTED_WAY_INVALID_NAME,
+    "rows that are no ways of tilted spheroids and must be refused",
+    source="axes that are 0, infinite or NaN, alone and beside bad sizes and ends",
+    purpose="an axis of 0 has no direction, and normalising it gives NaN, which compares as clear all along",
+    game="an object whose orientation was never set goes through everything",
+    drone="a leg flown with a failed attitude estimate is answered as clear",
+)
+INVALID_METADATA = {
+    INVALID_NAME: _INVALID,
+    TILTED_INVALID_NAME: _TILTED_INVALID,
+    WAY_INVALID_NAME: _WAY_INVALID,
+    TILTED_WAY_INVALID_NAME: _TILTED_WAY_INVALID,
+}
 """What the files of rows without an answer say at their heads."""
+
+INVALID_NAMES = {PAIRS: (INVALID_NAME, TILTED_INVALID_NAME), WAYS: (WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME)}
+"""The names of these files by layout, of upright spheroids and of tilted ones."""
+
+_CONTENTS = dict(zip(INVALID_METADATA, REFUSALS, strict=True))
 
 CASE_FIELDS = ("id", "row", "bits", "expected", "columns")
 
 _BITS = re.compile(r"[0-9a-f]{16}", re.ASCII)
 _WORDS = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
-_SOUND = (
-    (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0),
-    (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0),
-    (4.0, 4.0, 1.0, 1.0, 4.0, 0.0, 0.5),
-)
+_SOUND = {
+    PAIRS: (
+        (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0),
+        (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0),
+        (4.0, 4.0, 1.0, 1.0, 4.0, 0.0, 0.5),
+    ),
+    WAYS: (
+        (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 4.0, 0.5, 1.0),
+        (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0, -0.5, 1.0, -2.0),
+        (4.0, 4.0, 1.0, 1.0, 9.0, 0.0, 0.5, -9.0, 1.0, 0.5),
+    ),
+}
 """Valid rows, one of each position: exterior, interior, contact. In what follows something of theirs is made bad."""
 
 _SIGN = 1 << 63
@@ -95,7 +129,7 @@ _NANS = {
 
 @dataclass(frozen=True, slots=True)
 class InvalidRow:
-    """A bad row: the 64 bits of its seven or ten numbers, and the columns that are at fault, in their order."""
+    """A bad row: the 64 bits of its numbers, and the columns that are at fault, in their order."""
 
     id: str
     bits: tuple[int, ...]
@@ -109,48 +143,59 @@ class InvalidRow:
 
 @dataclass(frozen=True)
 class InvalidRowFile:
-    """The file of such rows. `lines` are the lines on which they stood where it was read, for messages."""
+    """The file of such rows, its content one of REFUSALS.
+
+    `lines` are the lines on which they stood where it was read, for messages.
+    """
 
     head: Metadata
     cases: tuple[InvalidRow, ...]
+    content: str
     lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def rows(self) -> Rows:
-        """The rows, float64 (n, 7 or 10), to the bit."""
+        """The rows, float64 (n, as many as `columns`), to the bit."""
         return rows_from_bits([case.bits for case in self.cases])
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of a row's numbers."""
+        return COLUMNS_OF[self.content]
 
 
 def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
-    """Rows (n, 7 or 10) of these 64-bit words."""
+    """Rows (n, 7, 10 or 13) of these 64-bit words."""
     return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
 
 
-def columns_at_fault(row: Row) -> tuple[str, ...]:
-    """The columns whose values are not allowed; all three of an axis without a direction."""
-    names = COLUMNS if len(row) == len(COLUMNS) else TILTED_COLUMNS
+def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
+    """The columns of these names whose values are not allowed; all three of an axis without a direction."""
     found = [name for name, value in zip(names, row, strict=True) if trouble_with(name, value) is not None]
-    return (*found, *AXIS) if names is TILTED_COLUMNS and not any(row[len(COLUMNS) :]) else tuple(found)
+    axis = row[-len(AXIS) :] if names[-len(AXIS) :] == AXIS else ()
+    return (*found, *AXIS) if axis and not any(axis) else tuple(found)
 
 
 def invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
     """The file of that name, made anew."""
-    unlike = dict.fromkeys(_bad_rows() if name == INVALID_NAME else _bad_tilted_rows())
+    layout = next(each for each, names in INVALID_NAMES.items() if name in names)
+    unlike = dict.fromkeys((_bad_rows if name == INVALID_NAMES[layout][0] else _bad_tilted_rows)(layout))
+    content = _CONTENTS[name]
     cases = []
     for number, bits in enumerate(unlike):
         row = tuple(rows_from_bits([bits])[0].tolist())
-        cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row)))
-    return InvalidRowFile(INVALID_METADATA[name], tuple(cases))
+        cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, COLUMNS_OF[content])))
+    return InvalidRowFile(INVALID_METADATA[name], tuple(cases), content)
 
 
-def _bad_rows() -> Iterator[tuple[int, ...]]:
+def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
     """One bad number in each column, every kind of NaN in each, then several bad numbers that might cancel."""
-    sound = [_bits(row) for row in _SOUND]
-    for place, name in enumerate(COLUMNS):
-        for turn, word in enumerate(_bad_words(name, _SOUND[place % 3][place])):
+    sound, width = [_bits(row) for row in _SOUND[layout]], len(layout.upright)
+    for place, name in enumerate(layout.upright):
+        for turn, word in enumerate(_bad_words(name, _SOUND[layout][place % 3][place])):
             yield _replaced(sound[(place + turn) % 3], {place: word})
     for turn, word in enumerate(_NANS.values()):
-        for place in range(len(COLUMNS)):
+        for place in range(width):
             yield _replaced(sound[(place + turn) % 3], {place: word})
     nan, infinite = _NANS["nan"], _word(math.inf)
     for row in sound:
@@ -165,40 +210,45 @@ def _bad_rows() -> Iterator[tuple[int, ...]]:
         yield _replaced(row, {4: infinite, 5: infinite ^ _SIGN})
         yield _replaced(row, {2: infinite, 4: infinite})
         yield _replaced(row, {4: nan, 5: nan, 6: nan})
-    yield (0,) * 7
-    yield (nan,) * 7
-    yield (infinite,) * 7
-    yield (infinite ^ _SIGN,) * 7
+        for place in range(4, width - 3):  # both ends of a way
+            yield _replaced(row, {place: infinite, place + 3: infinite})  # the step is ∞ − ∞
+            yield _replaced(row, {place: infinite, place + 3: infinite ^ _SIGN})
+            yield _replaced(row, {place: nan, place + 3: nan})  # at rest, if NaN were equal to itself
+    yield (0,) * width
+    yield (nan,) * width
+    yield (infinite,) * width
+    yield (infinite ^ _SIGN,) * width
 
 
-def _bad_tilted_rows() -> Iterator[tuple[int, ...]]:
+def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
     """Axes of zeros, one bad number in each place of the axis, several, and bad numbers before a sound axis."""
-    sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND, _AXES, strict=True)]
+    sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND[layout], _AXES, strict=True)]
+    width = len(layout.upright)
+    axis_places = range(width, width + len(AXIS))
     nan, infinite, minus = _NANS["nan"], _word(math.inf), _word(-math.inf)
     for row in sound:
         for zeros in ((0, 0, 0), (_SIGN, 0, 0), (0, _SIGN, _SIGN), (_SIGN, _SIGN, _SIGN)):
-            yield _replaced(row, dict(zip(_AXIS_PLACES, zeros, strict=True)))
-        for place in _AXIS_PLACES:
+            yield _replaced(row, dict(zip(axis_places, zeros, strict=True)))
+        for place in axis_places:
             for word in (infinite, minus, *_NANS.values()):
                 yield _replaced(row, {place: word})
-            others = {other: 0 for other in _AXIS_PLACES if other != place}
+            others = {other: 0 for other in axis_places if other != place}
             for word in (nan, infinite):
                 yield _replaced(row, {place: word, **others})
         for word in (nan, infinite, minus):
-            yield _replaced(row, dict.fromkeys(_AXIS_PLACES, word))
-        yield _replaced(row, {7: infinite, 8: minus})
-        for place in range(len(COLUMNS)):
+            yield _replaced(row, dict.fromkeys(axis_places, word))
+        yield _replaced(row, {width: infinite, width + 1: minus})
+        for place in range(width):
             yield _replaced(row, {place: nan})
         for place in range(len(SIZES)):
             yield _replaced(row, {place: 0})
             yield _replaced(row, {place: row[place] ^ _SIGN})
-        yield _replaced(row, {2: 0, 7: 0, 8: 0, 9: 0})
-    yield (0,) * 10
-    yield (nan,) * 10
-    yield (infinite,) * 10
+        yield _replaced(row, {2: 0, **dict.fromkeys(axis_places, 0)})
+    yield (0,) * len(row)
+    yield (nan,) * len(row)
+    yield (infinite,) * len(row)
 
 
-_AXIS_PLACES = range(len(COLUMNS), len(TILTED_COLUMNS))
 _AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, 1.0), (-1.0, 0.5, 0.0))
 
 
@@ -222,8 +272,7 @@ def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
 
 def invalid_rows_text(file: InvalidRowFile) -> str:
     """The whole document."""
-    content = INVALID if file.head.name == INVALID_NAME else TILTED_INVALID
-    return document_text(content, file.head, None, map(invalid_row_text, file.cases))
+    return document_text(file.content, file.head, None, map(invalid_row_text, file.cases))
 
 
 def invalid_row_text(case: InvalidRow) -> str:
@@ -247,10 +296,10 @@ def read_invalid_rows(path: str) -> InvalidRowFile:
 def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
     """The file of bad rows that a document is. Raises InputError where it is none."""
     content = content_of(document, path)
-    head, _ = read_metadata(document, path, content if content in (INVALID, TILTED_INVALID) else INVALID)
+    head, _ = read_metadata(document, path, content if content in REFUSALS else INVALID)
     names = COLUMNS_OF[content]
     cases = cases_of(document, path, head.name, CASE_FIELDS, lambda place, fields: _invalid_row(place, fields, names))
-    return InvalidRowFile(head, cases, tuple(place.line for place, _ in document.cases))
+    return InvalidRowFile(head, cases, content, tuple(place.line for place, _ in document.cases))
 
 
 def _invalid_row(place: JsonPlace, fields: dict[str, Any], names: tuple[str, ...]) -> InvalidRow:
@@ -276,10 +325,10 @@ def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  #
 
 
 NAMES = (*FAMILIES, cancellation.NAME)
-"""The files of upright spheroids with answers; INVALID_NAME is the one of rows without."""
+"""The files of upright spheroids with answers; INVALID_METADATA names those of rows without."""
 
 TILTED_NAMES = tuple(TILTED_FAMILIES)
-"""Those of tilted spheroids; TILTED_INVALID_NAME is the one of rows without."""
+"""Those of tilted spheroids."""
 
 WAY_NAMES = tuple(WAY_FAMILIES)
 """Those of ways; the rows of names that begin with tilted have an axis."""
@@ -303,7 +352,7 @@ def folder() -> Path:
 
 def path_of(name: str) -> Path:
     """The file of that name. Raises InputError where there is none of that name."""
-    known = (*NAMES, INVALID_NAME, *TILTED_NAMES, TILTED_INVALID_NAME, *WAY_NAMES)
+    known = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_METADATA)
     if name not in known:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, known)}")
     return folder() / f"{name}.json"

@@ -155,7 +155,7 @@ def faults_of_invalid_rows(file: InvalidRowFile) -> list[LabelFault]:
     """Every row that is valid, or refused for other columns than the file says."""
     faults = []
     for line, case in zip(file.lines or (0,) * len(file.cases), file.cases, strict=True):
-        found = columns_at_fault(case.row)
+        found = columns_at_fault(case.row, file.columns)
         if found != case.columns:
             said = f"columns {', '.join(case.columns)} are said to be at fault"
             faults.append(LabelFault(line, case.id, f"{said}, but {', '.join(found) or 'none'} is"))

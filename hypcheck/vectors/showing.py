@@ -11,6 +11,7 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, TILTED_WAY_COLUMNS, Position
+from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import hex_of, readable_text
 from hypcheck.tables.streams import writing
@@ -30,6 +31,7 @@ SHOWN = (
     *frozen.TILTED_NAMES,
     frozen.TILTED_INVALID_NAME,
     *frozen.WAY_NAMES,
+    *frozen.INVALID_NAMES[WAYS],
 )
 """The files, in the order in which they are listed."""
 
@@ -123,10 +125,9 @@ def _distance(distance: float | Bracket) -> str:
     return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
-def invalid_row_lines(case: InvalidRow) -> Iterator[str]:
-    """A row that must be refused, and where it is at fault."""
+def invalid_row_lines(case: InvalidRow, names: tuple[str, ...]) -> Iterator[str]:
+    """A row of numbers of these names that must be refused, and where it is at fault."""
     yield case.id
-    names = COLUMNS if len(case.bits) == len(COLUMNS) else TILTED_COLUMNS
     for name, value, bits in zip(names, case.row, case.bits, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
     yield from _titled("expected", frozen.EXPECTED)
@@ -161,8 +162,8 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
         else:
             yield from family_lines(name)
     elif _family_of(name) in frozen.INVALID_METADATA:
-        bad = invalid_row_of(name)
-        yield from (frozen.invalid_row_text(bad),) if as_json else invalid_row_lines(bad)
+        bad, columns = invalid_row_of(name), frozen.load_invalid_rows(_family_of(name)).columns
+        yield from (frozen.invalid_row_text(bad),) if as_json else invalid_row_lines(bad, columns)
     else:
         case = vector_of(name)
         yield from (_json_text(case),) if as_json else case_lines(case)

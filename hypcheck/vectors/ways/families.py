@@ -175,7 +175,7 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 def ring(draw: Draw, n: int) -> Rows:
     """Across the ring, where the discriminant is 0 in free air, along, up and out.
 
-    A ring may be so near to the surface that a way across it begins in contact. Others stand in for such ways.
+    A ring may be so near to the surface that a way across it begins in contact. Others take the places of such ways.
     """
     ways = gather(draw, n, ring_attempt)
     near = np.flatnonzero(~more_than_a_radius_away(ways))
@@ -435,8 +435,8 @@ FAMILIES = (
         "way-ring",
         ring,
         "across the ring, where the discriminant is 0 in free air",
-        "rational rings, crossed outward, upward and along",
-        "no contact at all: a program that looks for roots of the discriminant meets an invisible wall",
+        "rational rings, crossed outward, upward and along; 0014, 0043 and 0055 begin in contact, all others are clear",
+        "no contact: a program that looks for roots of the discriminant meets an invisible wall",
         "an invisible wall",
         "a free corridor is closed",
         regimes="c² > a",

@@ -11,6 +11,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.questions import Answered
 from hypcheck.record import Recorder, read
@@ -110,7 +111,7 @@ def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(
     steps, more = [], []
     plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3)
     run_conformance(plan, Recorder(io.StringIO(), {}), RunOutcome(), steps.append, expect=more.append)
-    assert more == [sum(len(frozen.load_invalid_rows(name).cases) for name in frozen.INVALID_METADATA)]
+    assert more == [sum(len(frozen.load_invalid_rows(name).cases) for name in frozen.INVALID_NAMES[PAIRS])]
     assert sum(steps) == planned_size(plan) + sum(more)
 
 

@@ -13,6 +13,7 @@ from hypcheck.implementations.session import Allowance
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.cases import CaseChunk
+from hypcheck.runs.plan import invalid_rows
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.resume import restored_state, saved_state
 from hypcheck.runs.schedule import RunState
@@ -50,8 +51,9 @@ def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_pa
 
 def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
     assert verified(tmp_path, function("passage"), *FEW) == 0
-    (group,) = (line for line in read(tmp_path).of(GroupLine))
+    group, refused = (line for line in read(tmp_path).of(GroupLine))
     assert group.counts == {"right": ASKED}
+    assert list(refused.counts) == ["refused"]
     (line,) = read(tmp_path).of(ImplementationLine)
     assert line.again.asked >= 6
     assert (line.again.within, line.again.beyond) == (0, 0)
@@ -68,6 +70,29 @@ def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
 def test_families_and_questions_that_do_not_fit_together_are_refused(words, sentence, tmp_path, capsys):
     assert verified(tmp_path, *words) == 2
     assert sentence in capsys.readouterr().err
+
+
+def test_rows_that_are_no_ways_are_asked_of_implementations_that_refuse(tmp_path):
+    assert verified(tmp_path / "right", "python:tests.runs.moving:exact", *FEW) == 0
+    found = {line.family: line.counts for line in read(tmp_path / "right").of(GroupLine)}
+    assert found.pop("way-tunnelling") == {"right": ASKED}
+    assert found == {
+        name: {"refused": len(frozen.load_invalid_rows(name).cases)} for name in ("way-invalid", "tilted-way-invalid")
+    }
+    assert verified(tmp_path / "wrong", "python:tests.runs.moving:clear_from_infinity", *FEW) == 1
+    (group,) = (line for line in read(tmp_path / "wrong").of(GroupLine) if line.family == "way-invalid")
+    file = frozen.load_invalid_rows("way-invalid")
+    assert group.counts["wrong"] == (~np.isfinite(file.rows[:, 4:]).all(axis=1)).sum()
+    assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
+
+
+def test_rows_that_are_no_ways_are_chosen_by_what_is_declared():
+    def chosen(**said):
+        return [each.family for each in invalid_rows(**said, layout=WAYS)]
+
+    assert chosen(refuses=True, tilt=True) == ["way-invalid", "tilted-way-invalid"]
+    assert chosen(refuses=True, tilt=False) == ["way-invalid"]
+    assert chosen(refuses=False, tilt=True) == []
 
 
 def test_progress_keeps_ways_and_times():

@@ -47,9 +47,24 @@ def test_generated_way_is_replayed_by_its_id(capsys):
     assert "judged      right" in said.out
 
 
+def test_a_row_that_is_no_way_must_be_refused(capsys):
+    code, said = replayed(capsys, "way-invalid-0040", "python:tests.runs.moving:exact")
+    assert code == 0
+    assert "truth       invalid row (" in said.out
+    assert "answer      127, refused" in said.out
+    code, said = replayed(capsys, "tilted-way-invalid-0004", "python:tests.runs.moving:clear_from_infinity", "--json")
+    assert code == 0
+    code, said = replayed(capsys, "way-invalid-0044", "python:tests.runs.moving:clear_from_infinity", "--json")
+    told = json.loads(said.out)
+    assert (code, told["truth"], told["status"], told["answer"]) == (1, None, "wrong", 0)
+    assert told["reason"] == "an invalid row must be refused with 127"
+
+
 @pytest.mark.parametrize(
     ("case", "spec", "sentence"),
     [
+        ("way-invalid-0003", "builtin:passage-exact", "is an invalid row (alpha), and passage-exact does not declare"),
+        ("way-invalid-0003", "builtin:fast", "way-invalid-0003 is a way between two positions; fast answers"),
         ("2,5,1,1,3,0,0", "builtin:passage-exact", "the given row is no way between two positions, and passage-exact"),
         ("way-tunnelling/1/1/3", "builtin:fast", "is a way between two positions; fast answers 'position'"),
         ("ring/1/42/7", "builtin:passage-exact", "ring/1/42/7 is no way between two positions"),

@@ -50,7 +50,7 @@ def proved_files() -> tuple[bytes, ...]:
 
 @cache
 def refusal_files() -> tuple[bytes, ...]:
-    return case_file("invalid", 4), case_file("tilted-invalid", 4)
+    return case_file("invalid", 4), case_file("tilted-invalid", 4), case_file("tilted-way-invalid", 4)
 
 
 @cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.report.markdown import code_span, escape_text, paragraph_lines, table_lines
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import TILTED_FAMILIES
@@ -100,7 +101,7 @@ def _tally(results: Sequence[Result]) -> str:
 
 
 def _families() -> list[str]:
-    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, *frozen.INVALID_METADATA))]
+    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, *frozen.INVALID_NAMES[PAIRS]))]
 
 
 def _by_family(wrong: Sequence[Result]) -> list[str]:

@@ -42,7 +42,7 @@ def test_the_list_names_every_family_with_its_count(capsys):
     lines = printed(capsys, "list").splitlines()
     counts = {line.split()[0]: int(line.split()[1]) for line in lines}
     assert counts.pop("together") == sum(counts.values())
-    for name in ("invalid", "tilted-invalid"):
+    for name in ("invalid", "tilted-invalid", "way-invalid", "tilted-way-invalid"):
         assert counts.pop(name) == len(vectors.load_invalid_rows(name).cases)
     files = [*map(vectors.load, vectors.NAMES), *map(vectors.load_tilted, vectors.TILTED_NAMES)]
     files += map(vectors.load_ways, vectors.WAY_NAMES)

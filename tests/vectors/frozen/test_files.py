@@ -33,6 +33,8 @@ ALL = (
     *vectors.TILTED_NAMES,
     vectors.TILTED_INVALID_NAME,
     *vectors.WAY_NAMES,
+    vectors.WAY_INVALID_NAME,
+    vectors.TILTED_WAY_INVALID_NAME,
 )
 FULLY_COMPARED = ("ring", "tangent", "float16-exact", "coefficient-zero", "extreme-subnormal")
 
@@ -59,7 +61,7 @@ def schema(name, version=SCHEMA):
 def test_there_is_a_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
-    assert found == set(ALL) == {*pairs, *WAY_FAMILIES}
+    assert found == set(ALL) == {*pairs, *WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
 
 
 def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_megabytes():
@@ -239,6 +241,7 @@ def test_the_readme_has_a_line_for_each_family_as_its_file_says():
     heads |= {name: vectors.load_tilted(name) for name in vectors.TILTED_NAMES}
     heads |= {vectors.TILTED_INVALID_NAME: vectors.load_invalid_rows(vectors.TILTED_INVALID_NAME)}
     heads |= {name: vectors.load_ways(name) for name in vectors.WAY_NAMES}
+    heads |= {name: vectors.load_invalid_rows(name) for name in ("way-invalid", "tilted-way-invalid")}
     rows = [f"| [{n}]({n}.json) | {len(f.cases)} | {f.head.title} | {f.head.purpose} |" for n, f in heads.items()]
     listed = [line for line in readme().splitlines() if ".json) | " in line]
     assert listed == rows
