@@ -32,11 +32,11 @@ RetestQuestion = tuple[Indices, int | None]
 """Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
 
 ALONE, MANY = 32, 1100
-"""Cases that are asked one by one; and single rows for an implementation that answers each within QUICK_S. The latter
-overflow a counter of 8 or 10 bits."""
+"""Cases that are asked one by one; and questions of one row, which overflow a counter of 8 or 10 bits."""
 
-QUICK_S = 2e-3
-"""Seconds for one row."""
+MANY_S, MANY_STEP = 4.0, 20
+"""Seconds after which an implementation is asked no more of the MANY questions, and how many are asked in between. Few
+take longer than a second; the limit spares those that need many milliseconds for a row, on any processor."""
 
 SOON_S = 0.05
 """Seconds. An implementation that answers full batches within this time is asked the longest batches too, which then
@@ -227,10 +227,7 @@ def retest_questions(
     yield np.tile(np.repeat(order[: TWINS // share], 2), 2), None
     rest = order[alone:]
     some = min(IN_LENGTHS // share, (len(rest) + 1) // 2)
-    began = time.monotonic()
-    small = list(_of_every_length(rest[:some]))
-    yield from small
-    quick = time.monotonic() - began < QUICK_S * len(small)
+    yield from _of_every_length(rest[:some])
     yield _filled(rest[some:], order, FULL_QUESTION if proven_batch() >= FULL_QUESTION else 0), None
     if number == part == 0 and proven_batch() >= LARGE_QUESTION and len(order):
         yield from _of_every_length(np.resize(order, LENGTH_ROUNDS * sum(LENGTHS)))
@@ -238,9 +235,15 @@ def retest_questions(
         yield from _in_every_place(order, truth, random, min(FULL_QUESTION, proven_batch()))
         if time.monotonic() - began < SOON_S:
             yield from _in_every_place(order, truth, random, proven_batch())
-        if quick:
-            yield np.resize(order, MANY), 1
+        yield from _one_by_one(np.resize(order, MANY))
     yield from _moment_by_moment(moments)
+
+
+def _one_by_one(cases: Indices) -> Iterator[RetestQuestion]:
+    began = time.monotonic()
+    for start in range(0, len(cases), MANY_STEP):
+        if time.monotonic() - began < MANY_S:
+            yield cases[start : start + MANY_STEP], 1
 
 
 def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:

@@ -65,10 +65,10 @@ def test_small_batches_have_every_remainder_of_a_vector_length():
         assert {length % lanes for length in LENGTHS} == set(range(lanes))
 
 
-@pytest.mark.parametrize(("limit", "count"), [(1.0, [ALONE, MANY]), (0.0, [ALONE])])
-def test_quick_implementation_is_asked_many_single_rows(monkeypatch, limit, count):
-    monkeypatch.setattr(retest, "QUICK_S", limit)
-    assert [len(places) for places, batch in asked(LONGEST) if batch == 1] == count
+@pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + MANY), (0.0, ALONE)])
+def test_implementation_is_asked_many_single_rows_until_the_time_for_them_is_over(monkeypatch, seconds, count):
+    monkeypatch.setattr(retest, "MANY_S", seconds)
+    assert sum(len(places) for places, batch in asked(LONGEST) if batch == 1) == count
 
 
 def test_objects_that_move_are_asked_moment_by_moment():
