@@ -16,6 +16,7 @@ from hypcheck.report.document import (
     Code,
     Column,
     Either,
+    Explorer,
     Section,
     Strong,
     TableBlock,
@@ -24,6 +25,7 @@ from hypcheck.report.document import (
     bullets,
     table,
 )
+from hypcheck.report.explorer import ON_THE_RING, can_be_drawn
 from hypcheck.report.messages import figure, settings_facts
 from hypcheck.report.model import measured_methods
 from hypcheck.report.sections import accuracy, times, verification
@@ -83,11 +85,13 @@ def _failure_list(found: list[Failure]) -> Bullets:
 def _failure_table(found: list[Failure]) -> TableBlock:
     """The failures, with the commands that show them if there are any."""
     columns, replays = ("which", "where", "what happened"), any(failure.replay for failure in found)
+    ends = [(Code(failure.case or "", failure.row), Code(failure.replay or "")) for failure in found]
     rows = [
-        (*_failure_row(failure), *([Code(failure.replay or "")] if replays else [])) for failure in found[:IN_TABLE]
+        (*_failure_row(failure), *(end if replays else ()))
+        for failure, end in zip(found[:IN_TABLE], ends, strict=False)
     ]
-    rest = [("", "", text, *([""] if replays else [])) for text in _omitted_failures(len(found) - IN_TABLE)]
-    return table("failures", (*columns, *(["look at it with"] if replays else [])), [*rows, *rest])
+    rest = [("", "", text, *(["", ""] if replays else [])) for text in _omitted_failures(len(found) - IN_TABLE)]
+    return table("failures", (*columns, *(["case", "look at it with"] if replays else [])), [*rows, *rest])
 
 
 def _failure_row(failure: Failure) -> tuple[Text, ...]:
@@ -100,6 +104,12 @@ def _omitted_failures(left_out: int) -> list[Text]:
         return []
     files = (Code("junit.xml"), " and ", Code("summary.json"))
     return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]
+
+
+def explorer_sections(record: Record) -> Iterator[Section]:
+    """The bodies of the first failing case, or on the ring, to be moved."""
+    rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
+    yield Section("Look closer", (Explorer(next(iter(rows), ON_THE_RING)),), page=True)
 
 
 def compared_sections(record: Record) -> Iterator[Section]:
@@ -159,6 +169,7 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     accuracy.family_sections,
     verification.map_sections,
     verification.timing_sections,
+    explorer_sections,
     run_sections,
 )
 """The sections in reading order: failures first, the run last. A part is empty if the record has none of its lines."""

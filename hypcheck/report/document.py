@@ -16,9 +16,10 @@ LONGEST = 2000
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """Text to type or copy: a name, an id, a command."""
+    """Text to type or copy: a name, an id, a command. Of a case's id, `row` are its numbers, which the page draws."""
 
     text: str
+    row: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +142,13 @@ class Figures:
 
 
 @dataclass(frozen=True, slots=True)
+class Explorer:
+    """The picture whose bodies a reader can move, which only the page has; it begins with a row of seven numbers."""
+
+    row: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Details:
     """Blocks that only the page has, folded under a title."""
 
@@ -156,7 +164,7 @@ class Either:
     text: Block
 
 
-Block = Paragraph | Bullets | TableBlock | Figures | Details | Either
+Block = Paragraph | Bullets | TableBlock | Figures | Explorer | Details | Either
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ import markupsafe
 from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.report import explorer
 from hypcheck.report.contents import content
 from hypcheck.report.document import (
     Block,
@@ -28,6 +29,7 @@ from hypcheck.report.document import (
     Details,
     Either,
     Emphasis,
+    Explorer,
     Figures,
     Paragraph,
     Section,
@@ -51,6 +53,10 @@ def html_text(words: Text) -> markupsafe.Markup:
         return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
     if isinstance(words, Code):
         shown = escaped(bounded(words.text))
+        if explorer.can_be_drawn(words.row):
+            drawn = explorer.small_picture(words.row)
+            numbers = explorer.row_as_text(words.row)
+            return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, drawn)
         return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
     if isinstance(words, (Strong, Emphasis)):
         tag = _TAGS[type(words)]
@@ -58,7 +64,7 @@ def html_text(words: Text) -> markupsafe.Markup:
     return markupsafe.Markup().join(map(html_text, words))
 
 
-_KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", TableBlock: "table"}
+_KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", TableBlock: "table", Explorer: "explorer"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,18 +80,31 @@ class _TemplateBlock:
 
 def render(record: Record, context: ReportContext | None = None) -> bytes:
     """The page in UTF-8. Without matplotlib it has no plots."""
-    environment = _environment()
     whole = content(record, context.against if context else None)
-    style, script = colour_rules() + _template("style.css"), _template("script.js")
-    page: str = environment.get_template("page.html").render(
-        title=whole.title,
-        verdict=whole.verdict,
-        sections=list(_sections(whole.sections, record, context.drawings if context else {})),
-        version=VERSION,
-        style=_trusted(style),
-        script=_trusted(script),
-        style_hash=_hash(style),
-        script_hash=_hash(script),
+    sections = list(_sections(whole.sections, record, context.drawings if context else {}))
+    return _page(title=whole.title, verdict=whole.verdict, sections=sections, source="from the record alone")
+
+
+def explorer_page() -> bytes:
+    """The explorer as a page of its own, in UTF-8; it begins on the ring."""
+    block = _TemplateBlock("explorer", Explorer(explorer.ON_THE_RING))
+    section = {"title": "Move the bodies", "level": 2, "anchor": "explorer", "blocks": [block]}
+    return _page(title="Spheroid and hyperboloid", verdict=None, sections=[section], source="")
+
+
+def _page(**parts: Any) -> bytes:  # noqa: ANN401 - what the template shows
+    style, script = colour_rules() + _template("style.css"), _template("script.js") + "\n" + _template("explorer.js")
+    page: str = (
+        _environment()
+        .get_template("page.html")
+        .render(
+            **parts,
+            version=VERSION,
+            style=_trusted(style),
+            script=_trusted(script),
+            style_hash=_hash(style),
+            script_hash=_hash(script),
+        )
     )
     return (page + "\n").encode("utf-8", "replace")
 
@@ -112,7 +131,8 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"text": html_text, "plain": plain}
+    environment.filters |= {"text": html_text, "plain": plain, "numbers": explorer.row_as_text}
+    environment.globals["formulas"] = explorer.formulas_as_json
     return environment
 
 

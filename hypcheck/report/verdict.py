@@ -48,6 +48,7 @@ class Failure:
     case: the id of the first case, if there is one.
     place: its place in the record.
     replay: the command that shows it.
+    row: the numbers of the case.
     count: how many failures of its kind it stands for.
     """
 
@@ -59,6 +60,7 @@ class Failure:
     case: str | None = None
     place: str | None = None
     replay: str | None = None
+    row: tuple[float, ...] = ()
     count: int = 1
 
 
@@ -107,8 +109,9 @@ def _broken_exactness(each: MeasuredMethod) -> Iterator[Failure]:
                 continue
             truth = Position(case.truth).label
             message += f"; {case.case} is {truth}; answered: {in_words(case.answer, each.line.question)}"
-            replay = classify_command(from_hex(case.row))
-            yield Failure(MEASUREMENT, each.name, workload, "wrong", message, case.case, replay=replay)
+            row = from_hex((*case.row, *(case.axis or ())))
+            replay = classify_command(row)
+            yield Failure(MEASUREMENT, each.name, workload, "wrong", message, case.case, replay=replay, row=row)
 
 
 def _wrong_counts(line: AccuracyLine) -> str:
@@ -236,8 +239,9 @@ def _oracles(record: Record) -> Iterator[Failure]:
 
 def _disagreement(line: OracleLine, case: DisagreementPart) -> Failure:
     message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
-    replay = classify_command(from_hex(numbers_of(case)))
-    return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay)
+    row = from_hex(numbers_of(case))
+    replay = classify_command(row)
+    return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay, row=row)
 
 
 def _proofs(record: Record) -> Iterator[Failure]:
@@ -293,7 +297,8 @@ def _broken_promise(name: str, line: GroupLine, status: str, number: int, replay
     if case is None:
         return Failure("implementation", name, family, status, message)
     place, replay = replays.place(case), replays.command(line, case)
-    return Failure("implementation", name, family, status, message, case.case, place, replay)
+    row = from_hex(numbers_of(case))
+    return Failure("implementation", name, family, status, message, case.case, place, replay, row)
 
 
 def _drift(record: Record) -> Iterator[Failure]:

@@ -9,6 +9,7 @@ import re
 
 import pytest
 
+from hypcheck.geometry.pair import COLUMNS
 from tests.report import browser, page_checks
 from tests.report.pages import RECORDS, page_of
 
@@ -59,6 +60,20 @@ def test_the_dark_scheme_is_dark_and_paper_is_light(chromium, files):
     assert visit.page.evaluate(ground) == "rgb(20, 24, 29)"
     visit.page.emulate_media(media="print")
     assert visit.page.evaluate(ground) == "rgb(255, 255, 255)"
+
+
+def test_a_case_of_a_report_has_its_picture_and_opens_in_the_explorer(chromium, files):
+    visit = chromium.visit(files["small"])
+    visit.unfold()
+    cases = visit.page.locator("code[data-row]")
+    assert cases.count() == visit.page.locator("svg.bodies").count() == visit.page.locator("button.open").count() > 2
+    code = cases.last
+    code.locator("xpath=following-sibling::button").click()
+    assert visit.page.locator(".explorer [data-is=origin]").inner_text() == f"Case {code.inner_text()}."
+    shown = [float(visit.page.locator(f"#explorer-{name}").input_value()) for name in COLUMNS]
+    assert shown == [float(each) for each in code.get_attribute("data-row").split()]
+    assert visit.page.evaluate("document.activeElement.dataset.is") == "picture"
+    assert page_checks.quiet(visit) == []
 
 
 def without(pattern, replacement=""):

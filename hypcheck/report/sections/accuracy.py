@@ -10,6 +10,7 @@ from msgspec import UNSET
 from hypcheck.geometry.rows import PAIRS, WAYS
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
 from hypcheck.record.measurements import (
     AccuracyLine,
@@ -36,7 +37,7 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import Replays, figure
+from hypcheck.report.messages import Replays, figure, from_hex
 from hypcheck.report.model import (
     ImplementationTotal,
     implementations,
@@ -156,7 +157,7 @@ def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[T
 def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> tuple[TableCell, ...]:
     error = float(case.backward_error_u)
     return (
-        TableCell(Code(case.case)),
+        TableCell(Code(case.case, from_hex(numbers_of(case)))),
         TableCell(Code(each.name)),
         TableCell(judge_of(group.question).truth_in_words(case.truth)),
         TableCell(str(case.answer)),
@@ -169,7 +170,7 @@ def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replay
 
 def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> tuple[TableCell, ...]:
     return (
-        TableCell(Code(case.case)),
+        TableCell(Code(case.case, from_hex(numbers_of(case)))),
         TableCell(Code(each.name)),
         TableCell(case.status, tone="bad" if case.status in _BAD else ""),
         TableCell(case.reason),
@@ -233,7 +234,7 @@ def _workload_row(line: AccuracyLine) -> tuple[TableCell, ...]:
         count(line.false_clear, bad=True),
         *counts,
         TableCell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
-        TableCell(Code(worst.case) if worst else ""),
+        TableCell(Code(worst.case, from_hex((*worst.row, *(worst.axis or ())))) if worst else ""),
     )
 
 

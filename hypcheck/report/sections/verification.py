@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
 from hypcheck.report.document import (
     Block,
@@ -165,7 +166,7 @@ def _method_row(each: ImplementationTotal) -> tuple[TableCell, ...]:
         count(statuses.get("wrong", 0), bad=True),
         count(each.mistakes.get("false-clear", 0)),
         TableCell(figure(error) if worst else NOTHING, error),
-        TableCell(Code(worst.case) if worst else NOTHING),
+        TableCell(Code(worst.case, from_hex(numbers_of(worst))) if worst else NOTHING),
     )
 
 
@@ -371,5 +372,5 @@ def _finding(group: list[FindingLine]) -> tuple[TableCell, ...]:
         TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
         TableCell(Strong(why), tone="bad") if unlisted(line) else TableCell(why),
         TableCell(short_row(row)),
-        TableCell(Code(line.first_case)),
+        TableCell(Code(line.first_case, row)),
     )

@@ -1,0 +1,230 @@
+"""The explorer: its exact answers, formulas, clearance and roots by node; its page in a real browser.
+
+HYPCHECK_EXPLORER is the number of rows; 10000 take a minute.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import random
+import shutil
+import subprocess
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.geometry.pair import COLUMNS, Pair
+from hypcheck.implementations.method import by_rows
+from hypcheck.report import contents, explorer, html
+from hypcheck.report.document import Code, Explorer
+from hypcheck.truth import exact
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.nearest_exact import nearest
+from hypcheck.vectors import frozen
+from hypcheck.vectors.families import FAMILIES
+from tests.report import browser, page_checks, record_samples
+
+FEW = 400
+ROWS = int(os.environ.get("HYPCHECK_EXPLORER", FEW))
+ROOM = Path(html.__file__).parent
+TOWER = (2.0, 17.8, 0.25, 0.15, 2.3, 0.0, 3.0)
+ANSWERS = Path(__file__).with_name("explorer_answers.mjs")
+
+
+def everyday(draw):
+    sizes = [10 ** draw.uniform(-1.5, 1.5) for _ in range(4)]
+    return (*sizes, *(draw.uniform(-3, 3) * max(sizes[0], sizes[2]) for _ in range(2)), draw.uniform(-40, 40))
+
+
+def extreme(draw):
+    """Any exponent that float64 has, subnormal numbers and zeros included."""
+    sizes = [math.ldexp(draw.uniform(0.5, 1), draw.randint(-1073, 1024)) for _ in range(4)]
+    center = [draw.choice((0.0, -1, 1)) * math.ldexp(draw.uniform(0.5, 1), draw.randint(-1073, 1024)) for _ in range(3)]
+    return (*sizes, *center)
+
+
+def rows():
+    """A quarter each: everyday numbers, extreme ones, frozen vectors, and frozen vectors with one number an ulp off."""
+    draw = random.Random(20)  # noqa: S311 - any rows will do
+    families = FAMILIES if ROWS > FEW else ("ring", "tangent", "osculation", "extreme-subnormal", "stiff-both")
+    every = [tuple(row) for name in families for row in frozen.frozen_rows(name).rows.tolist()]
+    chosen = [draw.choice(every) for _ in range(ROWS // 2)]
+    for place, row in enumerate(chosen[: ROWS // 4]):
+        column = draw.randrange(len(COLUMNS))
+        chosen[place] = tuple(math.nextafter(x, math.inf) if at == column else x for at, x in enumerate(row))
+    return [*chosen, *(everyday(draw) for _ in range(ROWS // 4)), *(extreme(draw) for _ in range(ROWS // 4))]
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """What the script finds about each row, with the row."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not installed")
+    asked, formulas = rows(), tmp_path_factory.mktemp("explorer") / "formulas.json"
+    formulas.write_text(explorer.formulas_as_json(), encoding="utf-8")
+    text = json.dumps([explorer.row_as_text(row).split() for row in asked])
+    command = [node, str(ANSWERS), str(ROOM / "templates" / "explorer.js"), str(formulas)]
+    done = subprocess.run(command, input=text, capture_output=True, check=False, text=True)
+    assert done.returncode == 0, done.stderr
+    return list(zip(asked, json.loads(done.stdout), strict=True))
+
+
+def test_the_exact_answers_of_the_explorer_are_those_of_classify(found):
+    truth = hypcheck.classify([row for row, _ in found])
+    wrong = [row for (row, each), position in zip(found, truth.tolist(), strict=True) if each["position"] != position]
+    assert wrong == []
+    assert set(truth.tolist()) == {-1, 0, 1}
+
+
+def test_tangencies_and_the_ring_of_the_explorer_are_those_of_the_exact_decision(found):
+    seen = set()
+    for row, each in found:
+        decision = exact.decide(Pair.from_row(row).lengths)
+        assert (each["tangent"], each["ring"]) == (decision.tangent, decision.kind is Kind.EXTERIOR_RING), row
+        seen.add((each["tangent"], each["ring"]))
+    assert len(seen) == 3
+
+
+def test_every_formula_of_the_explorer_answers_as_it_does_in_numpy(found):
+    asked = np.array([row for row, _ in found])
+    formulas = [each for each in (*FORMULAS.values(), *REPAIRED.values()) if each.classifies_pairs]
+    columns = [by_rows(each, precision)(asked) for each in formulas for precision in ("float64", "float32")]
+    answers = np.array([each["answers"] for _, each in found])
+    assert answers.shape[1] == len(columns) == 18
+    for place, column in enumerate(columns):
+        assert np.flatnonzero(answers[:, place] != column).tolist() == [], formulas[place // 2].name
+
+
+def test_the_bounds_of_the_squared_distance_hold_the_clearance_of_the_nearest_point(found):
+    measured = [(row, each["gap"]) for row, each in found if each["gap"]]
+    assert len(measured) >= ROWS // 16
+    for row, bounds in measured:
+        lower, upper = map(float, bounds)
+        clearance = nearest(Pair.from_row(row)).clearance
+        squared = clearance * (2 + clearance)
+        slack = 1e-12 * abs(squared) if math.isfinite(squared) else 0.0
+        assert lower - slack <= squared <= upper + slack or squared == lower == math.inf, row
+
+
+def coefficients(row):
+    """A, B, c2, c1 and c0, exact."""
+    alpha, gamma, b, d, x, y, z = map(Fraction, row)
+    A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+    return A - B + 1 - P - Q, -A * B + A - B + B * P - A * Q, -A * B
+
+
+def test_the_roots_of_the_explorer_are_those_of_g(found):
+    for row, each in found[len(found) // 2 : 3 * len(found) // 4]:
+        c2, c1, c0 = coefficients(row)
+        discriminant = c1 * c1 * (c2 * c2 - 4 * c1) + c0 * (c2 * (18 * c1 - 4 * c2 * c2) - 27 * c0)
+        assert len(each["roots"]) == (1 if discriminant < 0 else 3), row
+        wanted = np.roots([1, *map(float, (c2, c1, c0))])
+        for root in map(float, each["roots"]):
+            assert np.abs(wanted - root).min() <= 1e-6 * np.abs(wanted).max(), row
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser.opened() as window:
+        yield window
+
+
+@pytest.fixture
+def visit(chromium, tmp_path):
+    """The explorer as a page of its own."""
+    path = tmp_path / "explorer.html"
+    path.write_bytes(html.explorer_page())
+    return chromium.visit(path)
+
+
+def said(visit):
+    return visit.page.locator(".said").inner_text()
+
+
+def numbers(visit):
+    return [float(visit.page.locator(f"#explorer-{name}").input_value()) for name in COLUMNS]
+
+
+def test_the_explorer_is_quiet_readable_and_named_for_a_screen_reader(visit):
+    assert "Exact answer: exterior. Clearance: 0.5 spheroid radii. On the ring" in said(visit)
+    unnamed = "all => all.filter(each => !each.labels.length && !each.ariaLabel).map(each => each.outerHTML)"
+    assert visit.page.locator("input").evaluate_all(unnamed) == []
+    assert visit.page.locator("input").count() == 11
+    assert visit.page.get_by_role("application", name="The two bodies in the half plane (r, z)").count() == 1
+    assert visit.page.locator(".said").get_attribute("aria-live") == "polite"
+    assert page_checks.unreachable(visit) == []
+    for scheme in ("light", "dark"):
+        visit.page.emulate_media(color_scheme=scheme)
+        assert page_checks.faint(visit) == []
+    visit.page.set_viewport_size({"width": 360, "height": 800})
+    assert page_checks.overflowing(visit) == []
+    assert page_checks.quiet(visit) == []
+
+
+def test_keys_sliders_and_buttons_of_the_explorer_move_the_bodies(visit):
+    picture = visit.page.locator(".half-plane")
+    for key, place, change in (("ArrowRight", 4, 1), ("ArrowLeft", 4, -1), ("ArrowUp", 6, 1), ("ArrowDown", 6, -1)):
+        before = numbers(visit)[place]
+        picture.press(key)
+        moved = numbers(visit)[place] - before
+        assert moved * change > 0, key
+        picture.press(f"Shift+{key}")
+        assert 0 < (numbers(visit)[place] - before - moved) / moved < 0.02, key
+    visit.page.get_by_label("α, radius of the waist, slider").fill("0.3")
+    assert numbers(visit)[0] == 2.0
+    assert "contact" in said(visit)
+    visit.page.get_by_label("γ, height where the radius is α√2", exact=True).fill("8")
+    visit.page.get_by_role("button", name="Go to the ring").click()
+    assert numbers(visit)[4:] == [pytest.approx(math.sqrt(65 * (4 + 64) / 64)), 0, 0]
+    assert "Exact answer: exterior" in said(visit)
+    visit.page.get_by_label("γ, height where the radius is α√2", exact=True).fill("1")
+    assert visit.page.get_by_role("button", name="Go to the ring").is_disabled()
+
+
+def test_a_pointer_drags_the_centre_of_the_explorer(visit):
+    box = visit.page.locator(".half-plane").bounding_box()
+    visit.page.mouse.move(box["x"] + box["width"] * 0.6, box["y"] + box["height"] * 0.5)
+    visit.page.mouse.down()
+    visit.page.mouse.move(box["x"] + box["width"] * 0.3, box["y"] + box["height"] * 0.3, steps=3)
+    visit.page.mouse.up()
+    moved = numbers(visit)
+    assert "Exact answer: contact" in said(visit)
+    assert moved[6] > 0.5
+    visit.page.mouse.move(box["x"] + box["width"] * 0.9, box["y"] + box["height"] * 0.5)
+    assert numbers(visit) == moved
+    ellipse, edge = (visit.page.locator(f".half-plane {name}").bounding_box() for name in ("ellipse", ".center"))
+    assert ellipse["x"] + ellipse["width"] / 2 == pytest.approx(edge["x"] + edge["width"] / 2, abs=1)
+
+
+def test_the_explorer_refuses_what_is_no_size_in_a_sentence(visit):
+    field = visit.page.get_by_label("b, semi-axis across", exact=True)
+    field.fill("-1")
+    assert "b, semi-axis across must be a number greater than 0 of float64." in said(visit)
+    assert field.get_attribute("aria-invalid") == "true"
+    field.fill("1e-160")
+    assert field.get_attribute("aria-invalid") is None
+    assert "Exact answer: exterior" in said(visit)
+    assert page_checks.quiet(visit) == []
+
+
+def test_only_valid_rows_of_upright_spheroids_at_rest_are_drawn():
+    upright = explorer.ON_THE_RING
+    for row, drawn in ((upright, True), ((*upright, 0.0, 0.0, 1.0), False), ((math.nan, *upright[1:]), False)):
+        text = html.html_text(Code("ring-0001", row))
+        assert ('<svg class="bodies"' in text, 'data-row="1.0 2.0 1.0 1.0 2.5 0.0 0.0"' in text) == (drawn, drawn)
+
+
+def test_a_failing_case_is_drawn_in_the_table_of_failures_and_the_explorer_begins_with_it():
+    case = record_samples.worst("tower-body/1/1/5", "wrong", 40.0) | {"row": record_samples.hexes(TOWER)}
+    line = record_samples.group("mine", "float64", "tower-body", {"wrong": 1}, [case], failing=["wrong"], faults=[])
+    sections = contents.content(record_samples.record([line], exit_code=1)).sections
+    (failed,) = (each.blocks[0].page for each in sections if each.title == "What failed")
+    assert Code("tower-body/1/1/5", TOWER) in [cell.text for cell in failed.rows[0]]
+    assert [each.row for section in sections for each in section.blocks if isinstance(each, Explorer)] == [TOWER]
