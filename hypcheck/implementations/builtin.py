@@ -159,7 +159,7 @@ def passage_methods() -> dict[str, Method]:
     ]
     hits = Method(
         "passage-certified",
-        "steps in floats that the exact kernel certifies, exact where they come to nothing",
+        "steps in certified floats, exact where they come to nothing",
         "passage",
         "float64",
         ways.certified,

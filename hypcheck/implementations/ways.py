@@ -31,18 +31,6 @@ MOST_ADVANCES = 400
 NEARNESS = 1e-6
 """Conservative advancement calls it contact within this part of a radius."""
 
-ROUNDING = 64 * 2.0**-53
-"""What the rounding of a distance may amount to, in radii, for each radius of the lengths that go into it."""
-
-LEAST_RADIUS = 2.0**-900
-"""The certified method decides exactly where b or d is less: what underflows is nothing beside it."""
-
-LARGEST_SLACK, LEAST_GROWTH = 2.0**-20, 2.0**-16
-"""The certified method decides exactly where rounding may exceed the first, or less than the second is left to step."""
-
-LOOKS, MOST_STEPS = 9, 40
-"""The certified method looks for contact at so many times first, then takes so many steps at most."""
-
 
 def exact(rows: Rows) -> HitsAndTimes:
     """The exact decision, and the float64 below the first contact."""
@@ -151,48 +139,11 @@ def capsule(rows: Rows) -> HitsAndTimes:
 
 
 def certified(rows: Rows) -> NDArray[np.int8]:
-    """Hits (n,): steps in floats, certified by the exact kernel; the exact decision where they come to nothing.
-
-    A spheroid that has contact at some time with b and d shrunk has contact then. One that is clear with b and d grown
-    by a factor k is clear for as much of the way as is shorter than k − 1 radii. Both factors leave room for the
-    rounding of the centre, which is at most ROUNDING times the lengths in radii: x0 + t (x1 − x0) has three errors of
-    at most 2⁻⁵³ (2|x0| + 2|x1|) each, b (1 ± slack) one of 2⁻⁵³ b; beside LEAST_RADIUS underflow is nothing.
-    """
-    n, speed = len(rows), lengths_of(rows)
-    hits = np.full(n, CANNOT_SAY, dtype=np.int8)
-    slack = ROUNDING * (2 + np.abs(rows[:, 4:10] / rows[:, [2, 2, 3, 2, 2, 3]]).sum(axis=1))
-    safe = np.flatnonzero((slack < LARGEST_SLACK) & (rows[:, 2:4].min(axis=1) >= LEAST_RADIUS))
-    for time in np.linspace(0.0, 1.0, LOOKS):
-        found = _touches(rows[safe], np.full(len(safe), time), 1 - slack[safe])
-        hits[safe[found]] = 1
-        safe = safe[~found]
-    hits[_clear(rows, safe, speed, slack)] = 0
+    """Hits (n,): by the kernel, whose bounds prove what they decide; by the exact decision where they do not tell."""
+    hits = kernel().answer_ways(rows)[0]
     rest = np.flatnonzero(hits == CANNOT_SAY)
     hits[rest] = exact(rows[rest])[0]
     return hits
-
-
-def _clear(rows: Rows, going: NDArray[np.intp], speed: Floats, slack: Floats) -> NDArray[np.intp]:
-    """Those of the rows `going` that are proved clear all along by MOST_STEPS steps at most."""
-    now, clear = np.zeros(len(rows)), []
-    for _ in range(MOST_STEPS):
-        grow = 0.999 * (distances(rows[going], now[going]) - 1) - 2 * slack[going]
-        stays = grow > LEAST_GROWTH
-        stays[stays] = ~_touches(rows[going[stays]], now[going[stays]], 1 + grow[stays])
-        going, grow = going[stays], grow[stays]
-        with np.errstate(divide="ignore"):
-            now[going] += (grow - slack[going]) / speed[going] * (1 - ROUNDING)
-        clear.append(going[now[going] >= 1])
-        going = going[now[going] < 1]
-    return np.concatenate(clear)
-
-
-def _touches(rows: Rows, times: Floats, scales: Floats) -> NDArray[np.bool_]:
-    """Whether each spheroid, b and d multiplied, has contact at its time, by the exact kernel."""
-    asked = np.empty((len(rows), len(COLUMNS)))
-    asked[:, :2], asked[:, 2:4] = rows[:, :2], rows[:, 2:4] * scales[:, None]
-    asked[:, 4:] = rows[:, 4:7] + times[:, None] * (rows[:, 7:10] - rows[:, 4:7])
-    return np.asarray(kernel().answer_rows(asked, "position", 1)[0] == 0)
 
 
 def rough_exponent(row: Rows) -> float:

@@ -18,6 +18,9 @@ def ask_scene(
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
     /,
 ) -> int: ...
+def passage(
+    rows: NDArray[np.generic], hits: NDArray[np.generic], times: NDArray[np.generic] | None = None, /
+) -> None: ...
 
 position: PositionFunction
 

@@ -37,7 +37,7 @@ ROWS_AT_A_TIME = 1 << 22
 
 
 class Kernel(Protocol):
-    """What a module that answers has. Both return the answers, 127 for invalid rows, and how many those are."""
+    """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
 
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
         """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
@@ -51,6 +51,13 @@ class Kernel(Protocol):
         axis: Axis | None = None,
     ) -> tuple[Positions, int]:
         """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
+
+    def answer_ways(self, rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
+        """Contact on straight ways of upright spheroids, C-contiguous rows (n, 10) as geometry.rows.WAYS has them.
+
+        Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64
+        (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.
+        """
 
 
 def kernel() -> Kernel:

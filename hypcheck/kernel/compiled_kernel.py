@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from hypcheck.geometry.pair import Axis, Sizes
-from hypcheck.geometry.rows import Columns, Positions, Rows
+from hypcheck.geometry.rows import Columns, Floats, Positions, Rows
 from hypcheck.kernel.choice import NUMBER_OF, Question, compiled, most_threads
 
 ROWS_A_THREAD = 1 << 20
@@ -65,6 +65,20 @@ def fill_scene(
         return refused
 
     return in_parts(part, len(answers), threads)
+
+
+def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
+    """As classify.Kernel has it."""
+    decide = compiled().passage
+    aligned = rows if rows.flags.aligned else rows.copy()
+    hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
+
+    def part(start: int, stop: int) -> int:
+        decide(aligned[start:stop], hits[start:stop], times[start:stop])
+        return 0
+
+    in_parts(part, len(rows), threads)
+    return hits, times
 
 
 def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:

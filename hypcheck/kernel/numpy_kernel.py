@@ -15,7 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair, Sizes
-from hypcheck.geometry.rows import Columns, Floats, Indices, Mask, Positions, Rows, invalid, tilted_rows
+from hypcheck.geometry.rows import (
+    CANNOT_SAY,
+    WAYS,
+    Columns,
+    Floats,
+    Indices,
+    Mask,
+    Positions,
+    Rows,
+    invalid,
+    tilted_rows,
+)
 from hypcheck.kernel import integers, numpy_tilted, scene_lines
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.printed import chunks
@@ -101,6 +112,14 @@ def answer_scene(
 ) -> tuple[Positions, int]:
     """As classify.Kernel has it; always one thread."""
     return _answers(positions_of_scene(sizes, *columns, axis), question)
+
+
+def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:  # noqa: ARG001
+    """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike."""
+    start, end = positions(np.ascontiguousarray(rows[:, :7])), positions(rows[:, [0, 1, 2, 3, 7, 8, 9]])
+    hits = np.where((start == 0) | (start != end), 1, CANNOT_SAY).astype(np.int8)
+    hits[invalid(rows, WAYS)] = REFUSED
+    return hits, np.where((start == 0) & (hits == 1), 0.0, np.nan)
 
 
 def _answers(found: Positions, question: Question) -> tuple[Positions, int]:

@@ -16,7 +16,7 @@ from hypcheck.derivation.program import cut, needed
 from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.kernel.programs import certified, lines
+from hypcheck.kernel.programs import certified, lines, ways
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 
 U = Fraction(certified.U)
@@ -131,6 +131,29 @@ def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
     K, M = outputs(lines.TANGENT_WITHIN, EXACT, sizes | {"mu": multiplier}, ("K_least", "M_least"))
     assert K == b**2 * (a**2 - multiplier) * (1 - 1 / multiplier)
     assert M == (b / d) ** 2 * (a**2 - multiplier) / (c**2 + multiplier)
+    fall, M_high = outputs(ways.TANGENT_HIGH, EXACT, sizes | {"mu": multiplier}, ("fall_most", "M_least"))
+    assert (fall, M_high) == (-K, M)
+
+
+@given(st.tuples(*[st.fractions(-8, 8, max_denominator=64)] * 7), positives, st.sampled_from([1, -1]))
+def test_a_piece_of_a_way_is_the_distance_from_a_line_as_a_quadratic(numbers, M, side):
+    x, y, z, u, v, w, K = numbers
+    inputs = dict(zip(("x", "y", "z", "u", "v", "w", "K"), numbers, strict=True)) | {"M": M, "side": side, "u_8": 0}
+    here, slope, bend = outputs(ways.PIECE, EXACT, inputs, ("here", "slope", "bend"))
+    for s in (Fraction(0), Fraction(1, 3), Fraction(1)):
+        R, T = (x + s * u) ** 2 + (y + s * v) ** 2, (z + s * w) ** 2
+        assert here + 2 * slope * s + bend * s * s == side * (R - M * T - K)
+
+
+@pytest.mark.parametrize("part", ["", "_slope", "_bend"])
+def test_the_error_taken_off_a_piece_covers_its_roundings(part):
+    """4 factors in the gap, as many in the size, one for the difference: fewer than the 8 of u_8."""
+    gap, size = f"gap{part}", f"size{part or '_here'}"
+    count = relative_error_counts(ways.PIECE, [gap], positive={"M"}).counts[gap]
+    assert count <= 4
+    counted = relative_error_counts(cut(ways.PIECE, ("K", "R", "rise"), (size,)) if not part else ways.PIECE, [size])
+    assert counted.counts[size] <= 4
+    assert gamma(count, U) + U < Fraction(certified.CONSTANTS["u_8"]) * (1 - gamma(5, U)) - 2 * U
 
 
 @pytest.mark.parametrize(
@@ -144,6 +167,9 @@ def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
         (lines.TANGENT_BEYOND, "gap_terms", 3),
         (lines.TANGENT_WITHIN, "across_terms", 3),
         (lines.TANGENT_WITHIN, "along", 3),
+        (ways.TANGENT_HIGH, "one_minus_mu", 1),
+        (ways.TANGENT_HIGH, "across_terms", 3),
+        (ways.TANGENT_HIGH, "along", 3),
         (lines.CHORD, "line_0", 2),
     ],
 )

@@ -85,6 +85,32 @@ static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
     return result;
 }
 
+static PyObject *py_passage(PyObject *self, PyObject *arguments) {
+    PyObject *rows_object, *hits_object, *times_object = Py_None, *result = NULL;
+    Py_buffer rows, hits, times = {0};
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OO|O", &rows_object, &hits_object, &times_object)) return NULL;
+    if (!filled(rows_object, &rows, "d", 0)) return NULL;
+    if (filled(hits_object, &hits, "b", PyBUF_WRITABLE)) {
+        const Py_ssize_t column = (Py_ssize_t)sizeof(double) * hits.len;
+        const int timed = times_object != Py_None;
+        if (!timed || filled(times_object, &times, "d", PyBUF_WRITABLE)) {
+            if (rows.len == 10 * column && (!timed || times.len == column)) {
+                Py_BEGIN_ALLOW_THREADS
+                hypcheck_passage((size_t)hits.len, (const double *)rows.buf, (int8_t *)hits.buf, timed ? (double *)times.buf : NULL);
+                Py_END_ALLOW_THREADS
+                result = Py_NewRef(Py_None);
+            } else {
+                PyErr_SetString(PyExc_ValueError, "ten numbers for each hit, and as many times as hits");
+            }
+            if (timed) PyBuffer_Release(&times);
+        }
+        PyBuffer_Release(&hits);
+    }
+    PyBuffer_Release(&rows);
+    return result;
+}
+
 /* What position calls where it has no answer: for numbers that are no floats, and for invalid rows. It answers, or raises
    with a sentence that names the number. */
 static PyObject *slow_position = NULL;
@@ -182,6 +208,7 @@ static PyObject *py_call_each(PyObject *self, PyObject *arguments) {
 static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
     {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
+    {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
     {"call_each", py_call_each, METH_VARARGS, "call_each(address, rows, answers, repeat): a call a row; address 0 does nothing"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
      "position(alpha, gamma, b, d, x, y, z, *, axis=None) -> int"},

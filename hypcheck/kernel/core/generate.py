@@ -16,8 +16,8 @@ from pathlib import Path
 from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.core import tilted
-from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, statements
-from hypcheck.kernel.programs import certified, lines, tilted_lines
+from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
+from hypcheck.kernel.programs import certified, lines, tilted_lines, ways
 from hypcheck.kernel.programs import tilted as tilted_program
 from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
 
@@ -65,8 +65,16 @@ VECTOR = Spelling(
 )
 """C over vectors of any width: the operators of the compiler, and macros for what they do not cover."""
 
+PLAIN = Spelling(
+    operations={**INFIX, "abs": "hc_size({0})"},
+    number="double",
+    boolean="int",
+    declaration="const {type} {name} = {value};",
+    constant=literal(),
+)
+"""C over single doubles, without libm."""
 
-PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "tilted_scene", "dispatch", "tilted")
+PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "tilted_scene", "dispatch", "tilted", "ways")
 
 
 def header() -> str:
@@ -200,6 +208,8 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "SINGLE": lambda: c_statements(certified.SINGLE, certified.SINGLE_RESULTS, number="double"),
     "TANGENT_BEYOND": lambda: c_statements(lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
     "TANGENT_WITHIN": lambda: c_statements(lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
+    "TANGENT_HIGH": lambda: c_statements(ways.TANGENT_HIGH, ("across_least", "fall_most", "M_least")),
+    "PIECE": lambda: statements(ways.PIECE, ("here", "slope", "bend", "size"), PLAIN),
     "CHORD": lambda: c_statements(lines.CHORD, ("below", "above")),
 }
 

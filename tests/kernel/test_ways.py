@@ -1,0 +1,150 @@
+"""Contact on straight ways by the kernel: against frozen ways, exact decisions and every rounding mode."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations import ways
+from hypcheck.kernel import compiled_kernel, numpy_kernel
+from hypcheck.truth.passage_error import hits_at_size, scaled_passage
+from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.frozen import WAY_NAMES, frozen_rows
+from tests.tools.attack.rounding import DIRECTED, rounded
+
+compiled = pytest.importorskip("hypcheck.kernel._compiled")
+
+UPRIGHT = [name for name in WAY_NAMES if not name.startswith("tilted")]
+TOUCHING = {"way-grazing", "way-near-graze", "way-short"}
+"""Families in which clearance, or overlap, falls below what rounding may amount to."""
+
+DOWN = (2.0, 17.8, 0.25, 0.15, 1.8, 0.0, 9.0, 1.8, 0.0, -9.0)
+
+
+def some_ways(seed, count):
+    """Ways of sizes from 1/16 to 16, half of them about as short as the spheroid."""
+    random = np.random.default_rng(seed)
+    sizes = np.exp2(random.uniform(-4, 4, (count, 4)))
+    spread = 2 * sizes[:, [0, 0, 1]] * np.exp2(random.uniform(-2, 2, (count, 1)))
+    start, end = random.normal(size=(2, count, 3)) * spread
+    end[::2] = (start + 0.3 * random.normal(size=(count, 3)) * sizes[:, [2, 2, 3]])[::2]
+    return np.concatenate([sizes, start, end], axis=1)
+
+
+@pytest.mark.parametrize("name", UPRIGHT)
+def test_no_frozen_way_is_answered_wrong_and_few_are_left_open(name):
+    cases = frozen_rows(name)
+    hits, times = compiled_kernel.answer_ways(cases.rows)
+    decided = hits != CANNOT_SAY
+    assert (hits[decided] == cases.positions[decided]).all()
+    assert decided.all() or name in TOUCHING
+    assert np.isnan(times[hits != 1]).all()
+    by_numpy, _ = numpy_kernel.answer_ways(cases.rows)
+    assert ((by_numpy == CANNOT_SAY) | (by_numpy == cases.positions)).all()
+
+
+def test_hits_are_exact_and_no_time_is_late():
+    rows = some_ways(1, 300)
+    hits, times = compiled_kernel.answer_ways(rows)
+    truth = [scaled_passage(row) for row in rows.tolist()]
+    assert hits.tolist() == [each.hit for each in truth]
+    assert 30 < hits.sum() < 270
+    for time, each in zip(times.tolist(), truth, strict=True):
+        assert math.isnan(time) or 0 <= time <= each.first_upper
+    assert np.isnan(times[hits == 1]).sum() < 3
+
+
+def test_at_its_time_the_spheroid_a_little_larger_has_contact():
+    rows = some_ways(2, 150)
+    hits, times = compiled_kernel.answer_ways(rows)
+    for row, time in zip(rows[hits == 1].tolist(), times[hits == 1].tolist(), strict=True):
+        alpha, gamma, b, d, *ends = (Fraction(each) for each in row)
+        across, along = sum(map(abs, (ends[0], ends[1], ends[3], ends[4]))), abs(ends[2]) + abs(ends[5])
+        there = [start + Fraction(time) * (end - start) for start, end in zip(ends[:3], ends[3:], strict=True)]
+        grown = 1 + Fraction(1, 2**45) * (1 + across / b + along / d)
+        assert hits_at_size((alpha, gamma, b, d, *there, *there), grown)
+
+
+@pytest.mark.parametrize("mode", DIRECTED)
+def test_directed_rounding_makes_no_answer_wrong(mode):
+    for name in ("way-near-graze", "way-short", "way-stiff", "way-vertical"):
+        cases = frozen_rows(name)
+        hits, times = np.empty(len(cases.rows), np.int8), np.empty(len(cases.rows))
+        with rounded(mode):
+            compiled.passage(cases.rows, hits, times)
+        assert ((hits == CANNOT_SAY) | (hits == cases.positions)).all()
+
+
+@pytest.mark.parametrize("family", ["way-near-graze", "way-long"])
+def test_more_ways_beside_the_surface_are_answered_right(family):
+    rows = WAY_FAMILIES[family].rows(3, 40)
+    hits, _ = compiled_kernel.answer_ways(rows)
+    decided = hits != CANNOT_SAY
+    assert decided.sum() > 25
+    assert hits[decided].tolist() == [scaled_passage(row).hit for row in rows[decided].tolist()]
+
+
+@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("column", range(10))
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -1.0])
+def test_an_invalid_row_is_refused_and_harms_no_other(answer_ways, column, value):
+    rows = np.array([DOWN, DOWN, DOWN])
+    rows[1, column] = value
+    hits, times = answer_ways(rows)
+    valid = math.isfinite(value) and (column >= 4 or value > 0)
+    assert (hits[1] != REFUSED) == valid
+    assert hits[[0, 2]].tolist() == answer_ways(rows[:1])[0].tolist() * 2
+    assert valid or math.isnan(times[1])
+
+
+TINY, HUGE = 5e-324, 1.7e308
+
+
+@pytest.mark.parametrize(
+    ("row", "hit"),
+    [
+        ((2, 17.8, TINY, TINY, 2.2, 0, 9, 2.2, 0, 0), 1),  # to shrink the least subnormal radius is no change
+        ((2, 17.8, 2.0**-950, 2.0**-950, 2.2, 0, 9, 2.2, 0, 0), 1),
+        ((2, 17.8, 2.0**-150, 2.0**-150, 2.2, 0, 9, 2.2, 0, -9), 1),  # out and in again
+        ((2, 17.8, TINY, TINY, 1.8, 0, 1, 1.8, 0, -1), 0),
+        ((TINY, TINY, TINY, TINY, 0, 0, 0, TINY, 0, 0), 1),
+        ((HUGE, HUGE, 1, 1, 0, 0, 0, 1, 0, 0), 0),
+        ((1, 1, HUGE, HUGE, 0, 0, 0, 1, 0, 0), 1),
+        ((2, 17.8, 0.25, 0.15, 2.0**160, 0, 0, -(2.0**160), 0, 0), 1),
+        ((2, 17.8, 0.25, 0.15, HUGE, 0, 0, HUGE, HUGE, 0), 0),
+        ((2, 17.8, 0.25, 0.15, TINY, -TINY, TINY, -TINY, TINY, -TINY), 0),
+        ((2.0**90, 2.0**90, 2.0**80, 2.0**80, 2.0**95, 0, 0, 0, 0, 0), 1),
+    ],
+)
+def test_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
+    rows = np.array([row], dtype=float)
+    assert compiled_kernel.answer_ways(rows)[0][0] in (hit, CANNOT_SAY)
+    assert ways.certified(rows).tolist() == [hit]
+
+
+def test_hits_do_not_depend_on_whether_times_are_asked_for():
+    rows = np.concatenate([frozen_rows(name).rows for name in UPRIGHT])
+    without = np.empty(len(rows), np.int8)
+    compiled.passage(rows, without)
+    assert (without == compiled_kernel.answer_ways(rows)[0]).all()
+
+
+def test_buffers_that_do_not_fit_are_refused():
+    rows, hits = np.array([DOWN, DOWN]), np.empty(2, np.int8)
+    for given in ((rows, hits[:1]), (rows, hits, np.empty(1)), (rows, hits, hits), (hits, hits)):
+        with pytest.raises(ValueError, match=r"ten numbers for each hit|a buffer of format d is needed"):
+            compiled.passage(*given)
+
+
+def test_threads_share_ways():
+    rows = np.tile(some_ways(3, 50), (20, 1))
+    hits, times = compiled_kernel.answer_ways(rows)
+    for count in (1, 3):
+        again = compiled_kernel.answer_ways(rows, count)
+        assert (again[0] == hits).all()
+        np.testing.assert_array_equal(again[1], times)
