@@ -1,4 +1,4 @@
-"""The pages for those who change hypcheck name files and rooms that exist."""
+"""Pages name what exists, and the index of the pages and the site list each page once, in the same order."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import re
 from pathlib import Path
 
 import pytest
+from ruamel.yaml import YAML
 
+import hypcheck
 from hypcheck import toml
 
 ROOT = Path(__file__).parents[1]
@@ -33,3 +35,27 @@ def test_the_picture_of_the_rooms_has_every_room():
     rooms = {path.stem for path in (ROOT / "hypcheck").iterdir() if path.is_dir() or path.suffix == ".py"}
     picture = ARCHITECTURE.read_text(encoding="utf-8").split("```")[1]
     assert rooms - {"__init__", "__main__", "__pycache__"} <= set(picture.split())
+
+
+def pages_in(nav):
+    for entry in nav:
+        for value in entry.values():
+            yield from pages_in(value) if isinstance(value, list) else (value,)
+
+
+def test_the_site_has_every_page_once_in_the_order_of_the_index():
+    settings = YAML(typ="safe").load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
+    listed = [page for page in pages_in(settings["nav"]) if page != "docs/explorer.html"]
+    index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8").partition("## To learn")[2]
+    linked = [(ROOT / "docs" / link).resolve() for link in re.findall(r"\]\(([^)#]+)", index)]
+    in_order = list(dict.fromkeys(path.relative_to(ROOT).as_posix() for path in linked))
+    assert listed == ["README.md", "docs/README.md", *(page for page in in_order if page != "README.md")]
+    written = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("**/*.md"), *(ROOT / "cases").glob("*.md")]
+    assert {page.relative_to(ROOT).as_posix() for page in written} <= set(listed)
+    assert len(listed) == len(set(listed))
+
+
+def test_the_page_of_the_python_interface_has_every_public_name():
+    described = re.findall(r"^::: (.*)$", (ROOT / "docs" / "api.md").read_text(encoding="utf-8"), re.MULTILINE)
+    public = [getattr(hypcheck, name) for name in hypcheck.__all__ if name != "__version__"]
+    assert sorted(described) == sorted(f"{each.__module__}.{each.__qualname__}" for each in public)

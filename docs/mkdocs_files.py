@@ -1,0 +1,39 @@
+"""The files of the site beside mkdocs.yml: pages from all over the repository under their own paths, and the explorer.
+
+mkdocs reads one folder, but our pages link to others above it. So every file gets the path that it has in the
+repository, and each link leads in the site where it leads in the repository.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+
+from hypcheck.report.html import explorer_page
+
+ROOT = Path(__file__).resolve().parents[1]
+
+PAGES = ("*.md", "docs/**/*.md", "cases/*.md", "reports/reference/**/*.md")
+BESIDE = (
+    "LICENSE",
+    "CITATION.cff",
+    "docs/**/*.svg",
+    "docs/**/*.txt",
+    "cases/LICENSE",
+    "cases/**/*.json",
+    "hypcheck/report/schemas/*.json",
+    "reports/reference/**/*.*",
+)
+"""What pages show or link to."""
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Every page and what it links to, each under its path in the repository; what a theme brings stays."""
+    docs = Path(config.docs_dir)
+    kept = Files([each for each in files if not (docs / each.src_uri).exists()])
+    for path in sorted({found for pattern in (*PAGES, *BESIDE) for found in ROOT.glob(pattern) if found.is_file()}):
+        kept.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
+    kept.append(File.generated(config, "docs/explorer.html", content=explorer_page()))
+    return kept
