@@ -95,7 +95,7 @@ format: $(VENV)/ready-dev ## rewrite the code in the house format
 	$(BIN)/ruff format .
 
 docs: $(VENV)/ready-docs ## the site of all pages, its links checked; build/site/index.html
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
 
 clean: ## remove the environment, caches and the latest reports
 	rm -rf $(VENV) build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache reports/latest

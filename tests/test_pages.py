@@ -14,6 +14,7 @@ from hypcheck import toml
 ROOT = Path(__file__).parents[1]
 ARCHITECTURE = ROOT / "docs" / "architecture.md"
 CONTRIBUTING = ROOT / "CONTRIBUTING.md"
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("**/*.md"), *(ROOT / "cases").glob("*.md")])
 
 
 @pytest.mark.parametrize("page", [ARCHITECTURE, CONTRIBUTING], ids=lambda page: page.name)
@@ -50,9 +51,14 @@ def test_the_site_has_every_page_once_in_the_order_of_the_index():
     linked = [(ROOT / "docs" / link).resolve() for link in re.findall(r"\]\(([^)#]+)", index)]
     in_order = list(dict.fromkeys(path.relative_to(ROOT).as_posix() for path in linked))
     assert listed == ["README.md", "docs/README.md", *(page for page in in_order if page != "README.md")]
-    written = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("**/*.md"), *(ROOT / "cases").glob("*.md")]
-    assert {page.relative_to(ROOT).as_posix() for page in written} <= set(listed)
+    assert {page.relative_to(ROOT).as_posix() for page in PAGES} <= set(listed)
     assert len(listed) == len(set(listed))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_every_link_of_a_page_leads_to_a_file(page):
+    links = re.findall(r"\]\((?!https?:|#)([^)#\s]+)", page.read_text(encoding="utf-8"))
+    assert [link for link in links if not (page.parent / link).is_file()] == []
 
 
 def test_the_page_of_the_python_interface_has_every_public_name():
