@@ -23,24 +23,31 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import WORKLOADS, BenchPlan, Workload, chosen_names
+from hypcheck.bench.plan import PASSAGE, WORKLOADS, BenchPlan, Workload, chosen_names
 from hypcheck.bench.tilted_workloads import workloads_of
-from hypcheck.geometry.rows import Floats, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Positions, Rows
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.ways import least_distances
 from hypcheck.processes import one_each, perform
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.runs.judges import truth_of
+from hypcheck.runs.passages import passage_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
+from hypcheck.truth.passage_error import size_error
 
 if sys.platform != "win32":
     import resource
 
 WORST_KEPT = 3
-_WORST_TRIED = 12
+WORST_TRIED, FEW_TRIED = 12, 1
+"""Candidates for the worst wrong answers; to measure one about a way takes twenty milliseconds."""
+
 _PIECE = 500
 
 TOLERABLE = 1e-3
@@ -89,13 +96,26 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
         rows = workload.rows(plan.seed, workload.judged(plan))
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
         exponents = np.empty(len(rows))
-        for (start, piece), found in perform(_exponents, pieces, executor):
-            exponents[start : start + len(piece)] = found
-        yield WorkloadTruth(workload, rows, judge.exact_positions(rows), exponents)
+        truth = np.empty(len(rows), dtype=np.int8)
+        examine = _examined if workload.layout is PAIRS else _examined_ways
+        for (start, piece), (truths, found) in perform(examine, pieces, executor):
+            truth[start : start + len(piece)], exponents[start : start + len(piece)] = truths, found
+        yield WorkloadTruth(workload, rows, truth, exponents)
 
 
-def _exponents(piece: tuple[int, Rows]) -> Floats:
-    return judge.flip_exponents(piece[1])
+def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
+    """Exact positions, and the exponents of the distances to another."""
+    return judge.exact_positions(piece[1]), judge.flip_exponents(piece[1])
+
+
+def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
+    """Whether ways have contact, exactly, and exponents of about how far in size they are from the other answer."""
+    rows = piece[1]
+    off = np.abs(least_distances(rows) - 1)
+    with np.errstate(divide="ignore"):
+        exponents = np.floor(np.log2(off))
+    grazing = [passage_of(tuple(row)).grazes for row in rows.tolist()]
+    return truth_of(rows, WAYS), np.where(grazing, -np.inf, exponents)
 
 
 def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
@@ -135,7 +155,7 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
         return _rows(workload, plan.seed, 0)
     rows = _rows(workload, plan.seed, plan.amounts.timed)
     if contender.tier == "foreign":
-        rows = rows[contender.domain.holds(rows)]
+        rows = rows[contender.domain.holds(rows, layout=workload.layout)]
     if contender.scenes is not None:
         rows = rows[(rows[:, :4] == rows[0, :4]).all(axis=1)]
     return rows[: contender.timed]
@@ -146,8 +166,13 @@ def answers_print(answers: Answers) -> str:
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
-def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTruth) -> AccuracyLine:
-    """The record's line about one method and one workload; `given` holds at least one answer."""
+def accuracy_line(
+    contender: Contender, given: MethodAnswers, truth: WorkloadTruth, tried: int = WORST_TRIED
+) -> AccuracyLine:
+    """The record's line about one method and one workload; `given` holds at least one answer.
+
+    Of `tried` wrong answers it is computed how far they are from right.
+    """
     places, criterion = given.places, Criterion(contender.question, contender.precision)
     scored = score(truth.rows[places], truth.positions[places], Answered.of(given.answers), criterion)
     exponents, mistakes = truth.exponents[places], scored.mistakes
@@ -169,7 +194,7 @@ def accuracy_line(contender: Contender, given: MethodAnswers, truth: WorkloadTru
             for exponent, counts in by_exponent(exponents, scored.status).items()
         ],
         reliable_above=Unsigned(reliable_above(exponents, scored.status != STATUS_CODES[Status.RIGHT])),
-        worst=_worst(scored, exponents, given),
+        worst=_worst(scored, exponents, given, tried),
     )
 
 
@@ -195,23 +220,32 @@ def reliable_above(exponents: Floats, wrong: NDArray[np.bool_]) -> float:
     return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
-def _worst(scored: Score, exponents: Floats, given: MethodAnswers) -> list[Mistaken]:
-    """The worst wrong answers, of rows with the greatest distance to another position."""
-    tried = scored.wrong[np.argsort(-exponents[scored.wrong], kind="stable")][:_WORST_TRIED].tolist()
+def _worst(scored: Score, exponents: Floats, given: MethodAnswers, tried: int) -> list[Mistaken]:
+    """The worst wrong answers, of `tried` rows with the greatest distance to another position."""
+    places = scored.wrong[np.argsort(-exponents[scored.wrong], kind="stable")][:tried].tolist()
+    question = scored.criterion.question
     cases = [
         Mistaken(
             case=f"{given.workload}/{int(given.places[index])}",
             row=fields["row"],
+            end=fields["end"],
             axis=fields["axis"],
             truth=int(scored.truth[index]),
             answer=answer,
-            flip_distance=Unsigned(judge.about_error_of(row, answer, scored.criterion.question)),
+            flip_distance=Unsigned(_about_error_of(row, answer, question)),
         )
-        for index in tried
+        for index in places
         for row, answer in [(scored.rows[index].tolist(), int(scored.answers[index]))]
-        for fields in [row_fields(row)]
+        for fields in [row_fields(row, QUESTIONS[question].layout)]
     ]
     return sorted(cases, key=lambda case: -case.flip_distance)[:WORST_KEPT]
+
+
+def _about_error_of(row: Sequence[float], answer: int, question: str) -> float:
+    """How wrong an answer is: the change of the inputs that makes it right; of a way, that of the spheroid's size."""
+    if question == PASSAGE:
+        return size_error(row, bool(answer)).lower
+    return judge.about_error_of(row, answer, question)
 
 
 MEMORY_WORKLOAD = "uniform"

@@ -54,7 +54,7 @@ class CostClaim:
 
 def cost_claims(plan: BenchPlan) -> list[CostClaim]:
     """The claims of this run: all in numpy, and in C if that was compiled."""
-    if plan.methods or plan.workloads or plan.tilted:
+    if plan.methods or plan.workloads or not plan.everyday:
         return []  # a run of a few methods is only about these, and the claims are about upright spheroids
     tiers = ("numpy", "C") if plan.compiled is not None else ("numpy",)
     return [make(tier) for make in (_procedures, _divisions, _roots) for tier in tiers]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hypcheck.bench.plan import scene_of
 from hypcheck.bench.timing import Clocked, clocked
 from hypcheck.geometry.rows import Rows
-from hypcheck.implementations.description import Domain, claimed
+from hypcheck.implementations.description import QUESTIONS, Domain, claimed
 from hypcheck.implementations.method import Answers, ByScene, Method
 
 Answering = Callable[[Rows], Answers]
@@ -191,11 +191,11 @@ class Contender:
 
     `name`, `title`, `question`, `precision`, `exact` and `domain` are those of a Method. `tier` is its language or
     engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At most `judged` rows of a
-    workload are asked, and `timed` rows make a timed batch. The first `singles` rows of it are asked one by one, enough
-    that a branch predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each
-    row. `load` loads the method; `needs` names what may be absent here, or is empty. `scenes`, if not None, is the
-    largest number of different sizes in a workload that it is asked. `quick` says whether it is fast enough for a quick
-    run, unless it is named.
+    workload are asked, in a quick run `quick_judged` or a quarter of few, and `timed` rows make a timed batch. The
+    first `singles` rows of it are asked one by one, enough that a branch predictor does not learn them. `amortised`
+    says whether a mesh is built once for a scene or for each row. `load` loads the method; `needs` names what may be
+    absent here, or is empty. `scenes`, if not None, is the largest number of different sizes in a workload that it is
+    asked. `quick` says whether it is fast enough for a quick run, unless it is named.
     """
 
     name: str
@@ -216,12 +216,13 @@ class Contender:
     needs: str = ""
     scenes: int | None = None
     quick: bool = True
+    quick_judged: int | None = None
 
     def asked(self, rows: Rows) -> NDArray[np.intp]:
         """The indices of the rows that it must answer: inside its domain, with numbers of its format."""
         if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
             return np.empty(0, dtype=np.intp)
-        return claimed(rows, self.domain, self.precision)[: self.judged]
+        return claimed(rows, self.domain, self.precision, layout=QUESTIONS[self.question].layout)[: self.judged]
 
 
 def of_method(

@@ -15,8 +15,9 @@ from hypcheck.bench.c_library import InC, bodies
 from hypcheck.bench.c_source import FAST
 from hypcheck.bench.contender import Contender, InPython, InScalars, of_method
 from hypcheck.bench.mesh_contenders import mesh_contenders
-from hypcheck.bench.plan import BenchPlan, chosen_names
+from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
 from hypcheck.bench.tilted_contenders import tilted_contenders
+from hypcheck.bench.way_contenders import way_contenders
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual_by_scene
@@ -164,11 +165,16 @@ def contenders(plan: BenchPlan) -> dict[str, Contender]:
 
 def _quick(each: Contender) -> Contender:
     """A slow method gets a quarter of its rows in a quick run: a root by mpmath takes milliseconds."""
+    if each.quick_judged is not None:
+        return replace(each, judged=each.quick_judged)
     return each if each.judged is None or each.judged >= _SLOW else replace(each, judged=each.judged // 4)
 
 
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
     """Every method, chosen or not."""
+    if plan.question == PASSAGE:
+        yield from way_contenders()
+        return
     if plan.tilted:
         yield from tilted_contenders()
         return

@@ -12,8 +12,9 @@ import numpy as np
 from hypcheck.bench.contender import Contender, EmptyCall, PreparedWork, of_method
 from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.bench.timing import Clocked, TimingRefusedError
+from hypcheck.bench.way_workloads import WAY_WORKLOADS
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.frames import LARGEST
@@ -45,15 +46,23 @@ class ForeignMethod:
     timed: int
 
 
-def foreign_method(spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False) -> ForeignMethod:
+def foreign_method(
+    spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False, layout: Layout = PAIRS
+) -> ForeignMethod:
     """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is no SPEC.
 
-    So it does if it would be asked about tilted spheroids, and its description does not say tilt.
+    So it does if it would be asked about tilted spheroids, and its description does not say tilt, or if its question is
+    about rows of another layout.
     """
     with open_implementation(spec, limits) as implementation:
         description = implementation.description
         if tilted and not description.tilt:
             raise InputError(f'{spec} answers rows of seven numbers alone: its description has no "tilt": true')
+        if description.asked.layout is not layout:
+            other = "with" if layout is PAIRS else "without"
+            raise InputError(
+                f"{spec} answers the question {description.question}; it is measured {other} --question passage"
+            )
         took = _seconds_a_row(implementation)
     name = description.name if description.name not in taken else f"{description.name} ({spec})"
     return ForeignMethod(
@@ -63,9 +72,11 @@ def foreign_method(spec: str, limits: Limits, taken: Sequence[str], *, tilted: b
 
 def _seconds_a_row(implementation: Implementation) -> float:
     """Seconds for a row of a batch; batches grow until one takes long enough to measure."""
-    some = WORKLOADS["uniform"].rows(1, _TRIED)
-    inside = some[implementation.description.domain.holds(some)]
-    some = inside if len(inside) else np.array([[*NEAR_SCENES[0], 1.0, 0.5, 2.0]])
+    layout = implementation.description.asked.layout
+    some = (WORKLOADS["uniform"] if layout is PAIRS else WAY_WORKLOADS["tower"]).rows(1, _TRIED)
+    inside = some[implementation.description.domain.holds(some, layout=layout)]
+    usual = [*NEAR_SCENES[0], 1.0, 0.5, 2.0, 1.0, 0.5, -2.0][: len(layout.upright)]
+    some = inside if len(inside) else np.array([usual])
     first = implementation.classify(some[:1])
     if Outcome.TIMEOUT in first.outcomes:  # each larger batch would time out again
         raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Protocol
 
 import numpy as np
 
@@ -15,10 +16,10 @@ from hypcheck.bench.contender import Contender, EmptyCall, InPython, PreparedWor
 from hypcheck.bench.plan import scene_of
 from hypcheck.bench.timing import clocked
 from hypcheck.geometry.pair import Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin_methods
 from hypcheck.implementations.description import Domain
-from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, SceneMesh, height_of, rows_by_sizes, scene_mesh
+from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, height_of, rows_by_sizes, scene_mesh
 from hypcheck.implementations.method import Answers
 
 TRIANGLES = (100, 1_000, 10_000, 100_000)
@@ -37,14 +38,27 @@ _TITLES = {
 }
 
 
+class BuiltMesh(Protocol):
+    """A scene's mesh in an engine."""
+
+    @property
+    def triangles(self) -> int:
+        """How many it has."""
+        ...
+
+    def answers(self, rows: Rows) -> Answers:
+        """The answers to rows that have its sizes."""
+        ...
+
+
 @dataclass(frozen=True)
 class InEngine:
-    """One pairing with meshes of about so many triangles, each built once and kept."""
+    """An engine with meshes, each built once and kept: `make` from sizes and height, which `high` finds for rows."""
 
-    engine: Engine
-    pairing: str
-    triangles: int
-    meshes: dict[tuple[Sizes, float], SceneMesh] = field(default_factory=dict)
+    make: Callable[[Sizes, float], BuiltMesh]
+    high: Callable[[Sizes, Rows], float] = height_of
+    layout: Layout = PAIRS
+    meshes: dict[tuple[Sizes, float], BuiltMesh] = field(default_factory=dict)
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
@@ -54,11 +68,11 @@ class InEngine:
             found[places] = self.mesh(sizes, rows[places]).answers(rows[places])
         return found
 
-    def mesh(self, sizes: Sizes, rows: Rows) -> SceneMesh:
+    def mesh(self, sizes: Sizes, rows: Rows) -> BuiltMesh:
         """The mesh of a scene."""
-        key = sizes, height_of(sizes, rows)
+        key = sizes, self.high(sizes, rows)
         if key not in self.meshes:
-            self.meshes[key] = scene_mesh(self.engine, self.pairing, *key, self.triangles)
+            self.meshes[key] = self.make(*key)
         return self.meshes[key]
 
     def batch(self, rows: Rows) -> PreparedWork:
@@ -71,7 +85,7 @@ class InEngine:
         return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
 
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
-        sizes = scene_of(rows)
+        sizes = scene_of(rows, self.layout)
         if sizes is not None:
             return self.mesh(sizes, rows).answers
         self.answer(rows)  # builds them
@@ -79,11 +93,11 @@ class InEngine:
 
     def build(self, rows: Rows) -> PreparedWork | None:
         """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
-        sizes = scene_of(rows)
+        sizes = scene_of(rows, self.layout)
         if sizes is None:
             return None
         known = np.array([self.mesh(sizes, rows).triangles])
-        make = partial(scene_mesh, self.engine, self.pairing, sizes, height_of(sizes, rows), self.triangles)
+        make = partial(self.make, sizes, self.high(sizes, rows))
         return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
@@ -121,7 +135,7 @@ def built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
         precision="float64",
         question="position",
         domain=Domain(),
-        load=partial(InEngine, engine, pairing, triangles),
+        load=partial(InEngine, partial(scene_mesh, engine, pairing, triangles=triangles)),
         judged=3000 if triangles < 100_000 else 1200,
         timed=256,
         singles=32,

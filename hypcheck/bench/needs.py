@@ -17,6 +17,7 @@ from hypcheck.bench.c_library import compiled
 from hypcheck.bench.contenders import COMPILER, contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import UnavailableError
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.meshes import COAL, FCL, Engine
 from hypcheck.implementations.session import StartError
 from hypcheck.record import Recorder
@@ -59,7 +60,8 @@ def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> Be
     for spec in plan.specs:
         try:
             taken = [*contenders(plan), *(each.name for each in found)]
-            found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted))
+            layout = QUESTIONS[plan.question].layout
+            found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
             not_started.append(str(error))

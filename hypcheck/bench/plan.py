@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import SIZES
+from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import suggestion
 from hypcheck.vectors.draw import Draw, in_turn
@@ -29,6 +30,12 @@ REFERENCE = "table-2-float64"
 
 TILTED_REFERENCE = "eigh"
 """The same where spheroids lean: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
+
+PASSAGE_REFERENCE = "passage-exact"
+"""The same of ways: the exact decision in Python's integers."""
+
+POSITION, PASSAGE = "position", "passage"
+"""What a run compares methods for: one position, whatever the question about it, or the way between two."""
 
 MAX_SLOWDOWN = 1.1
 """The slowdown that a baseline allows by default."""
@@ -83,7 +90,7 @@ class BenchPlan:
 
     `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
     many trees, the savings of these scenes. `tilted` compares methods for spheroids whose axis leans; so does a scene
-    whose mover leans.
+    whose mover leans. `question` is "passage" where methods for ways are compared.
 
     Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
     that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).
@@ -103,6 +110,7 @@ class BenchPlan:
     kernel: bool = False
     forest: bool = False
     tilted: bool = False
+    question: str = POSITION
     scenes: tuple[str, ...] = ()
     folder: Path = Path()
     compiled: Path | None = None
@@ -117,15 +125,26 @@ class BenchPlan:
         if alone and (len(alone) > 1 or self.specs or self.methods or self.workloads or self.baseline or tilted):
             what = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}[alone[0]]
             raise InputError(f"{alone[0]} measures {what} and nothing else; it goes with no other choice")
+        if self.question == PASSAGE and (alone or self.tilted):
+            other = "--tilted" if self.tilted else alone[0]
+            raise InputError(f"--question passage compares methods for ways of upright spheroids; leave out {other}")
+
+    @property
+    def everyday(self) -> bool:
+        """Whether it is about positions of upright spheroids, for which there are maps, meshes and claims besides."""
+        return not self.tilted and self.question == POSITION
 
     @property
     def whole(self) -> bool:
         """Whether the run measures everything, which takes minutes: nothing was chosen, and it is not quick."""
-        return not (self.quick or self.specs or self.methods or self.workloads or self.baseline or self.tilted)
+        chosen = self.quick or self.specs or self.methods or self.workloads or self.baseline
+        return not chosen and self.everyday
 
     @property
     def reference(self) -> str:
         """The method that all ratios of this run are relative to."""
+        if self.question == PASSAGE:
+            return PASSAGE_REFERENCE
         return TILTED_REFERENCE if self.tilted else REFERENCE
 
     @property
@@ -167,9 +186,10 @@ NEAR_GAPS = (-57, -2)
 
 @dataclass(frozen=True)
 class Workload:
-    """`rows(seed, n)` are n of its rows, float64 (n, 7), or (n, 10) of spheroids that lean.
+    """`rows(seed, n)` are n of its rows, or all that there are, float64 (n, 7), or (n, 10) of spheroids that lean.
 
-    `timed`: methods are timed on it, not only judged. One in `share` of the rows that a run judges is judged.
+    `timed`: methods are timed on it, not only judged. One in `share` of the rows that a run judges is judged. `layout`
+    says what the columns mean.
     """
 
     name: str
@@ -178,21 +198,20 @@ class Workload:
     rows: Callable[[int, int], Rows]
     timed: bool = True
     share: int = 1
+    layout: Layout = PAIRS
 
     def judged(self, plan: BenchPlan) -> int:
         """The number of rows of it that a fast method is asked."""
         return plan.amounts.judged // self.share
 
 
-def scene_of(rows: Rows) -> tuple[float, float, float, float] | None:
+def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, float] | None:
     """α, γ, b, d if all rows share them, and the axis where they have one; else None."""
-    if not len(rows) or (np.delete(rows, _CENTRE, axis=1) != np.delete(rows[0], _CENTRE)).any():
+    places = slice(len(SIZES), len(layout.upright))
+    if not len(rows) or (np.delete(rows, places, axis=1) != np.delete(rows[0], places)).any():
         return None
     alpha, gamma, b, d = rows[0, :4].tolist()
     return alpha, gamma, b, d
-
-
-_CENTRE = slice(4, 7)
 
 
 def near_contact(seed: int, count: int) -> Rows:

@@ -13,7 +13,7 @@ from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_ba
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
-from hypcheck.bench.plan import BenchPlan, scene_of
+from hypcheck.bench.plan import PASSAGE, BenchPlan, scene_of
 from hypcheck.bench.tilted_workloads import leaning_scenes
 from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome
 from hypcheck.implementations.meshes import FCL
@@ -81,10 +81,10 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     return (
         Stage("methods", 1, lambda advance: _introduce(run, advance)),
         Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
-        *(() if plan.tilted else _map_stages(run)),
+        *(_map_stages(run) if plan.everyday else ()),
         Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
         Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
-        *(() if plan.tilted else _mesh_and_memory_stages(run)),
+        *(_mesh_and_memory_stages(run) if plan.everyday else ()),
         *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
     )
 
@@ -154,15 +154,16 @@ def _introduce(run: _Run, advance: Advance) -> None:
         run.recorder.add(introduction(each))
     for workload in chosen_workloads(run.plan):
         count = run.plan.amounts.timed if workload.timed else workload.judged(run.plan)
+        rows = workload.rows(run.plan.seed, count)
         run.recorder.add(
             WorkloadLine(
                 workload=workload.name,
                 title=workload.title,
                 text=workload.text,
-                rows=count,
+                rows=len(rows),
                 seed=run.plan.seed,
                 timed=workload.timed,
-                scene=scene_of(workload.rows(run.plan.seed, count)),
+                scene=scene_of(rows, workload.layout),
             )
         )
     advance(1)
@@ -185,6 +186,7 @@ def _judge(run: _Run, advance: Advance) -> None:
         for _, answered in perform(accuracy.method_answers, tasks, executor):
             run.answers += answered
             advance(1)
+    tried = accuracy.FEW_TRIED if run.plan.quick and run.plan.question == PASSAGE else accuracy.WORST_TRIED
     methods, workloads = list(run.found), list(truths)
     run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
     for each in run.answers:
@@ -193,7 +195,7 @@ def _judge(run: _Run, advance: Advance) -> None:
             run.outcome.because[Exit.WRONG].append(f"{each.method}: {each.trouble}")
         if not len(each.places):
             continue
-        line = accuracy.accuracy_line(run.found[each.method], each, truths[each.workload])
+        line = accuracy.accuracy_line(run.found[each.method], each, truths[each.workload], tried)
         run.recorder.add(line)
         if run.found[each.method].exact and (line.wrong or line.abstained):
             run.outcome.because[Exit.WRONG].append(f"{each.method} promises to be exact and is not, on {each.workload}")

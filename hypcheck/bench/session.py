@@ -26,8 +26,8 @@ REFERENCE_AGAIN = "the reference again"
 """The reference a second time: its difference from the first is noise."""
 
 MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
-    "single": ("uniform", "near-contact"),
-    "build": ("uniform", "one-axis", "region"),
+    "single": ("uniform", "near-contact", "tower"),
+    "build": ("uniform", "one-axis", "region", "tower"),
 }
 """The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
 

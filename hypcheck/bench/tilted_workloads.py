@@ -14,7 +14,8 @@ from math import radians, tan
 
 import numpy as np
 
-from hypcheck.bench.plan import NEAR_GAPS, NEAR_SCENES, WORKLOADS, BenchPlan, Workload
+from hypcheck.bench.plan import NEAR_GAPS, NEAR_SCENES, PASSAGE, WORKLOADS, BenchPlan, Workload
+from hypcheck.bench.way_workloads import WAY_WORKLOADS
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Rows, tilted_rows
 from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
@@ -143,6 +144,8 @@ def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
     """The workloads that the plan can choose from, by name."""
     if plan.scenes:
         return scene_workloads(*plan.scenes)
+    if plan.question == PASSAGE:
+        return WAY_WORKLOADS
     return TILTED_WORKLOADS if plan.tilted else WORKLOADS
 
 

@@ -33,6 +33,13 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 @click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
 @click.option("--tilted", is_flag=True, help="Compare methods for spheroids whose axis leans.")
 @click.option(
+    "--question",
+    type=click.Choice(["position", "passage"]),
+    default="position",
+    show_default=True,
+    help="passage: compare methods for the way between two positions.",
+)
+@click.option(
     "--scene",
     multiple=True,
     metavar="SCENE",
@@ -45,6 +52,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     Every method is judged by how far from right the rows it answers wrongly are, then timed in fresh processes, in
     rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
+    With --question passage each row is a straight way, and missed and false contacts are set against the time of a way.
     With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
     ratios are to another reference. So it is with a scene whose mover leans.
 
@@ -82,6 +90,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         kernel=options["kernel"],
         forest=options["forest"],
         tilted=options["tilted"],
+        question=options["question"],
         scenes=options["scene"],
     )
     _refuse_replacing(options["baseline"], options["out"])
@@ -91,7 +100,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
-    provenance = Provenance(files, unchanged.program if unchanged else None, in_effect(context))
+    settings = in_effect(context, unused=("question",))  # it chooses methods, and replaces no declaration
+    provenance = Provenance(files, unchanged.program if unchanged else None, settings)
     with (
         TemporaryDirectory(prefix="hypcheck-bench-") as folder,
         recording(options["out"], plan.options, title, provenance) as running,

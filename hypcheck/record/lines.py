@@ -8,7 +8,8 @@ declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions 
 1.3.0 adds the progress of a gating run that is interrupted, the sha256 of the files under test, and of a benchmark
 scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
-way, times of first contact with the mistakes late and early, and the axis of fixed sizes in a domain.
+way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
+the end of a way and the kinds sampling and advancement.
 """
 
 from __future__ import annotations

@@ -13,6 +13,7 @@ from hypcheck.record.fields import (
     Amount,
     Axis,
     Bin,
+    Centre,
     Count,
     Counts,
     Interval,
@@ -48,7 +49,21 @@ class MethodLine(RecordLine, frozen=True, kw_only=True):
     method: str
     title: str
     tier: Annotated[str, one_of("C", "numpy", "python", "FCL", "foreign")]
-    kind: Annotated[str, one_of("paper", "algebraic", "certified", "roots", "exact", "mesh", "bounding", "foreign")]
+    kind: Annotated[
+        str,
+        one_of(
+            "paper",
+            "algebraic",
+            "certified",
+            "roots",
+            "exact",
+            "mesh",
+            "bounding",
+            "sampling",
+            "advancement",
+            "foreign",
+        ),
+    ]
     precision: str
     question: Question
     exact: bool
@@ -112,10 +127,14 @@ class RefusedLine(RecordLine, frozen=True, kw_only=True):
 
 
 class Mistaken(LinePart, frozen=True, kw_only=True):
-    """A wrong answer that is kept; `axis`, since 1.6.0, is that of a tilted spheroid."""
+    """A wrong answer that is kept; since 1.6.0, `axis` is that of a tilted spheroid, and `end` that of a way.
+
+    Of a way the row's centre is its start, and the flip distance is the change of the spheroid's size.
+    """
 
     case: str
     row: Row
+    end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
     truth: Truth
     answer: int

@@ -29,7 +29,16 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.messages import figure, listed, with_interval
-from hypcheck.report.model import BATCH, SINGLE, MeasuredMethod, measured_methods, noise_floor, reference, workloads
+from hypcheck.report.model import (
+    BATCH,
+    SINGLE,
+    MeasuredMethod,
+    measured_methods,
+    noise_floor,
+    reference,
+    way_totals,
+    workloads,
+)
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 """Distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
@@ -90,7 +99,7 @@ def recommendations(record: Record) -> Recommendations:
     timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
     advice: list[Advice] = []
     unmet: list[Need] = []
-    if not timed:
+    if not timed or way_totals(record):  # the needs are those of positions
         return Recommendations((), ())
     for need, candidates in _needs(measured_methods(record), timed):
         found = _fastest(record, candidates, timed[0], need.mode)

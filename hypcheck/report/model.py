@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import statistics
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +28,7 @@ from hypcheck.record.measurements import (
     MemoryLine,
     MethodLine,
     NoiseLine,
+    Octave,
     PlacesLine,
     SpeedLine,
     StabilityLine,
@@ -342,6 +343,72 @@ def measured_methods(record: Record) -> list[MeasuredMethod]:
         for line in record.of(MethodLine)
         for name in (line.method,)
     ]
+
+
+@dataclass(frozen=True, slots=True)
+class WayTotal:
+    """A method for ways: its answers on all workloads together, and the time of a way on the principal one.
+
+    typical: half of the wrong answers need about this change of the spheroid's size at least; 0 without any.
+    worst: the greatest such change, of those that were measured exactly.
+    """
+
+    name: str
+    tier: str
+    exact: bool
+    asked: int
+    missed: int
+    false: int
+    abstained: int
+    typical: float
+    worst: float
+    time_ns: float | None
+    ratio: float | None
+    ratio_ci95: tuple[float, float] | None
+
+    def share(self, part: int) -> float:
+        """The share that these are of all ways asked."""
+        return part / self.asked
+
+
+def way_totals(record: Record) -> list[WayTotal]:
+    """Every method that answers about ways and was judged, in the order of the record."""
+    where = principal(record), BATCH
+    return [
+        _way_total(each, each.speed.get(where))
+        for each in measured_methods(record)
+        if each.line.question == "passage" and each.asked
+    ]
+
+
+def _way_total(each: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
+    lines = each.accuracy.values()
+    timed = speed if speed is not None and not lost(speed) else None
+    return WayTotal(
+        name=each.name,
+        tier=each.tier,
+        exact=each.exact,
+        asked=each.asked,
+        missed=sum(line.false_clear for line in lines),
+        false=sum(line.false_contact for line in lines),
+        abstained=sum(line.abstained for line in lines),
+        typical=_median_size([octave for line in lines for octave in line.octaves]),
+        worst=max((float(case.flip_distance) for line in lines for case in line.worst), default=0.0),
+        time_ns=None if timed is None else float(timed.median_ns),
+        ratio=None if timed is None else timed.ratio,
+        ratio_ci95=None if timed is None else timed.ratio_ci95,
+    )
+
+
+def _median_size(octaves: Sequence[Octave]) -> float:
+    """The lower end of the octave in which the median of the wrong answers lies; 0 without any, or of tangencies."""
+    wrong = sorted((float(exponent), number) for exponent, _, number in octaves if number)
+    left = sum(number for _, number in wrong) / 2
+    for exponent, number in wrong:
+        left -= number
+        if left <= 0:
+            return float(2.0**exponent)
+    return 0.0
 
 
 def workloads(record: Record) -> dict[str, WorkloadLine]:

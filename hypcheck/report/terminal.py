@@ -29,11 +29,13 @@ from hypcheck.report.model import (
     NEAREST,
     ImplementationTotal,
     MeasuredMethod,
+    WayTotal,
     implementations,
     measured_methods,
     oracle_totals,
     timing_totals,
     under_test,
+    way_totals,
     workloads,
     worst_error_u,
 )
@@ -115,9 +117,21 @@ def benchmark_facts(record: Record) -> Iterator[str]:
         if line.asked:
             share = figure(100 * line.false_contact / line.asked)
             yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
+    for each in way_totals(record):
+        yield _way_fact(each)
     found = [each for each in measured_methods(record) if each.line.kind in IN_FLOATS]
     for name, workload in workloads(record).items():
         yield from _endings(workload.title, name, [each for each in found if name in each.accuracy])
+
+
+def _way_fact(each: WayTotal) -> str:
+    """What a method for ways gets wrong, and what a way costs."""
+    missed, false = (figure(100 * each.share(part)) for part in (each.missed, each.false))
+    silent = f", {figure(100 * each.share(each.abstained))} % cannot say" if each.abstained else ""
+    time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a way"
+    ratio = "" if each.ratio is None else f" ({figure(each.ratio)} times the reference's time)"
+    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} ways"
+    return f"{each.name}: {wrong}{time}{ratio}"
 
 
 def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iterator[str]:

@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Indices, Layout, Mask, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.runs import judge
-from hypcheck.runs.judge import Criterion, WrongCase
+from hypcheck.runs.judge import Criterion, Mistake, WrongCase
 from hypcheck.runs.passages import PassageJudge
 
 
@@ -44,6 +44,10 @@ class Judge(Protocol):
 
     def measured(self, case: WrongCase, criterion: Criterion) -> float:
         """How wrong an answer is, as a number."""
+        ...
+
+    def mistake(self, truth: int, answer: int) -> Mistake:
+        """The kind of mistake that an answer is which is not the truth."""
         ...
 
     def truth_in_words(self, truth: int) -> str:
@@ -92,6 +96,10 @@ class PositionJudge:
     def measured(self, case: WrongCase, criterion: Criterion) -> float:
         """The backward error."""
         return judge.measured(case, criterion.question)
+
+    def mistake(self, truth: int, answer: int) -> Mistake:
+        """The kind of mistake."""
+        return judge.mistake_of(Position(truth), answer, self._question)
 
     def truth_in_words(self, truth: int) -> str:
         """The position."""

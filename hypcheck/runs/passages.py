@@ -79,6 +79,10 @@ class PassageJudge:
         error = passage_error.size_error(case.row, bool(case.answer))
         return error.lower if case.status in (Status.WRONG, Status.EXCUSED) else error.upper
 
+    def mistake(self, truth: int, answer: int) -> Mistake:  # noqa: ARG002 - the answer says it
+        """The kind of mistake of an answer that is wrong about contact."""
+        return Mistake.FALSE_CONTACT if answer == HIT else Mistake.FALSE_CLEAR
+
     def truth_in_words(self, truth: int) -> str:
         """The truth in words."""
         return LABELS[truth]

@@ -16,11 +16,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
-from hypcheck.runs import judge, tally
+from hypcheck.runs import tally
 from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.tally import (
@@ -85,11 +84,11 @@ class Score:
 
     @property
     def mistakes(self) -> Counter[Mistake]:
-        """The number of wrong answers about positions by kind of mistake."""
+        """The number of wrong answers by kind of mistake."""
         found: Counter[Mistake] = Counter()
         pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
-        for (position, answer), number in Counter(pairs).items():
-            found[judge.mistake_of(Position(position), answer, self.criterion.question)] += number
+        for (truth, answer), number in Counter(pairs).items():
+            found[judge_of(self.criterion.question).mistake(truth, answer)] += number
         return found
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:

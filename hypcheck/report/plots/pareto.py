@@ -211,25 +211,26 @@ def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 3
 def _marks(axes: Axes, found: Sequence[ParetoPoint], heights: dict[float, float], name: str) -> dict[str, list[str]]:
     tips: dict[str, list[str]] = {}
     exact = [point for point in found if point.exact]
-    axes.plot([point.time_ns for point in exact], [heights[point.reliable_above] for point in exact], **_RING)
+    axes.plot([point.time_ns for point in exact], [heights[point.reliable_above] for point in exact], **RING)
     for number, tier in reversed(list(enumerate(TIERS))):  # the fastest on top
         for shown in (True, False):
             mine = [point for point in found if (point.tier, point.shown) == (tier, shown)]
             if mine:
                 gid = f"{name}-{number}-{shown}"
                 xs, ys = [point.time_ns for point in mine], [heights[point.reliable_above] for point in mine]
-                axes.plot(xs, ys, gid=gid, linestyle="none", **_mark_style(number, shown=shown))
+                axes.plot(xs, ys, gid=gid, linestyle="none", **mark_style(number, shown=shown))
                 tips[gid] = [_tip(point) for point in mine]
     return tips
 
 
-def _mark_style(number: int, *, shown: bool) -> dict[str, Any]:
+def mark_style(number: int, *, shown: bool) -> dict[str, Any]:
+    """The mark of a tier, by its number; hollow if too few answers were judged to show 1 wrong in 1000."""
     own = colour(f"series-{number + 1}")
     face = own if shown else colour("surface")
     return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
 
 
-_RING: dict[str, Any] = {
+RING: dict[str, Any] = {
     "marker": "o",
     "markersize": 10.5,
     "markerfacecolor": "none",
@@ -243,7 +244,7 @@ _RING: dict[str, Any] = {
 def _legend(drawn: Figure, found: Sequence[ParetoPoint]) -> None:
     tiers = {point.tier for point in found}
     handles = [
-        Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
+        Line2D([], [], linestyle="none", label=tier, **mark_style(number, shown=True))
         for number, tier in enumerate(TIERS)
         if tier in tiers
     ]
@@ -251,7 +252,7 @@ def _legend(drawn: Figure, found: Sequence[ParetoPoint]) -> None:
     best = Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label="no method is faster and more reliable")
     below = [best]
     if any(point.exact for point in found):
-        below.append(Line2D([], [], label="ringed: promises never to be wrong", **_RING))
+        below.append(Line2D([], [], label="ringed: promises never to be wrong", **RING))
     if not all(point.shown for point in found):
         soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
         few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"

@@ -8,9 +8,16 @@ from typing import Any
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.report.plots import curves, forest_walk, half_plane, heat, pareto, times, tower
+from hypcheck.report.model import way_totals
+from hypcheck.report.plots import curves, forest_walk, half_plane, heat, pareto, times, tower, ways
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, inline, standalone, together
+
+
+def _front_plots(record: Record) -> Iterator[Plot]:
+    """What methods cost and get wrong: of a benchmark of ways, missed and false contacts; else errors by distance."""
+    yield from ways.plots(record) if way_totals(record) else pareto.front_plots(record)
+
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "map": half_plane.map_plots,
@@ -20,7 +27,7 @@ PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "errors": curves.error_plots,
     "other-errors": curves.other_error_plots,
     "pareto": pareto.pareto_plots,
-    "front": pareto.front_plots,
+    "front": _front_plots,
     "speeds": times.speed_plots,
     "stability": heat.stability_plots,
     "places": half_plane.place_plots,

@@ -50,6 +50,7 @@ from hypcheck.report.model import (
     worst_error_u,
 )
 from hypcheck.report.plots.colours import MISTAKES, STEPS
+from hypcheck.report.sections.ways import way_sections
 from hypcheck.runs.judge import Mistake, Status
 from hypcheck.runs.judges import judge_of
 
@@ -183,6 +184,11 @@ _WORKLOAD_DISTANCE = prose(
     " a method"
     " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
+_SIZE_DISTANCE = prose(
+    "The *distance to the other answer* of a way is the least relative change of b and d together that leads to it,"
+    " estimated in floats: a method whose curve has come down can be trusted to the right of it. A point stands for up"
+    " to three octaves."
+)
 _FRONT = prose(
     "Lower is right nearer to contact, farther left is faster; the line joins the methods that no other beats in both."
     " Every mark has a tooltip. The *worst of all workloads* includes those that are only judged, such as the ring."
@@ -202,11 +208,14 @@ _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 def error_sections(record: Record) -> Iterator[Section]:
     """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
     if record.of(AccuracyLine):
+        about_ways = list(way_sections(record))
+        yield from about_ways
         blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
-        if record.of(SpeedLine):
+        if record.of(SpeedLine) and not about_ways:
             yield Section("Error against run time", blocks)
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
-        yield Section("Wrong answers by distance", (Paragraph(_WORKLOAD_DISTANCE), ERRORS, others))
+        distance = _SIZE_DISTANCE if about_ways else _WORKLOAD_DISTANCE
+        yield Section("Wrong answers by distance", (Paragraph(distance), ERRORS, others))
         yield Section("Wrong answers by workload", (Paragraph(_TABLE), _workload_table(record)))
     yield from _maps(record)
 

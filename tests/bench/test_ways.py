@@ -1,0 +1,145 @@
+"""Bench about ways: its workloads, a small run, what its reports say, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.bench import foreign
+from hypcheck.bench.accuracy import WorkloadTruth, workload_truths
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan, scene_of
+from hypcheck.bench.way_workloads import WAY_WORKLOADS, frozen_ways
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import WAYS, first_trouble
+from hypcheck.implementations.builtin import passage_methods
+from hypcheck.implementations.session import Limits
+from hypcheck.implementations.way_meshes import WAY_SOLVERS
+from hypcheck.record.fields import as_json
+from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
+from hypcheck.report import markdown
+from hypcheck.report.advice import recommendations
+from hypcheck.report.model import way_totals
+from hypcheck.report.plots.pictures import draw_plots
+from hypcheck.report.terminal import summary_lines
+from hypcheck.truth.passage_error import size_error
+from hypcheck.vectors.families import WAY_FAMILIES
+from tests.bench.test_run import RECORD, ended
+from tests.support.records import violations
+from tests.support.without_drawing import draw_nothing
+from tests.tools.miniatures import command
+
+
+@pytest.mark.parametrize("name", WAY_WORKLOADS)
+def test_rows_are_valid_ways_and_a_shorter_call_is_the_beginning_of_a_longer_one(name):
+    rows = WAY_WORKLOADS[name].rows(3, 300)
+    assert rows.shape == (300, 10)
+    assert first_trouble(rows, layout=WAYS) is None
+    assert (WAY_WORKLOADS[name].rows(3, 90) == rows[:90]).all()
+    assert WAY_WORKLOADS[name].rows(3, 0).shape == (0, 10)
+    assert (scene_of(rows, WAYS) is not None) == (name == "tower")
+
+
+def test_the_frozen_ways_come_from_all_families_of_upright_spheroids_in_turn():
+    upright = [family for family in WAY_FAMILIES.values() if not family.tilted]
+    rows = frozen_ways()
+    assert len(rows) > 1500
+    assert len(np.unique(rows[: 4 * len(upright)], axis=0)) == 4 * len(upright)
+
+
+def test_every_built_in_method_for_ways_is_compared_and_a_quick_run_leaves_out_the_two_slowest():
+    every = {*passage_methods(), *WAY_SOLVERS}
+    found = contenders(BenchPlan(question=PASSAGE))
+    assert set(found) == every
+    assert next(iter(found)) == PASSAGE_REFERENCE
+    quick = contenders(BenchPlan(question=PASSAGE, quick=True, amounts=QUICK))
+    assert every - set(quick) == {"passage-advancement", "passage-capsule"}
+
+
+def test_the_truth_of_a_way_is_exact_and_its_distance_near_its_size_error():
+    plan = BenchPlan(question=PASSAGE, workloads=("grazing",), amounts=replace(QUICK, judged=144))
+    (truth,) = workload_truths(plan, None)
+    assert isinstance(truth, WorkloadTruth)
+    for row, hit, exponent in zip(truth.rows.tolist(), truth.positions.tolist(), truth.exponents, strict=True):
+        error = size_error(row, not hit)
+        if exponent == -np.inf or error.upper == 0:
+            assert error.upper == 0
+        elif 2.0**-30 < error.lower < 0.5:
+            assert 2.0 ** (exponent - 1) <= error.lower <= 2.0 ** (exponent + 2)
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    chosen = ("--methods", "passage-sampled-4", "--workloads", "tower,tunnelling", "--processes", "1", "--rounds", "1")
+    with pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
+        return ended(tmp_path_factory.mktemp("ways"), "--question", "passage", *chosen)
+
+
+def test_a_run_counts_missed_and_false_contacts_and_times_ways(small):
+    code, record = small
+    assert code == 0
+    for line in record.lines:
+        assert violations(as_json(line), RECORD, closed=True) == []
+    assert record.header.options["reference"] == PASSAGE_REFERENCE
+    assert not record.header.settings  # the option replaces no declaration
+    assert [(line.workload, line.scene is None) for line in record.of(WorkloadLine)] == [
+        ("tower", False),
+        ("tunnelling", True),
+    ]
+    judged = {(line.method, line.workload): line for line in record.of(AccuracyLine)}
+    assert judged[PASSAGE_REFERENCE, "tunnelling"].wrong == 0
+    jumping = judged["passage-sampled-4", "tunnelling"]
+    assert jumping.false_clear > jumping.asked / 4
+    assert jumping.false_contact == jumping.wrong_side == 0
+    assert jumping.worst[0].end
+    timed = {(line.method, line.mode) for line in record.of(SpeedLine) if line.workload == "tower"}
+    assert (PASSAGE_REFERENCE, "single") in timed
+    assert ("passage-sampled-4", "batch") in timed
+    assert not record.of(PlacesLine)
+
+
+def test_the_totals_of_a_run_are_those_of_its_lines(small):
+    _, record = small
+    jumping = next(each for each in way_totals(record) if each.name == "passage-sampled-4")
+    lines = [line for line in record.of(AccuracyLine) if line.method == jumping.name]
+    assert jumping.missed == sum(line.false_clear for line in lines)
+    assert jumping.share(jumping.missed) == jumping.missed / sum(line.asked for line in lines)
+    assert 0 < jumping.typical <= jumping.worst
+    assert 0 < jumping.ratio < 1
+
+
+def test_the_reports_of_a_run_show_missed_and_false_contacts_and_no_advice_about_positions(small):
+    _, record = small
+    text = markdown.render(record).decode()
+    assert "## Missed and false contacts against time" in text
+    assert "| `passage-sampled-4` |" in text
+    assert "Error against run time" not in text
+    assert [plot.title for plot in draw_plots("front", record)] == ["Missed contacts", "False contacts"]
+    assert any("passage-sampled-4: " in line and "% missed contacts" in line for line in summary_lines(record, ()))
+    assert recommendations(record).advice == ()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--tilted",), "--question passage compares methods for ways of upright spheroids; leave out --tilted"),
+        (("--kernel",), "leave out --kernel"),
+        (("--workloads", "uniform"), "there is no workload 'uniform'"),
+        (("--methods", "fast-c"), "there is no method 'fast-c'"),
+    ],
+)
+def test_a_choice_that_ways_do_not_have_is_refused(tmp_path, options, message):
+    with pytest.raises(InputError, match=message):
+        ended(tmp_path, "--question", "passage", *options)
+
+
+def test_a_spec_takes_part_where_its_question_is_that_of_the_run():
+    found = foreign.foreign_method(command("passage", "binary"), Limits(), [], layout=WAYS)
+    assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))
+    with pytest.raises(InputError, match="answers the question passage; it is measured with --question passage"):
+        foreign.foreign_method(command("passage", "binary"), Limits(), [])
+    with pytest.raises(InputError, match="answers the question position; it is measured without --question passage"):
+        foreign.foreign_method(command("right", "binary"), Limits(), [], layout=WAYS)
