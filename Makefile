@@ -3,13 +3,14 @@
 PYTHON ?= python3
 VENV ?= .venv
 OUT ?= reports/latest
+VERSION = $(shell $(BIN)/python -c 'import hypcheck; print(hypcheck.__version__)')
 BIN := $(VENV)/bin
 
 # Hundreds of processes start in a run of the tests: each would compile hypcheck anew where no bytecode is kept.
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants docs format clean
+.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -96,6 +97,13 @@ format: $(VENV)/ready-dev ## rewrite the code in the house format
 
 docs: $(VENV)/ready-docs ## the site of all pages, its links checked; build/site/index.html
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
+
+release: $(VENV)/ready-dev ## the wheel and the sdist of a clean tree in dist/, and the tag of its version
+	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 2; }
+	$(BIN)/python -m pytest --quiet tests/test_pages.py tests/test_action.py
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist
+	git tag --annotate --message "hypcheck $(VERSION)" v$(VERSION)
 
 clean: ## remove the environment, caches and the latest reports
 	rm -rf $(VENV) build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache reports/latest

@@ -16,6 +16,7 @@ from hypcheck.cli.verify import verify
 
 ROOT = Path(__file__).parents[1]
 ACTION = ROOT / "action.yml"
+CITATION = ROOT / "CITATION.cff"
 HOOKS = ROOT / ".pre-commit-hooks.yaml"
 PAGE = ROOT / "docs" / "ci.md"
 TOOLS = Path(sys.executable).parent
@@ -63,6 +64,16 @@ def step_run(name, folder, **given):
 def test_the_action_fits_the_published_schema_of_actions():
     command = [TOOLS / "check-jsonschema", "--builtin-schema", "vendor.github-actions"]
     assert tool(*command, ACTION) == (0, "ok -- validation done\n")
+
+
+@pytest.mark.parametrize(
+    ("schema", "files"),
+    [("github-issue-forms", sorted(ROOT.glob(".github/ISSUE_TEMPLATE/*.yml"))), ("citation-file-format", [CITATION])],
+)
+def test_issue_forms_and_the_citation_fit_their_published_schemas(schema, files):
+    assert files
+    command = [TOOLS / "check-jsonschema", "--builtin-schema", f"vendor.{schema}"]
+    assert tool(*command, *files) == (0, "ok -- validation done\n")
 
 
 def test_an_action_with_a_misspelt_key_is_noticed(tmp_path):

@@ -64,3 +64,12 @@ def test_every_link_of_a_page_leads_to_a_file(page):
 def test_the_page_of_the_python_interface_has_every_public_name():
     described = re.findall(r"^::: (.*)$", (ROOT / "docs" / "api.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert sorted(described) == sorted(".".join(hypcheck._HOMES[name]) for name in hypcheck.__all__ if name[0] != "_")
+
+
+def test_the_changelog_and_the_pages_name_the_version_of_the_package():
+    version = hypcheck.__version__
+    newest = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
+    assert newest in (version, "Unreleased")
+    pages = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("ci.md", "tutorial.md")]
+    tags = [re.findall(r"(?:hypcheck@|rev: )v([\d.]+)\b", page) for page in pages]
+    assert tags == [[version] * 2, [version]]
