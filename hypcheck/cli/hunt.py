@@ -20,7 +20,7 @@ import click
 from hypcheck.cli.options import LARGEST_SEED, Command, IntegerOption, NumberOption, OutputPath, limits_of, with_limits
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
-from hypcheck.errors import Exit, InputError, NothingJudgedError, first_that_applies
+from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
@@ -122,29 +122,16 @@ def hunt(
 
     plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
     with opened(spec, **subject) as target:
-        _require_position(target, "hunt")
         if out is not None:
             from hypcheck.vectors.freezing import require_keepable
 
-            require_keepable(str(out), tilted=target.implementation.description.tilt)
+            require_keepable(str(out), tilted=target.implementation.description.tilt, layout=target.layout)
         run = Hunt(target, plan)
         try:
             _hunt_with_bar(run)
         finally:
             _print_findings(run, show, out)
     context.exit(_exit_code(run))
-
-
-def _require_position(target: HuntTarget, command: str) -> None:
-    """Raise InputError if the implementation answers about ways, of which the command knows nothing."""
-    from hypcheck.geometry.rows import PAIRS
-
-    used = target.implementation.description
-    if used.asked.layout is not PAIRS:
-        raise InputError(
-            f"{command} asks about positions, and {used.name} answers {used.question!r}; hypcheck verify and hypcheck "
-            "replay take it"
-        )
 
 
 def _hunt_with_bar(run: Hunt) -> None:
@@ -171,15 +158,15 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
         click.echo(printable(line))
     found = run.findings.worst_first()
     if out is not None and found:
-        from hypcheck.geometry.pair import COLUMNS, UPRIGHT
+        from hypcheck.geometry.pair import UPRIGHT
         from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         rows = [cluster.worst.case.row for cluster in found]
-        tilted = run.target.implementation.description.tilt
+        tilted, layout = run.target.implementation.description.tilt, run.target.layout
         if tilted:
-            rows = [(*row, *UPRIGHT) if len(row) == len(COLUMNS) else row for row in rows]
-        added = keep_rows(str(out), rows, made_by, tilted=tilted)
+            rows = [(*row, *UPRIGHT) if len(row) == len(layout.upright) else row for row in rows]
+        added = keep_rows(str(out), rows, made_by, tilted=tilted, layout=layout)
         there = "" if added == len(rows) else ", the others were there already"
         click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}")
 
@@ -204,7 +191,8 @@ def _regimes(text: str | None) -> tuple[str, ...] | None:
 _MINIMISE_HELP = """\
 Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
 
-CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z, or RECORD:N, as for `hypcheck replay`.
+CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z (of a way
+alpha,gamma,b,d,x0,y0,z0,x1,y1,z1), or RECORD:N, as for `hypcheck replay`.
 
 \b
 hypcheck minimise builtin:table-2-float64 ring/1/0/3
@@ -221,19 +209,26 @@ Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 
 def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
     from hypcheck.answer import answer, answer_as_text
+    from hypcheck.geometry.rows import WAYS
     from hypcheck.runs.hunt_results import minimised_lines
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.replay import case_of
     from hypcheck.truth.tilted.pair import pair_of
     from hypcheck.vectors.families import is_extreme
+    from hypcheck.vectors.showing import way_answer_lines
+    from hypcheck.vectors.ways.labels import labelled_ways
 
     given = case_of(case)
     with opened(spec, **subject) as target:
-        _require_position(target, "minimise")
-        run = simplify(replace(target, extreme=is_extreme(given.name)), pair_of(given.row))
+        run = simplify(replace(target, extreme=is_extreme(given.name)), given)
     for line in minimised_lines(run):
         click.echo(printable(line))
-    click.echo(f"\nthe right answer: {answer_as_text(answer(pair_of(run.last.case.row)))}")
+    row = run.last.case.row
+    if run.target.layout is WAYS:
+        click.echo("\nthe right answer")
+        click.echo("\n".join(way_answer_lines(*labelled_ways([("", row)]))))
+    else:
+        click.echo(f"\nthe right answer: {answer_as_text(answer(pair_of(row)))}")
 
 
 _REPLAY_HELP = """\

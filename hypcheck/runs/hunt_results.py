@@ -8,12 +8,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from hypcheck.geometry.pair import columns_of
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import FindingCluster, Hunt, HuntFinding, HuntTarget
 from hypcheck.runs.judge import Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.minimise import Minimised
+from hypcheck.runs.passages import first_contact
 from hypcheck.tables.numbers import hex_of
 
 
@@ -71,12 +71,15 @@ def _finding(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     case = finding.case
     asked = judge_of(target.criterion.question)
     answer = asked.in_words(case.answer)
-    yield _titled("row", f"{decimals(case.row)}  ({', '.join(columns_of(case.row))})")
+    yield _titled("row", _row(case.row, target))
     yield _titled("hex", ",".join(map(hex_of, case.row)))
     yield _titled(
         "truth",
         f"{asked.truth_in_words(case.truth)}; answered: {answer} ({case.mistake.value}, wrong by {_u(finding)})",
     )
+    if case.time is not None:
+        lower, upper = first_contact(case.row)
+        yield _titled("time", f"answered: {case.time!r}; first contact between {lower!r} and {upper!r}")
     yield _titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 
 
@@ -85,7 +88,7 @@ def _unanswered(run: Hunt) -> Iterator[str]:
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
         if status is not Status.NOT_RUN:
-            yield _titled("row", f"{decimals(fault.row)}  ({', '.join(columns_of(fault.row))})")
+            yield _titled("row", _row(fault.row, run.target))
 
 
 def _command(target: HuntTarget, *words: str) -> str:
@@ -101,7 +104,14 @@ def decimals(row: Sequence[float]) -> str:
     return ",".join(repr(value).removesuffix(".0") for value in np.add(row, 0.0).tolist())
 
 
+def _row(row: Sequence[float], target: HuntTarget) -> str:
+    return f"{decimals(row)}  ({', '.join(target.layout.columns(len(row)))})"
+
+
 def _u(finding: HuntFinding) -> str:
+    """How wrong an answer is: in units u, a time in spheroid radii of the way."""
+    if finding.case.time is not None:
+        return f"{finding.error:.3g} spheroid radii"
     if finding.error_u == math.inf:
         return "inf u (no change of the inputs makes it right)" if finding.error == math.inf else "inf u"
     return f"{finding.error_u:.3g} u"

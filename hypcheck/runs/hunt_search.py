@@ -11,7 +11,8 @@ Rows are brought to the border of contact by bisection on exact positions. The p
 y together.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
-have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
+have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface
+(those of a way: hunt_ways.py).
 Floats mostly fail in a thin layer at the border of contact, which a plain step would leave. Therefore each neighbour is
 asked, and also brought to the border, with a ladder of growing steps away from it: the farthest rung with a wrong
 answer counts.
@@ -28,11 +29,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import FixedSizes, Floats, Mask, Positions, Rows, invalid, with_axis
+from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask, Positions, Rows, invalid, with_axis
 from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding_rank
+from hypcheck.runs.hunt_ways import around_way, size_factors, size_mask
 from hypcheck.runs.judge import exact_positions
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, families_for
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, families_for
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
 
@@ -134,6 +136,9 @@ SURFACES = {
 CROSSING_BLOCK = 96
 """Rows of a crossing that are made at a time: to reach the border costs more than a question."""
 
+WAYS_TOGETHER = 24
+"""Ways of a family that are asked at a time: what happens on one takes milliseconds to decide."""
+
 VERSION = 1
 """The version of the generator of crossings, part of its seed."""
 
@@ -146,8 +151,12 @@ class HuntStratum:
     rows: Callable[[int, int], Rows]
 
 
-def strata(settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False) -> tuple[HuntStratum, ...]:
-    """All strata, the families of vectors first; with fixed sizes only the families for them."""
+def strata(
+    settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, layout: Layout = PAIRS
+) -> tuple[HuntStratum, ...]:
+    """All strata, the families of vectors first; of fixed sizes, and of ways, the families for them alone."""
+    if layout is WAYS:
+        return tuple(_of_ways(family) for family in WAY_FAMILIES.values() if tilt or not family.tilted)
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
@@ -157,6 +166,13 @@ def strata(settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False) -> tupl
 
 def _of_family(family: Family) -> HuntStratum:
     return HuntStratum(f"the family {family.name}", family.block)
+
+
+def _of_ways(family: Family) -> HuntStratum:
+    def rows(seed: int, number: int) -> Rows:
+        return family.columns_between(seed, number * WAYS_TOGETHER, (number + 1) * WAYS_TOGETHER).T
+
+    return HuntStratum(f"the family {family.name}", rows)
 
 
 def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
@@ -244,7 +260,7 @@ class Climber:
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7 or 10) to ask; for each, (n,), the number of its climber and of its ladder.
+    """Rows (n, 7, 10 or 13) to ask; for each, (n,), the number of its climber and of its ladder.
 
     A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
     wrong answer is the worst.
@@ -255,24 +271,31 @@ class Neighbours:
     ladders: Integers
 
 
-def neighbours(draw: Draw, climbers: Sequence[Climber]) -> Neighbours:
-    """The neighbours of the climbers."""
+def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) -> Neighbours:
+    """The neighbours of the climbers, rows of this layout."""
     with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
-        around = [_around(climber) for climber in climbers]
+        around = [around_way(climber.row, climber.step) if layout is WAYS else _around(climber) for climber in climbers]
     if len({part.shape[1] for part in around}) > 1:  # of upright and of tilted spheroids
-        around = [with_axis(part) for part in around]
+        around = [with_axis(part, layout) for part in around]
     rows = np.concatenate(around)
     owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
-    valid = ~invalid(rows)
+    valid = ~invalid(rows, layout)
     rows, owners = rows[valid], owners[valid]
-    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
-    rungs, numbers = ladders(rows, mask, border_factors(rows, mask, draw.signs(len(rows)) > 0))
-    rungs, numbers = rungs[~invalid(rungs)], numbers[~invalid(rungs)]
+    rungs, numbers = ladders(rows, *_borders(draw, rows, layout))
+    rungs, numbers = rungs[~invalid(rungs, layout)], numbers[~invalid(rungs, layout)]
     return Neighbours(
         np.concatenate([rows, rungs]),
         np.concatenate([owners, owners[numbers // 2]]),
         np.concatenate([np.arange(len(rows)), len(rows) + numbers]),
     )
+
+
+def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
+    """The columns of each row that one factor brings to the border of contact, and that factor; NaN where none does."""
+    if layout is WAYS:
+        return size_mask(rows), size_factors(draw, rows, REACH)
+    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
+    return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
 
 
 def _around(climber: Climber) -> Rows:
@@ -318,7 +341,8 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
 
 def _look(run: Hunt) -> Iterator[None]:
     """The strata, without end: first some rows of each, then block after block."""
-    everywhere = strata(run.target.domain.settings, tilt=run.target.implementation.description.tilt)
+    target, layout = run.target, run.target.layout
+    everywhere = strata(target.domain.settings, tilt=target.implementation.description.tilt, layout=layout)
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:
@@ -346,7 +370,8 @@ def _climb(run: Hunt) -> Iterator[bool]:
         chosen = _climbers(run.findings, climbers)
         if chosen:
             number += 1
-            around = neighbours(Draw("hunt", run.plan.seed, number), [climbers[key] for key in chosen])
+            draw = Draw("hunt", run.plan.seed, number)
+            around = neighbours(draw, [climbers[key] for key in chosen], run.target.layout)
             cases = ask_rows(run, around.rows, around.ladders)
             for place, key in enumerate(chosen):
                 own = [case for case in cases if around.owners[case.index] == place]

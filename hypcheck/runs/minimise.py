@@ -8,20 +8,22 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import product
 
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Pair
-from hypcheck.geometry.rows import Rows
-from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding, place_of
+from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, trouble_with_row
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
+from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding
+from hypcheck.runs.hunt_place import place_of_row
 from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
 from hypcheck.runs.judge import Status, WrongCase
+from hypcheck.runs.replay import ReplayCase
 from hypcheck.runs.score import Score
 from hypcheck.runs.tally import STATUSES
-from hypcheck.truth.tilted.pair import TiltedPair, pair_of
+from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
 
 Row = tuple[float, ...]
@@ -53,11 +55,11 @@ def complexity(row: Sequence[float]) -> Complexity:
     return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
 
 
-def simpler_than(rows: Iterable[Row], limit: Complexity) -> Rows:
-    """The distinct valid rows below a complexity, float64 (n, 7 or 10), the simplest first."""
-    found = {row: complexity(row) for row in set(rows) if _valid(row)}
+def simpler_than(rows: Iterable[Row], limit: Complexity, layout: Layout = PAIRS) -> Rows:
+    """The distinct valid rows of a layout below a complexity, float64 (n, its columns), the simplest first."""
+    found = {row: complexity(row) for row in set(rows) if _valid(row, layout)}
     chosen = sorted((row for row in found if found[row] < limit), key=lambda row: (found[row], row))
-    return np.array(chosen, dtype=np.float64).reshape(len(chosen), len(chosen[0]) if chosen else len(COLUMNS))
+    return np.array(chosen, dtype=np.float64).reshape(len(chosen), len(chosen[0]) if chosen else len(layout.upright))
 
 
 def rounded(value: float) -> Iterator[float]:
@@ -90,14 +92,19 @@ def _simplest() -> tuple[Rows, list[Complexity]]:
     return rows, [complexity(row) for row in rows.tolist()]
 
 
-def _valid(row: Row) -> bool:
-    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == len(COLUMNS) or any(row[len(COLUMNS) :]))
+def _valid(row: Row, layout: Layout) -> bool:
+    width = len(layout.upright)
+    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == width or any(row[width:]))
 
 
-GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9])
+Groups = tuple[list[int], ...]
+
+GROUPS: Groups = (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9])
 """Columns whose numbers share a unit; the last are those of an axis."""
 
-COORDINATES = (4, 5, 6, 7, 8, 9)
+WAY_GROUPS: Groups = ([*RADIAL_COLUMNS, 7, 8], [*AXIAL_COLUMNS, 9], [10, 11, 12])
+"""The same of ways."""
+
 _SMALL = tuple(map(float, range(1, 7)))
 
 
@@ -108,7 +115,11 @@ def same_pair(row: Row) -> Iterator[Row]:
     yield (alpha, gamma, b, d, x, y, z)
     yield (alpha, gamma, b, d, y, x, z)
     yield (alpha, gamma, b, d, math.hypot(x, y), 0.0, z)
-    for columns in GROUPS[:2]:
+    yield from _other_units(row, GROUPS[:2])
+
+
+def _other_units(row: Row, groups: Iterable[Sequence[int]]) -> Iterator[Row]:
+    for columns in groups:
         for unit in _units([row[column] for column in columns]):
             yield _with(row, {column: row[column] / unit for column in columns})
 
@@ -120,9 +131,33 @@ def same_tilted_pair(row: Row) -> Iterator[Row]:
         mirrored = [turn * each * math.copysign(1.0, place) for each, place in zip(axis, (x, y, z), strict=True)]
         yield (alpha, gamma, b, d, abs(x), abs(y), abs(z), *mirrored)
         yield (alpha, gamma, b, d, abs(y), abs(x), abs(z), mirrored[1], mirrored[0], mirrored[2])
-    for columns in (range(len(COLUMNS)), range(len(COLUMNS), len(row))):
-        for unit in _units([row[column] for column in columns]):
-            yield _with(row, {column: row[column] / unit for column in columns})
+    yield from _other_units(row, (range(len(COLUMNS)), range(len(COLUMNS), len(row))))
+
+
+def same_way(row: Row) -> Iterator[Row]:
+    """The way in other coordinates: fewer signs, x and y swapped, the other way round, other units."""
+    alpha, gamma, b, d, *ends = row[: len(WAY_COLUMNS)]
+    axis = row[len(WAY_COLUMNS) :]
+    turn = [math.copysign(1.0, first or last) for first, last in zip(ends[:3], ends[3:], strict=True)]
+    there, back = [[t * each for t, each in zip(turn, part, strict=True)] for part in (ends[:3], ends[3:])]
+    mirrored = tuple(t * each for t, each in zip(turn, axis, strict=bool(axis)))
+    for first, last in ((there, back), (back, there)):
+        yield (alpha, gamma, b, d, *first, *last, *mirrored)
+        swapped = (first[1], first[0], first[2], last[1], last[0], last[2])
+        yield (alpha, gamma, b, d, *swapped, *(mirrored[1::-1] + mirrored[2:]))
+    whole, across = range(len(WAY_COLUMNS)), range(len(WAY_COLUMNS), len(row))
+    yield from _other_units(row, (whole, across) if axis else WAY_GROUPS[:2])
+
+
+@lru_cache(maxsize=1)
+def small_ways() -> tuple[Row, ...]:
+    """Ways in the plane y = 0 in small whole numbers, upright."""
+    sizes = [(alpha, gamma, 1.0, 1.0) for alpha in (1.0, 2.0, 3.0) for gamma in (1.0, 2.0, 3.0)]
+    starts, ends = product((0.0, 1.0, 2.0, 3.0, 4.0), (0.0, 1.0, 2.0)), product(range(-4, 5), range(-2, 3))
+    return tuple(
+        (*size, x, 0.0, z, float(end_x), 0.0, float(end_z))
+        for size, (x, z), (end_x, end_z) in product(sizes, starts, ends)
+    )
 
 
 def _units(lengths: list[float]) -> set[float]:
@@ -138,10 +173,10 @@ def _units(lengths: list[float]) -> set[float]:
     return {unit for unit in units if unit}
 
 
-def one_changed(row: Row) -> Iterator[Row]:
+def one_changed(row: Row, groups: Groups = GROUPS) -> Iterator[Row]:
     """One number made 0, 1 or shorter, or equal to another of its unit."""
     for column in range(len(row)):
-        for value in {*_simple_values(row, column), *rounded(row[column])}:
+        for value in {*_simple_values(row, column, groups), *rounded(row[column])}:
             yield _with(row, {column: value})
 
 
@@ -166,19 +201,19 @@ def brought_back(row: Row) -> Iterator[Row]:
                 yield _with(each, {lead: value})
 
 
-def _simple_values(row: Row, column: int) -> set[float]:
-    group = next(columns for columns in GROUPS if column in columns)
+def _simple_values(row: Row, column: int, groups: Groups = GROUPS) -> set[float]:
+    group = next(columns for columns in groups if column in columns)
     values = {1.0, 2.0, 3.0, *(row[other] for other in group if other != column)}
     values |= {float(math.floor(row[column])), float(math.ceil(row[column]))}
-    return values | {0.0} if column in COORDINATES else values - {0.0}
+    return values - {0.0} if column < len(SIZES) else values | {0.0}
 
 
 def _with(row: Row, values: dict[int, float]) -> Row:
     return tuple(values.get(column, number) for column, number in enumerate(row))
 
 
-PIECE = 2048
-"""Rows of a question."""
+PIECE = {PAIRS: 2048, WAYS: 64}
+"""Rows of a question. What happens on a way takes milliseconds to decide."""
 
 MAX_ROWS = 30_000
 """At most so many rows are asked for one step, the simplest ones."""
@@ -207,22 +242,38 @@ class Minimised:
         return self.steps[-1]
 
 
-def minimise(target: HuntTarget, pair: Pair | TiltedPair) -> Minimised:
-    """Simplify until no simpler row fails in the same way. Raises InputError if the answer is not wrong.
+def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
+    """Simplify until no simpler row fails in the same way.
+
+    Raises InputError if the answer is not wrong, or the row is not of the question.
 
     The same way means: the same answer, the same truth, beyond the tolerance, and the same cause (RowPlace.cause).
     """
     run = Minimised(target)
-    run.steps.append(_start(run, pair))
-    variants = _VARIANTS if isinstance(pair, Pair) else _TILTED_VARIANTS
+    row = _row_of(target, case)
+    run.steps.append(_start(run, row))
+    variants = _VARIANTS[target.layout][len(row) > len(target.layout.upright)]
     while any(_improve(run, ways) for ways in variants):
         pass
     return run
 
 
-def _start(run: Minimised, pair: Pair | TiltedPair) -> HuntFinding:
-    rows = np.array([pair.row])
-    if isinstance(pair, TiltedPair) and not run.target.implementation.description.tilt:
+def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
+    """The row of a case; of a spheroid that stands upright after all, without its axis."""
+    used, layout = target.implementation.description, target.layout
+    of_layout = case.layout in (None, layout) and len(case.row) in (len(layout.upright), len(layout.tilted))
+    if not of_layout:
+        this = "a position" if layout is WAYS else "a way between two positions"
+        raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
+    trouble = trouble_with_row(case.row, layout.upright)
+    if trouble is not None:
+        raise InputError(trouble if case.layout is None else f"{case.name}: {trouble}")
+    return tuple(np.add(case.row, 0.0).tolist()) if layout is WAYS else pair_of(case.row).row
+
+
+def _start(run: Minimised, row: Row) -> HuntFinding:
+    rows, layout = np.array([row]), run.target.layout
+    if layout.lean(rows) and not run.target.implementation.description.tilt:
         raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
@@ -235,18 +286,19 @@ def _start(run: Minimised, pair: Pair | TiltedPair) -> HuntFinding:
         raise InputError("the implementation's answer to this row is not wrong; there is nothing to simplify")
     if case.status is not Status.WRONG:
         raise InputError("the implementation's answer to this row is wrong within tolerance; see --tolerance")
-    return measured_finding(case, run.target.criterion, place_of(pair), "given")
+    return measured_finding(case, run.target.criterion, place_of_row(row, layout), "given")
 
 
 def _improve(run: Minimised, ways: Variants) -> bool:
     """Take the simplest of these variants that fails in the same way; False if there is none."""
     row = run.last.case.row
-    candidates = ways(row, complexity(row))[:MAX_ROWS]
-    for start in range(0, len(candidates), PIECE):
-        rows = candidates[start : start + PIECE]
+    layout = run.target.layout
+    candidates, piece = ways(row, complexity(row))[:MAX_ROWS], PIECE[layout]
+    for start in range(0, len(candidates), piece):
+        rows = candidates[start : start + piece]
         rows = rows[run.target.claimed(rows)]
         for case in _ask(run, rows).judged():
-            place = place_of(pair_of(case.row)) if _alike(case, run.first.case) else None
+            place = place_of_row(case.row, layout) if _alike(case, run.first.case) else None
             if place is not None and place.cause == run.first.place.cause:
                 run.steps.append(measured_finding(case, run.target.criterion, place, f"step {len(run.steps)}"))
                 return True
@@ -254,7 +306,11 @@ def _improve(run: Minimised, ways: Variants) -> bool:
 
 
 def _alike(case: WrongCase, first: WrongCase) -> bool:
-    return case.status is Status.WRONG and (case.truth, case.answer) == (first.truth, first.answer)
+    return case.status is Status.WRONG and (case.mistake, case.truth, case.answer) == (
+        first.mistake,
+        first.truth,
+        first.answer,
+    )
 
 
 def _ask(run: Minimised, rows: Rows) -> Score:
@@ -262,11 +318,11 @@ def _ask(run: Minimised, rows: Rows) -> Score:
     return run.target.ask(rows)
 
 
-def _next_to(around: Callable[[Row], Iterable[Row]]) -> Variants:
-    return lambda row, limit: simpler_than(around(row), limit)
+def _next_to(around: Callable[[Row], Iterable[Row]], layout: Layout = PAIRS) -> Variants:
+    return lambda row, limit: simpler_than(around(row), limit, layout)
 
 
-_VARIANTS: tuple[Variants, ...] = (
+_UPRIGHT: tuple[Variants, ...] = (
     _next_to(same_pair),
     _next_to(one_changed),
     lambda _, limit: simplest_below(limit),
@@ -274,4 +330,11 @@ _VARIANTS: tuple[Variants, ...] = (
 )
 """Cheap variants first: later ones are tried only if the earlier ones give no simpler row."""
 
-_TILTED_VARIANTS: tuple[Variants, ...] = (_next_to(same_tilted_pair), _next_to(one_changed))
+_TILTED: tuple[Variants, ...] = (_next_to(same_tilted_pair), _next_to(one_changed))
+_WAYS: tuple[Variants, ...] = (
+    _next_to(same_way, WAYS),
+    _next_to(partial(one_changed, groups=WAY_GROUPS), WAYS),
+    _next_to(lambda _: small_ways(), WAYS),
+)
+_VARIANTS = {PAIRS: (_UPRIGHT, _TILTED), WAYS: (_WAYS, _WAYS[:2])}
+"""The variants of each layout, of upright spheroids and of tilted ones."""

@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, Rows
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
@@ -283,9 +283,11 @@ def _require_no_faults(faults: list[LabelFault]) -> None:
         )
 
 
-def require_keepable(path: str, *, tilted: bool = False) -> None:
+def require_keepable(path: str, *, tilted: bool = False, layout: Layout = PAIRS) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
-    if Path(path).exists():
+    if layout is WAYS:
+        _ways_before(path, "", tilted=tilted)
+    elif Path(path).exists():
         read_tilted_vectors(path) if tilted else read_vectors(path)
     folder = Path(path).resolve().parent
     if not folder.is_dir():
@@ -294,13 +296,15 @@ def require_keepable(path: str, *, tilted: bool = False) -> None:
         raise InputError(f"cannot write {path}: permission denied")
 
 
-def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = False) -> int:
+def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = False, layout: Layout = PAIRS) -> int:
     """Add those rows to a vector file that it lacks, labelled and proved, and return their number.
 
-    With `tilted` all rows have ten numbers, and the file is one of tilted spheroids. A new file names `made_by` as the
-    command that made it. Cases of an existing file stay as they are. Raises InputError if the file is no such vector
-    file, or cannot be written.
+    All rows have the numbers of the layout; with `tilted` those of an axis too, and the file is one of tilted
+    spheroids. A new file names `made_by` as the command that made it. Cases of an existing file stay as they are.
+    Raises InputError if the file is no such vector file, or cannot be written.
     """
+    if layout is WAYS:
+        return _keep_ways(path, rows, made_by, tilted=tilted)
     return _keep_tilted(path, rows, made_by) if tilted else _keep_upright(path, rows, made_by)
 
 
@@ -320,6 +324,27 @@ def _keep_tilted(path: str, rows: Sequence[Row], made_by: str) -> int:
     with writing(path) as writer:
         writer.write(tilted_vectors_text(assembled_tilted(before.head, (*before.cases, *added))).encode())
     return len(added)
+
+
+def _keep_ways(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool) -> int:
+    before = _ways_before(path, made_by, tilted=tilted)
+    known = [(case.id, case.row) for case in before.cases]
+    added = labelled_ways(extended(before.head.name, known, rows)[len(known) :])
+    with writing(path) as writer:
+        writer.write(ways_text(assembled_ways(before.head, (*before.cases, *added))).encode())
+    return len(added)
+
+
+def _ways_before(path: str, made_by: str, *, tilted: bool) -> WayFile:
+    """The file about ways that is there, an empty one if there is none. Raises InputError if its rows are others."""
+    if not Path(path).exists():
+        return WayFile(_found_metadata(made_by), {}, ())
+    before = read_ways(path)
+    width = len(WAYS.tilted if tilted else WAYS.upright)
+    if before.cases and len(before.cases[0].row) != width:
+        numbers = len(before.cases[0].row)
+        raise InputError(f"{path} has rows of {numbers} numbers; it must have rows of {width}, to add these")
+    return before
 
 
 def _found_metadata(made_by: str) -> Metadata:

@@ -105,6 +105,13 @@ def _way_lines(case: WayVector) -> Iterator[str]:
     yield case.id
     for name, value in zip(TILTED_WAY_COLUMNS, case.row, strict=False):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
+    yield from way_answer_lines(case)
+    for flag in case.flags:
+        yield from _titled("flag", f"{flag}: {WAY_FLAGS[flag].meaning}")
+
+
+def way_answer_lines(case: WayVector) -> Iterator[str]:
+    """The answer about a way, and its proof."""
     yield from _titled("answer", "contact on the way" if case.hit else "clear all along")
     if case.first is not None:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
@@ -115,8 +122,6 @@ def _way_lines(case: WayVector) -> Iterator[str]:
     if case.witness.time is not None:
         proof = "a double root" if case.witness.double_root is not None else "points"
         yield from _titled("proof", f"contact at t {_said(readable_text(case.witness.time))}, by {proof}")
-    for flag in case.flags:
-        yield from _titled("flag", f"{flag}: {WAY_FLAGS[flag].meaning}")
 
 
 def _distance(distance: float | Bracket) -> str:

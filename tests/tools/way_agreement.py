@@ -111,17 +111,19 @@ def first_contact(row):
         raise ArithmeticError("the discriminant is 0 all along")
     parts = found.sqf_part()
     roots = [tuple(Fraction(int(each.p), int(each.q)) for each in span) for span, _ in parts.intervals(inf=0, sup=1)]
-    for place, (low, high) in enumerate(roots):
-        after = roots[place + 1][0] if place + 1 < len(roots) else Fraction(1)
-        side = end if high == 1 else position_at(row, (high + after) / 2)
-        at = enclosed(parts, low, high)
+    spans = [enclosed(parts, low, high) for low, high in sorted(roots)]
+    nexts = [*(low for low, _ in spans), Fraction(1)][1:]
+    for at, after in zip(spans, nexts, strict=True):
+        side = end if at[1] == 1 else position_at(row, (at[1] + after) / 2)
         if side != start or position_at(row, (at[0] + at[1]) / 2, GROWTH if 0 < at[0] else 1) == 0:
             return at
     return None
 
 
 def enclosed(poly, low, high):
-    """The root between them, to NEAR, by bisection."""
+    """The one root between them, or at both, to NEAR, by bisection; each of them may be another root."""
+    if low == high:
+        return low, high
     terms = [Fraction(int(each.p), int(each.q)) for each in poly.all_coeffs()]
 
     def sign(when):
@@ -130,9 +132,9 @@ def enclosed(poly, low, high):
             total = total * when + each
         return (total > 0) - (total < 0)
 
-    below = sign(low)
-    if below == 0:
-        return low, low
+    below = sign(low) or -sign(high)
+    if not below:
+        raise ArithmeticError("roots at both ends of an interval leave its own root without a change of sign")
     while high - low > NEAR:
         middle = (low + high) / 2
         if sign(middle) == 0:

@@ -17,6 +17,7 @@ from hypcheck.implementations.implementation import open_implementation
 from hypcheck.runs.hunt import target_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.minimise import characters, complexity, minimise, rounded, simpler_than, simplest_below
+from hypcheck.runs.replay import ReplayCase
 from hypcheck.truth.exact import decide
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.families import FAMILIES
@@ -25,7 +26,7 @@ from tests.support.fractions_truth import exact_position
 
 def minimised(spec, row, domain=None, **claims):
     with open_implementation(f"builtin:{spec}", domain=domain) as implementation:
-        return minimise(target_of(spec, implementation, **claims), Pair.from_row(row))
+        return minimise(target_of(spec, implementation, **claims), ReplayCase("the given row", tuple(row)))
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,8 @@ from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import hunt as hunting
 from hypcheck.runs import hunt_search
-from hypcheck.runs.hunt import Hunt, HuntPlan, RowPlace, target_of
+from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
+from hypcheck.runs.hunt_place import RowPlace
 from hypcheck.runs.hunt_search import neighbours, run_hunt
 from hypcheck.runs.judge import Mistake, Status, flip_exponents
 from hypcheck.truth import float_filter
@@ -130,7 +131,7 @@ def test_local_search_restarts_with_the_first_step_at_a_worse_answer(monkeypatch
         hunt_search, "strata", lambda _, tilt: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
     )
     monkeypatch.setattr(hunt_search, "neighbours", watched)
-    monkeypatch.setattr(hunting, "place_of", lambda pair: RowPlace("anywhere", "anywhere", "any"))
+    monkeypatch.setattr(hunting, "place_of_row", lambda row, layout: RowPlace("anywhere", "anywhere", "any"))
     run_hunt(
         Hunt(
             target_of("double", Double(lambda rows: np.minimum(float_filter.positions(rows), 0))),

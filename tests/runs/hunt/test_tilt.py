@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.runs import hunt_search
-from hypcheck.runs.hunt import TILTED, place_of
+from hypcheck.runs.hunt_place import TILTED, place_of
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_tilted_pair
 from hypcheck.truth.tilted.pair import pair_of

@@ -1,0 +1,207 @@
+"""Where a row of a hunt lies: the surfaces next to it, by which findings are grouped.
+
+Wrong answers are likely on a few surfaces, where an argument about the pair changes its case. In their names a = α/b,
+c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii of the spheroid; c1,
+c2 and Δ belong to the cubic g (docs/mathematics.md). Of a way, what happens on it stands in place of a surface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.rows import WAYS, Layout
+from hypcheck.runs.passages import passage_of, way_in_radii
+from hypcheck.truth import exact
+from hypcheck.truth.exact import Cubic, Decision
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedPair, pair_of
+
+NEAR = Fraction(1, 64)
+"""A row within this relative distance is next to a surface."""
+
+RING_NEAR, RING_CLEAR = 1 / 8, 1 / 256
+"""A row within RING_NEAR spheroid radii is next to the ring, if the ring's clearance is at least RING_CLEAR radii, so
+that the ring is not a border of contact."""
+
+LONG = 2.0**17
+"""A ratio α/b or γ/d above LONG or below 1/LONG is a long ratio."""
+
+OPEN = "no special place"
+RING = "the ring"
+TILTED = "a tilted spheroid"
+WAY = "an ordinary way"
+
+LONG_WAY, SHORT_WAY = 2.0**10, 2.0**-10
+"""A way of more spheroid radii is long, one of less is short."""
+
+_OTHER_DOUBLE_ROOTS = (
+    Kind.CROSSING_THROAT_NODE,
+    Kind.CROSSING_GROOVE_ISOLATED_POINT,
+    Kind.CROSSING_GROOVE_NODE,
+    Kind.CROSSING_GROOVE_CUSP,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class RowPlace:
+    """The surfaces next to a row.
+
+    `kind` is the surface that explains most; findings are grouped by it. `words` name every surface. `cause` is equal
+    for rows that fail for the same reason: a special surface, or else the regime.
+    """
+
+    kind: str
+    words: str
+    cause: str
+
+
+def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
+    """The place of a valid row of this layout."""
+    return way_place(tuple(row)) if layout is WAYS else place_of(pair_of(row))
+
+
+def place_of(pair: Pair | TiltedPair) -> RowPlace:
+    """The place of a pair."""
+    if isinstance(pair, TiltedPair):
+        return _tilted_place(pair)
+    lengths = pair.lengths
+    special = [*_double_roots(lengths, exact.decide(lengths)), *_coefficients(exact.cubic(lengths))]
+    regimes = list(_regimes(lengths))
+    planes = [] if special and special[0][0] == RING else _planes(lengths)
+    named = [*special, *_borders(lengths), *regimes, *planes] or [(OPEN, OPEN)]
+    cause = special[0][0] if special else " and ".join(name for name, _ in regimes)
+    return RowPlace(named[0][0], ", ".join(words for _, words in named), cause.removeprefix("next to "))
+
+
+def _tilted_place(pair: TiltedPair) -> RowPlace:
+    """The place of a tilted spheroid: what is special about its axis and its centre."""
+    x, y, z, axis_x, axis_y, axis_z = map(Fraction, (pair.x, pair.y, pair.z, *pair.axis))
+    across, along = axis_x**2 + axis_y**2, axis_z**2
+    signs = {
+        "exactly tangent": tilted_exact.decide(pair.lengths).tangent,
+        "a horizontal axis": along == 0,
+        "a nearly upright axis": across <= NEAR**2 * along,
+        "a nearly horizontal axis": 0 < along <= NEAR**2 * across,
+        "the axis in the plane of the centre": (x or y) and x * axis_y == y * axis_x,
+        "r = 0": not (x or y),
+        "z = 0": z == 0,
+    }
+    named = [name for name, holds in signs.items() if holds]
+    return RowPlace(next(iter(named), TILTED), ", ".join([TILTED, *named]), next(iter(named), TILTED))
+
+
+def _double_roots(lengths: Lengths, decision: Decision) -> Iterator[tuple[str, str]]:
+    if decision.kind is Kind.EXTERIOR_RING:
+        yield RING, "z = 0 and Δ = 0 (the ring)"
+    elif decision.position is Position.EXTERIOR and (off := _off_the_ring(lengths)) is not None:
+        yield f"next to {RING}", f"{off:.1e} radii from the ring"
+    elif decision.tangent:
+        yield "exactly tangent", f"exactly tangent ({decision.kind.value})"
+    elif decision.kind in _OTHER_DOUBLE_ROOTS:
+        yield "Δ = 0 without a tangency", f"Δ = 0 without a tangency ({decision.kind.value})"
+
+
+def _coefficients(g: Cubic) -> Iterator[tuple[str, str]]:
+    if g.n1 == 0:
+        yield "c1 = 0", "c1 = 0"
+    if g.n2 == 0:
+        yield "c2 = 0", "c2 = 0"
+
+
+def _borders(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    throat = Fraction(lengths.alpha - lengths.b, lengths.b)
+    if abs(throat) <= NEAR:
+        yield "a = 1", _at_or_near("a", "1", throat, "a − 1")
+    groove = Fraction(lengths.gamma**2 * lengths.b, lengths.d**2 * lengths.alpha) - 1
+    if abs(groove) <= NEAR:
+        yield "c² = a", _at_or_near("c²", "a", groove, "c²/a − 1")
+    for name, ratio in (("a", _a(lengths)), ("c", _c(lengths))):
+        if not 1 / LONG <= ratio <= LONG:
+            yield "a long ratio", f"{name} = {ratio:.1e}"
+
+
+def _regimes(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    if lengths.gamma**2 * lengths.b < lengths.d**2 * lengths.alpha:
+        yield "c² < a", "c² < a"
+    if lengths.alpha < lengths.b:
+        yield "a < 1", "a < 1"
+
+
+def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    r = Fraction(math.isqrt((lengths.x**2 + lengths.y**2) << 128), lengths.b << 64)
+    if r <= NEAR and r * lengths.b <= NEAR * lengths.alpha:
+        yield "r = 0", _at_or_near("r", "0", r, "r")
+    z = Fraction(abs(lengths.z), lengths.d)
+    if z <= NEAR and z * lengths.d <= NEAR * lengths.gamma:
+        yield "z = 0", _at_or_near("z", "0", z, "z")
+
+
+def _off_the_ring(lengths: Lengths) -> float | None:
+    """The rough distance of the centre from the circle z = 0, r² = (c² + 1)(a² + c²)/c², in radii; None if not near."""
+    a, c = _a(lengths), _c(lengths)
+    if not a < c * c < math.inf:
+        return None
+    radius = math.sqrt(c * c + 1) * math.hypot(a / c, 1)
+    clearance = (c - a / c) ** 2 / (radius + a + 1)
+    r = math.hypot(_ratio(lengths.x, lengths.b), _ratio(lengths.y, lengths.b))
+    off = math.hypot(r - radius, _ratio(lengths.z, lengths.d))
+    return off if clearance >= RING_CLEAR and off <= min(RING_NEAR, clearance / 2) else None
+
+
+def _at_or_near(name: str, value: str, off: Fraction, what: str) -> str:
+    return f"{name} = {value}" if off == 0 else f"{name} ≈ {value} ({what} = {float(off):.1e})"
+
+
+def _a(lengths: Lengths) -> float:
+    return _ratio(lengths.alpha, lengths.b)
+
+
+def _c(lengths: Lengths) -> float:
+    return _ratio(lengths.gamma, lengths.d)
+
+
+def _ratio(top: int, bottom: int) -> float:
+    try:
+        return abs(top) / bottom
+    except OverflowError:
+        return math.inf
+
+
+def way_place(row: tuple[float, ...]) -> RowPlace:
+    """The place of a way: what happens on it, and how it lies; findings are grouped by what is named first."""
+    start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(WAY_COLUMNS)]
+    found, length = passage_of(row), way_in_radii(row)
+    still, sides = start == end, (found.start, found.end)
+    signs = {
+        "nothing moves": still,
+        "begun in contact": found.start is Position.CONTACT,
+        "contact for an instant": found.grazes,
+        "contact between two clear ends": found.hit and Position.CONTACT not in sides,
+        "contact towards the end": found.hit and found.start is not Position.CONTACT is found.end,
+        f"across {RING}": not found.hit and len(row) == len(WAY_COLUMNS) and _crosses_the_ring(row),
+        "clear inside": not found.hit and found.start is Position.INTERIOR,
+        "a vertical way": start[:2] == end[:2] and not still,
+        "a horizontal way": start[2] == end[2] and not still,
+        "a long way": length > LONG_WAY,
+        "a short way": 0 < length < SHORT_WAY,
+        TILTED: len(row) > len(WAY_COLUMNS) and (row[2] != row[3] and any(row[-3:-1])),
+    }
+    named = [name for name, holds in signs.items() if holds] or [WAY]
+    return RowPlace(named[0], ", ".join(named), named[0])
+
+
+def _crosses_the_ring(row: tuple[float, ...]) -> bool:
+    """Whether an upright spheroid's centre comes to the ring, or nearly, on its way through the plane of the waist."""
+    alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
+    a, c = alpha / b, gamma / d
+    if not 0 < a < c * c < math.inf or z * end_z > 0:
+        return False
+    radius = math.sqrt(c * c + 1) * math.hypot(a / c, 1)
+    low, high = (0.0, 1.0) if z == end_z else (z / (z - end_z),) * 2
+    first, last = (math.hypot(x + t * (end_x - x), y + t * (end_y - y)) / b - radius for t in (low, high))
+    return first * last <= 0 or min(abs(first), abs(last)) <= RING_NEAR

@@ -1,0 +1,157 @@
+"""`hypcheck hunt` and `minimise` of implementations that answer about ways."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.runs import hunt_search
+from hypcheck.runs.hunt_place import TILTED, WAY, way_place
+from hypcheck.runs.hunt_search import Climber, neighbours
+from hypcheck.runs.minimise import same_way, small_ways
+from hypcheck.truth.passage_error import hits_at_size, scaled_passage
+from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.ways.format import read_ways
+from tests.tools.way_agreement import Said, faults
+
+THROUGH = (1.0, 2.0, 1.0, 1.0, 6.0, 0.5, 0.25, -10.0, 0.5, 0.0)
+BESIDE = (1.0, 2.0, 1.0, 1.0, 3.0, -3.0, 0.25, 3.0, 3.0, 0.0)
+MISSED = "8.25,8,0.25,0.25,20,0,0,-20,0,0"
+"""Four samples meet the wall nowhere."""
+
+
+@pytest.fixture
+def quickly(monkeypatch):
+    """A hunt in a few ways of three families."""
+    few = {name: WAY_FAMILIES[name] for name in ("way-tunnelling", "way-still", "tilted-way-uniform")}
+    monkeypatch.setattr(hunt_search, "WAY_FAMILIES", few)
+    monkeypatch.setattr(hunt_search, "WAYS_TOGETHER", 4)
+    monkeypatch.setattr("hypcheck.runs.hunt_ways.BROUGHT", 1)
+
+
+def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_ways(quickly, capsys, tmp_path):
+    out = tmp_path / "kept.json"
+    hunt = ("hunt", "builtin:passage-sampled-4", "--queries", "20", "--out", str(out))
+    assert main([*hunt]) == 1
+    said = capsys.readouterr().out
+    assert re.search(r"^\d\. false-clear, \S+ u", said, flags=re.MULTILINE)
+    assert re.search(r"^\d\. late, \S+ spheroid radii, contact between two clear ends", said, flags=re.MULTILINE)
+    assert re.search(r"^   time +answered: 0\.\d+; first contact between 0\.", said, flags=re.MULTILINE)
+    shown = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)
+    rows = {tuple(map(float, each.split(","))) for each in shown}
+    kept = read_ways(str(out))
+    assert rows == {case.row for case in kept.cases}
+    assert f"{len(rows)} rows added" in said
+    for case in kept.cases:
+        assert faults(Said(case.id, case.row, case.first and tuple(map(Fraction, case.first))), 4) == []
+    assert main(["replay", shown[0], "builtin:passage-sampled-4"]) == 1
+    capsys.readouterr()
+    assert main([*hunt]) == 1
+    assert "0 rows added, the others were there already" in capsys.readouterr().out
+
+
+def test_nothing_is_found_in_an_implementation_that_is_right(quickly, capsys):
+    assert main(["hunt", "builtin:passage-exact", "--queries", "30", "--tolerance", "0"]) == 0
+    assert "0 answers were wrong" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_tilt(quickly, capsys, tmp_path):
+    out = tmp_path / "kept.json"
+    words = ("hunt", "python:tests.runs.moving:upright", "--queries", "12", "--show", "1", "--out", str(out))
+    assert main([*words]) == 1
+    assert "axis_x, axis_y, axis_z)" in capsys.readouterr().out
+    assert all(len(case.row) == 13 for case in read_ways(str(out)).cases)
+    assert main(["hunt", "builtin:passage-sampled-4", "--queries", "8", "--out", str(out)]) == 2
+    assert "has rows of 13 numbers; it must have rows of 10, to add these" in capsys.readouterr().err
+
+
+def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact(monkeypatch):
+    monkeypatch.setattr("hypcheck.runs.hunt_ways.BROUGHT", 1)
+    around = neighbours(Draw("test"), [Climber(BESIDE, 1.0, 0.25)], WAYS)
+    assert not invalid(around.rows, WAYS).any()
+    numbers, counts = np.unique(around.ladders, return_counts=True)
+    longest = numbers[np.argmax(counts)]
+    ladder = around.rows[around.ladders == longest]
+    others = around.rows[around.ladders == longest + 1]
+    assert hits_at_size(ladder[0].tolist()) != hits_at_size(others[0].tolist())
+    assert (np.diff(ladder[:, 2]) > 0).all()
+    images = around.rows[: (counts == 1).sum()]
+    assert (images[:, 4:7] == images[:, 7:10]).all(axis=1).any()
+
+
+@pytest.mark.slow
+def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(monkeypatch, capsys):
+    monkeypatch.setattr("hypcheck.runs.minimise.small_ways", lambda: small_ways()[::300])
+    assert main(["minimise", "builtin:passage-sampled-4", MISSED]) == 0
+    said = capsys.readouterr().out
+    (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)
+    row = tuple(map(float, shown.split(",")))
+    assert len(shown) <= 26
+    found = scaled_passage(row)
+    assert found.hit
+    assert 0 not in (found.start, found.end)
+    assert "answer      contact on the way" in said
+    assert "proof       contact at t " in said
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("builtin:passage-sampled-4", "2,5,1,1,3,0,0"), "the given row is a position, and passage-sampled-4 answers"),
+        (
+            ("builtin:passage-sampled-4", "ring-0007"),
+            "ring-0007 is a position, and passage-sampled-4 answers 'passage'",
+        ),
+        (("builtin:table-2-float64", "way-ring-0007"), "way-ring-0007 is a way between two positions, and table-2"),
+        (("builtin:passage-sampled-4", "way-ring-0007"), "answer to this row is not wrong; there is nothing to"),
+        (("builtin:passage-sampled-4", "tilted-way-ring-0007"), 'the implementation does not declare "tilt": true'),
+        (("builtin:passage-sampled-4", "way-invalid-0007"), "way-invalid-0007: gamma is inf; it must be finite"),
+    ],
+)
+def test_what_cannot_be_simplified_is_refused_in_one_sentence(words, sentence, capsys):
+    assert main(["minimise", *words]) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_way_in_other_coordinates_has_the_same_answer():
+    for row in [THROUGH, *map(tuple, WAY_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
+        hit = hits_at_size(row)
+        for other in list(same_way(row))[:4]:  # units are rounded
+            assert hits_at_size(other) == hit
+    assert len(set(small_ways())) == len(small_ways())
+
+
+@pytest.mark.parametrize(
+    ("changes", "kind"),
+    [
+        ({}, "contact between two clear ends"),
+        ({7: 0.0}, "contact towards the end"),
+        ({4: 0.0}, "begun in contact"),
+        ({4: 12.0, 7: 9.0}, WAY),
+        ({7: 6.0, 8: 0.5, 9: 0.25}, "nothing moves"),
+        ({4: 2.0, 5: -3.0, 6: 0.0, 7: 2.0, 8: 3.0}, "contact for an instant"),
+        ({4: 4.0, 5: 0.0, 6: 0.0, 7: 2.25, 8: 0.0}, "across the ring"),
+        ({0: 9.0, 4: 1.0, 7: 0.0}, "clear inside"),
+        ({4: 9.0, 7: 9.0, 9: 5.0}, "a vertical way"),
+        ({4: 9.0, 7: 99999.0}, "a long way"),
+    ],
+)
+def test_the_place_of_a_way_says_what_happens_on_it(changes, kind):
+    row = tuple(changes.get(place, value) for place, value in enumerate(THROUGH))
+    place = way_place(row)
+    assert place.kind == place.cause == kind
+
+
+def test_the_place_of_a_way_says_that_the_spheroid_leans():
+    row = (*THROUGH[:3], 0.5, *THROUGH[4:], 1.0, 0.0, 1.0)
+    assert TILTED in way_place(row).words
+    assert TILTED not in way_place((*row[:10], 0.0, 0.0, 2.0)).words
+    assert replace(way_place(row), words="").cause == "contact between two clear ends"
