@@ -100,7 +100,8 @@ docs: $(VENV)/ready-docs ## the site of all pages, its links checked; build/site
 
 release: $(VENV)/ready-dev ## the wheel and the sdist of a clean tree in dist/, and the tag of its version
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 2; }
-	$(BIN)/python -m pytest --quiet tests/test_pages.py tests/test_action.py
+	@grep -q '^## $(VERSION)$$' CHANGELOG.md || { echo "CHANGELOG.md has no heading $(VERSION); see CONTRIBUTING.md, A release" >&2; exit 2; }
+	$(BIN)/python -m pytest --quiet tests/test_pages.py tests/test_action.py tests/report/test_reference.py
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist
 	git tag --annotate --message "hypcheck $(VERSION)" v$(VERSION)

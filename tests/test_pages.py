@@ -66,10 +66,8 @@ def test_the_page_of_the_python_interface_has_every_public_name():
     assert sorted(described) == sorted(".".join(hypcheck._HOMES[name]) for name in hypcheck.__all__ if name[0] != "_")
 
 
-def test_the_changelog_and_the_pages_name_the_version_of_the_package():
-    version = hypcheck.__version__
+def test_the_pages_name_the_tag_of_the_newest_version_in_the_changelog():
     newest = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
-    assert newest in (version, "Unreleased")
     pages = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("ci.md", "tutorial.md")]
     tags = [re.findall(r"(?:hypcheck@|rev: )v([\d.]+)\b", page) for page in pages]
-    assert tags == [[version] * 2, [version]]
+    assert tags == [[newest] * 2, [newest]]
