@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
+from hypcheck.kernel import scene_ways
 from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.scene_index import (
     Bodies,
@@ -41,12 +42,13 @@ from hypcheck.kernel.scene_pairs import (
     positions_leaning,
     within_height,
 )
-from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
+from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, Span, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
 _ASKED = (*CENTER, "heading")
+_POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of them"
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
 _OF_RANK = (CANNOT_SAY, EXTERIOR, INTERIOR, CONTACT)
@@ -101,9 +103,7 @@ class Scene:
         columns = as_columns(asked, (x, y, z, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
         for name, values in zip(asked, columns, strict=True):
-            if not np.isfinite(values).all():
-                index = int(np.argmin(np.isfinite(values)))
-                raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
+            _require_finite(name, values)
         query, body = self._pairs(centres)
         movers = _directions(columns[4:]) if axes else None
         said = self._said(query, body, centres, columns[3], movers)
@@ -138,6 +138,64 @@ class Scene:
                     break
                 found = max(found, _RANK[said])
         return self._answer(_OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR)
+
+    def passage(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0) -> Positions:
+        """Whether the mover meets contact on each straight way, its ends included, exactly; int8 (n,).
+
+        `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, is the same all
+        along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A hyperboloid says nothing
+        while the mover's centre is beyond its modelled height; 2 is said where none says anything all along. A part
+        goes straight from where it stands at the start to where it stands at the end; it is asked where the mover has
+        contact. Raises InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose
+        axis the scene leaves free.
+        """
+        self._require_upright()
+        starts, ends, headings = _ways(start, end, heading)
+        low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
+        with np.errstate(all="ignore"):
+            query, body = self._near_ways(starts, ends, low, high)
+        bodies, mover = self._bodies, self.model.mover
+        axis = mover.axis if mover.axis != FREE and leans(mover.axis) else None
+        hits = scene_ways.hits_beside(bodies, body, mover, axis, starts[query], ends[query])
+        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
+            way = query[pair]
+            here, there = (self._places_of_parts(each[way].tolist(), float(headings[way])) for each in (starts, ends))
+            hits[pair] = not scene_ways.all_parts_are_clear(bodies, int(body[pair]), mover, here, there)
+        result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
+        result[query[hits]] = 1
+        return result
+
+    def _near_ways(self, starts: Floats, ends: Floats, low: Floats, high: Floats) -> tuple[Indices, Indices]:
+        """Which hyperboloids have to be asked about which ways, whose heights are between two."""
+        bodies, mover, region = self._bodies, self.model.mover, self.model.region.z
+        pieces = scene_ways.pieces_of(self._grid, starts, ends)
+        if region is not None:  # beyond it the grid promises nothing
+            pieces[(low < region.low) | (high > region.high)] = 0
+        found = []
+        for some in scene_ways.in_batches(self._grid, pieces):
+            query, body = scene_ways.near_ways(self._grid, starts[some], ends[some], pieces[some])
+            found.append(self._passed(starts, ends, query + some.start, body, self._reaches[body]))
+        for way in np.flatnonzero(pieces == 0).tolist():
+            far = reaches(bodies, mover, Span(float(low[way]), float(high[way])))
+            found.append(self._passed(starts, ends, np.full(len(far), way), np.arange(len(far)), far))
+        query, body = (np.concatenate(each) for each in zip(*found, strict=True))
+        keep = (high[query] >= bodies.heights[body, 0]) & (low[query] <= bodies.heights[body, 1])
+        pairs = np.unique(query[keep] * len(bodies.tall) + body[keep])
+        return pairs // len(bodies.tall), pairs % len(bodies.tall)
+
+    def _passed(
+        self, starts: Floats, ends: Floats, query: Indices, body: Indices, far: Floats
+    ) -> tuple[Indices, Indices]:
+        """The pairs whose way comes as near as the hyperboloid reaches."""
+        keep = np.flatnonzero(scene_ways.passed(starts, ends, query, self._bodies.origins[body], far))
+        return query[keep], body[keep]
+
+    def _require_upright(self) -> None:
+        if self.model.mover.axis == FREE:
+            raise InputError("the scene leaves the mover's axis free; a way is decided where [mover] fixes it")
+        for body in np.flatnonzero(self._bodies.leaning)[:1].tolist():
+            name = self.model.hyperboloids[body].name
+            raise InputError(f"the hyperboloid {name!r} leans; a way is decided only beside upright hyperboloids")
 
     def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
         """The same where something leans."""
@@ -245,9 +303,8 @@ class Scene:
     def _of_parts(self, index: int, centre: tuple[float, float, float], heading: float) -> int:
         """The position that all parts have in common beside a hyperboloid, else contact."""
         found, body, axis = CONTACT, self._body(index), self.model.hyperboloids[index].axis
-        for number, part in enumerate(self.model.mover.parts):
-            turn = radians(heading + part.angle)
-            x, y = centre[0] + part.arm * cos(turn), centre[1] + part.arm * sin(turn)
+        for number, (x, y, _) in enumerate(self._places_of_parts(centre, heading)):
+            part = self.model.mover.parts[number]
             if leans(axis):
                 sizes = (body[0], body[1], part.b, part.d)
                 said = position_leaning(sizes, (x, y, centre[2]), body[2:5], UPRIGHT, axis)
@@ -257,6 +314,12 @@ class Scene:
                 return CONTACT
             found = said
         return found
+
+    def _places_of_parts(self, centre: Sequence[float], heading: float) -> list[Point]:
+        """The centres of the mover's parts."""
+        x, y, z = centre
+        turns = [(part.arm, radians(heading + part.angle)) for part in self.model.mover.parts]
+        return [(x + arm * cos(turn), y + arm * sin(turn), z) for arm, turn in turns]
 
     def _answers(self, positions: Positions) -> Positions:
         question = self.model.question
@@ -285,8 +348,11 @@ class Scene:
     @cached_property
     def _grid(self) -> PlaneGrid:
         origins = self._bodies.origins
-        far = reaches(self._bodies, self.model.mover, self.model.region.z)
-        return grid_of(origins[:, 0], origins[:, 1], far)
+        return grid_of(origins[:, 0], origins[:, 1], self._reaches)
+
+    @cached_property
+    def _reaches(self) -> Floats:
+        return reaches(self._bodies, self.model.mover, self.model.region.z)
 
     @cached_property
     def _levels(self) -> Levels:
@@ -301,6 +367,27 @@ class Scene:
                 if trouble is not None:
                     raise InputError(f"the hyperboloid {body.name!r}: {trouble}")
         return bodies
+
+
+def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> tuple[Floats, Floats, Floats]:
+    """The ends of ways, (n, 3) each, and headings (n,). Raises InputError where they are no such numbers."""
+    points = []
+    for name, given in (("start", start), ("end", end)):
+        point = as_numbers(f"{name} is", given, _POINTS)
+        if point.ndim not in (1, 2) or point.shape[-1] != len(CENTER):
+            raise InputError(f"{name} is of shape {point.shape}; {_POINTS}")
+        points.append(point.reshape(-1, len(CENTER)).T)
+    names = (*(f"{each} of the start" for each in CENTER), *(f"{each} of the end" for each in CENTER), "heading")
+    columns = as_columns(names, (*points[0], *points[1], heading))
+    for name, values in zip(names, columns, strict=True):
+        _require_finite(name, values)
+    return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), columns[6]
+
+
+def _require_finite(name: str, values: Floats) -> None:
+    if not np.isfinite(values).all():
+        index = int(np.argmin(np.isfinite(values)))
+        raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
 
 
 def _directions(columns: Sequence[Floats]) -> Floats:

@@ -86,10 +86,14 @@ class Levels:
         place = bisect_right(self.starts, z) - 1
         return place >= 0 and z <= self.ends[place]
 
+    def meet_each(self, low: Floats, high: Floats) -> Mask:
+        """Whether some hyperboloid is modelled at some height between two, (n,) each."""
+        place = np.searchsorted(np.array(self.starts), high, side="right") - 1
+        return np.asarray((place >= 0) & (low <= np.append(self.ends, -inf)[place]))
+
     def hold_each(self, z: Floats) -> Mask:
         """The same of many heights, (n,)."""
-        place = np.searchsorted(np.array(self.starts), z, side="right") - 1
-        return np.asarray((place >= 0) & (z <= np.append(self.ends, -inf)[place]))
+        return self.meet_each(z, z)
 
 
 def levels_of(heights: Floats) -> Levels:
@@ -188,6 +192,21 @@ class PlaneGrid:
             np.concatenate([query, np.repeat(np.arange(len(x)), len(self.everywhere))]),
             np.concatenate([member, always]),
         )
+
+    def near_boxes(self, low: Floats, high: Floats) -> tuple[Indices, Indices]:
+        """The hyperboloids of all cells that boxes overlap, but those everywhere: pairs of a box' number and theirs.
+
+        `low` and `high` are the boxes' corners, (n, 2); a pair may come several times.
+        """
+        first, last = (np.floor(np.clip(each / self.side, -WIDEST, WIDEST)) for each in (low, high))
+        column, row, box = _entries(first[:, 0], last[:, 0], first[:, 1], last[:, 1], np.arange(len(low)))
+        place = _hashed(column, row, len(self.starts) - 1)
+        starts, members = np.frombuffer(self.starts, np.intc), np.frombuffer(self.members, np.intc)
+        begin = starts[place].astype(np.int64)
+        counts = starts[place + 1] - begin
+        step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        member = members[np.repeat(begin, counts) + step].astype(np.int64)
+        return np.repeat(box, counts), member
 
 
 def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:

@@ -1,0 +1,227 @@
+"""Ways through a scene: against the exact decision about every hyperboloid, whatever grid and floats leave out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import cos, radians, sin
+
+import numpy as np
+import pytest
+
+from hypcheck import passage
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Position
+from hypcheck.kernel.scene import Scene
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+
+
+def forest(count, seed, height=None, **changes):
+    """Trees on a square of 12 m, of places that differences round."""
+    random = np.random.default_rng(seed)
+    trees = tuple(
+        Hyperboloid(f"tree {number}", *shape, (x, y, z), height)
+        for number, (shape, (x, y), z) in enumerate(
+            zip(
+                random.uniform((0.2, 1.0), (0.8, 4.0), (count, 2)).tolist(),
+                random.uniform(-6, 6, (count, 2)).tolist(),
+                random.uniform(-1, 1, count).tolist(),
+                strict=True,
+            )
+        )
+    )
+    scene = SceneModel("forest", "position", trees, Mover(0.3, 0.9), Region(z=Span(-2.0, 2.0)))
+    return replace(scene, **changes)
+
+
+def ways(count, seed, step=2.0, rise=1.0):
+    """Starts on the square, and ends some steps farther."""
+    random = np.random.default_rng(seed)
+    starts = random.uniform((-6, -6, -2), (6, 6, 2), (count, 3))
+    return starts, starts + random.normal(size=(count, 3)) * (step, step, rise)
+
+
+def modelled(body, start, end):
+    """The ends of the part of a way at the hyperboloid's modelled height, from its centre; None where there is none."""
+    here, there = (
+        [Fraction(each) - Fraction(centre) for each, centre in zip(point, body.center, strict=True)]
+        for point in (start, end)
+    )
+    low, high = (Fraction(-(10**9)), Fraction(10**9)) if body.height is None else (body.height.low, body.height.high)
+    times = {Fraction(0), Fraction(1)}
+    if here[2] != there[2]:
+        times |= {(Fraction(level) - here[2]) / (there[2] - here[2]) for level in (low, high)}
+    places = [
+        [a + time * (b - a) for a, b in zip(here, there, strict=True)] for time in sorted(times) if 0 <= time <= 1
+    ]
+    inside = [place for place in places if low <= place[2] <= high]
+    return (inside[0], inside[-1]) if inside else None
+
+
+def brute_force(scene, start, end, axis=None):
+    """The answer by the exact decision about every hyperboloid."""
+    parts = [modelled(body, start, end) for body in scene.hyperboloids]
+    if not any(parts):
+        return 2
+    return int(
+        any(
+            passage((body.alpha, body.gamma, scene.mover.b, scene.mover.d), *part, axis).hit
+            for body, part in zip(scene.hyperboloids, parts, strict=True)
+            if part
+        )
+    )
+
+
+def expected(scene, starts, ends, axis=None):
+    return [brute_force(scene, *way, axis) for way in zip(starts.tolist(), ends.tolist(), strict=True)]
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        forest(8, 1),
+        forest(6, 2, region=Region()),  # without end, so that each is always asked
+        forest(8, 3, Span(-0.5, 0.75), region=Region()),
+        forest(6, 4, Span(-0.5, 0.75), mover=Mover(1e-9, 2e-9)),  # much smaller than the trees
+    ],
+    ids=["forest", "no-region", "heights", "small"],
+)
+def test_ways_have_the_answer_that_all_hyperboloids_give(scene):
+    starts, ends = ways(40, 5)
+    found = Scene(scene).passage(starts, ends)
+    assert found.tolist() == expected(scene, starts, ends)
+    assert found.dtype == np.int8
+    assert len({*found.tolist()}) > 1
+
+
+def test_long_and_short_ways_in_one_call_are_answered_as_each_alone():
+    scene, (starts, ends) = Scene(forest(60, 6)), ways(40, 7)
+    ends = starts + (ends - starts) * np.repeat([1e-9, 1.0, 3.0, 1e3], 10)[:, None] * (1, 1, 0)
+    found = scene.passage(starts, ends)
+    assert found.tolist() == [int(scene.passage(*way)[0]) for way in zip(starts, ends, strict=True)]
+    assert found.tolist() == scene.passage(ends, starts).tolist()
+    looks = starts + np.linspace(0, 1, 65)[:, None, None] * (ends - starts)
+    seen = np.array([scene.classify(*places.T) == 0 for places in looks]).any(axis=0)
+    assert (found[seen] == 1).all()
+    assert 0 < seen.sum() < found.sum() < 40
+
+
+def test_a_mover_that_leans_keeps_its_axis():
+    axis = (1.0, 0.5, 2.0)
+    scene = forest(5, 8, mover=Mover(0.3, 0.9, axis=axis))
+    starts, ends = ways(16, 9)
+    assert Scene(scene).passage(starts, ends).tolist() == expected(scene, starts, ends, axis)
+
+
+TREE = Hyperboloid("tree", 2.0, 3.0)
+
+
+@pytest.mark.parametrize(("axis", "x", "hit"), [((1.0, 0.0, 0.0), 2.6, 1), ((0.0, 1.0, 0.0), 2.6, 0)])
+def test_a_mover_that_leans_is_as_wide_as_its_axis_makes_it(axis, x, hit):
+    scene = SceneModel("tree", "position", (TREE,), Mover(0.3, 0.9, axis=axis), Region(z=Span(-1, 1)))
+    assert Scene(scene).passage((x, -1.0, 0.0), (x, 1.0, 0.0)).tolist() == [hit]
+
+
+def test_the_rounding_of_a_difference_of_centres_makes_no_contact():
+    """3.1 − 0.1 is more than the float 3.0, at which the spheroid would touch."""
+    scene = Scene(SceneModel("tree", "position", (replace(TREE, center=(0.0, 0.1, 0.0)),), Mover(1.0, 1.0), Region()))
+    assert scene.passage((0.0, 5.0, 0.0), [(0.0, 3.1, 0.0), (0.0, 3.0999999999999996, 0.0)]).tolist() == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "hit"),
+    [
+        ((-4.0, 3.0, 0.0), (4.0, 3.0, 0.0), 1),  # touched for an instant
+        ((-4.0, 3.0000000000000004, 0.0), (4.0, 3.0000000000000004, 0.0), 0),
+        ((-1e200, 0.0, 0.0), (2.0, 0.0, 0.0), 1),
+        ((-1e160, 0.0, 0.0), (2.0, 0.0, 0.0), 1),
+        ((-20.0, 6.3, 9.0), (20.0, 6.3, 9.0), 1),  # above the region, where the tree is wider
+        ((-1e200, 4.0, 0.0), (1e200, 4.0, 0.0), 0),
+        ((1e200, 0.0, 0.0), (1.5e200, 0.0, 0.0), 0),
+        ((-1e9, 0.0, 0.0), (1e9, 5.0, 0.0), 1),
+        ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0),
+        ((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), 1),
+    ],
+)
+def test_exact_tangency_and_the_longest_ways_are_decided(start, end, hit):
+    for center in ((0.0, 0.0, 0.0), (0.0, 0.0, 0.1)):
+        trees = (replace(TREE, center=center),)
+        scene = SceneModel("tree", "exterior", trees, Mover(1.0, 1.0), Region(z=Span(-1, 1)))
+        up = (0.0, 0.0, center[2])
+        assert Scene(scene).passage(np.add(start, up), np.add(end, up)).tolist() == [hit]
+
+
+def test_no_tree_says_anything_beyond_its_height():
+    scene = Scene(SceneModel("tree", "contact", (replace(TREE, height=Span(-1.0, 1.0)),), Mover(1.0, 1.0), Region()))
+    through = [(2.0, 0.0, 2.0), (2.0, 0.0, 1.5)], [(2.0, 0.0, -2.0), (2.0, 0.0, 1.0000001)]
+    assert scene.passage(*through).tolist() == [1, 2]
+    assert scene.passage((9.0, 0.0, 2.0), (9.0, 0.0, 1.0)).tolist() == [0]
+    assert scene.passage((0.0, 0.0, 3.0), (0.0, 0.0, 1.0)).tolist() == [0]
+
+
+ROTORS = tuple(MoverPart(0.2, 0.1, 0.75, angle) for angle in (0.0, 180.0))
+
+
+def test_parts_are_asked_where_the_mover_has_contact():
+    body, mover = replace(TREE, alpha=0.5, gamma=4.0, height=Span(-2.0, 2.0)), Mover(1.0, 0.5, ROTORS)
+    scene = Scene(SceneModel("tree", "position", (body,), mover, Region()))
+    random = np.random.default_rng(10)
+    starts, ends = random.normal(size=(2, 40, 3)) * 0.8
+    headings = random.uniform(0, 360, 40)
+
+    def hit(start, end, heading):
+        ends = modelled(body, start, end)
+        if not ends or not passage((0.5, 4.0, 1.0, 0.5), *ends).hit:
+            return 0
+        said = set()
+        for part in ROTORS:
+            turn = radians(heading + part.angle)
+            moved = [(x + part.arm * cos(turn), y + part.arm * sin(turn), z) for x, y, z in (start, end)]
+            found = passage((0.5, 4.0, part.b, part.d), *modelled(body, *moved))
+            said.add(Position.CONTACT if found.hit else found.start)
+        return int(said not in ({Position.EXTERIOR}, {Position.INTERIOR}))
+
+    found = scene.passage(starts, ends, headings).tolist()
+    assert found == [hit(*way) for way in zip(starts.tolist(), ends.tolist(), headings.tolist(), strict=True)]
+    without = Scene(replace(scene.model, mover=Mover(1.0, 0.5))).passage(starts, ends).tolist()
+    assert sum(found) < sum(without)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            {"mover": Mover(1, 1, axis=FREE)},
+            "the scene leaves the mover's axis free; a way is decided where [mover] fixes it",
+        ),
+        (
+            {"hyperboloids": (TREE, replace(TREE, name="fir", axis=(1.0, 0.0, 1.0)))},
+            "the hyperboloid 'fir' leans; a way is decided only beside upright hyperboloids",
+        ),
+    ],
+)
+def test_what_leans_otherwise_is_refused_in_one_sentence(changes, said):
+    scene = SceneModel("tree", "position", (TREE,), Mover(1.0, 1.0), Region())
+    with pytest.raises(InputError) as caught:
+        Scene(replace(scene, **changes)).passage((0, 0, 0), (1, 0, 0))
+    assert str(caught.value) == said
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "said"),
+    [
+        ((0, 0), (1, 0, 0), "start is of shape (2,); it must be three numbers, x, y, z, or an array (n, 3) of them"),
+        ((0, 0, 0), [(1, 0, 0), (1, float("nan"), 0)], "row 1: y of the end is nan; it must be finite"),
+        ("way", (1, 0, 0), "start is 'way'; it must be three numbers, x, y, z, or an array (n, 3) of them"),
+    ],
+)
+def test_ends_that_are_no_points_are_refused_in_one_sentence(start, end, said):
+    scene = Scene(SceneModel("tree", "position", (TREE,), Mover(1.0, 1.0), Region()))
+    with pytest.raises(InputError) as caught:
+        scene.passage(start, end)
+    assert str(caught.value) == said
+
+
+def test_no_ways_have_no_answers():
+    scene = Scene(forest(3, 1))
+    assert scene.passage(np.empty((0, 3)), np.empty((0, 3))).tolist() == []
