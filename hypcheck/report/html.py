@@ -56,7 +56,7 @@ def html_text(words: Text) -> markupsafe.Markup:
         if explorer.can_be_drawn(words.row):
             drawn = explorer.small_picture(words.row)
             numbers = explorer.row_as_text(words.row)
-            return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, drawn)
+            return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, _trusted(drawn))
         return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
     if isinstance(words, (Strong, Emphasis)):
         tag = _TAGS[type(words)]

@@ -6,14 +6,16 @@ import sys
 
 
 def draw_nothing(patch):
-    """From here on, until `patch` is undone, matplotlib and jinja2 are not there."""
-    for name in ("matplotlib", "jinja2"):
+    """From here on, until `patch` is undone, matplotlib and jinja2 are not there, nor what jinja2 brings."""
+    for name in ("matplotlib", "jinja2", "markupsafe"):
         patch.setitem(sys.modules, name, None)
 
+
+MISSING = "matplotlib=None, jinja2=None, markupsafe=None"
 
 COMMAND = (
     sys.executable,
     "-c",
-    "import sys; sys.modules.update(matplotlib=None, jinja2=None)\nfrom hypcheck.cli.main import process\nprocess()",
+    f"import sys; sys.modules.update({MISSING})\nfrom hypcheck.cli.main import process\nprocess()",
 )
 """The command line in a process of its own that writes its reports in text alone."""
