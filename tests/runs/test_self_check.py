@@ -20,7 +20,7 @@ from hypcheck.runs import oracles, self_check
 from tests.support.shared_folders import made_once
 
 SMALL = ["--count", "6", "--workers", "1", "--families", "ring,tangent"]
-MORE = ["--count", "12", "--families", "ring,tangent,tower-body,regime-borders"]
+MORE = ["--count", "6", "--families", "ring,tangent,tower-body"]
 
 
 def ended(tmp_path, *options):

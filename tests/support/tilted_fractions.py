@@ -127,7 +127,7 @@ def remainder(poly, by):
 
 
 def between_roots(poly):
-    """A rational number in each gap between neighbouring real roots, and one beyond the first and the last."""
+    """A rational number in each gap between neighbouring real roots, none of them 0, and beyond the first and the last."""
     common, other = primitive(poly), primitive(derivative(poly))
     while any(other):
         common, other = other, remainder(common, other)
@@ -143,16 +143,30 @@ def between_roots(poly):
         signs = [each for each in (sign(one, at) for one in chain) if each]
         return -sum(a != b for a, b in pairwise(signs))
 
-    largest = max(abs(each) for each in free) // abs(free[-1])
-    bound = Fraction(1 << (1 + largest).bit_length())  # more than 1 + |each coefficient / the first|
-    found, open_parts = [-bound, bound], [(-bound, bound)]
-    while open_parts:
-        low, high = open_parts.pop()
+    largest, least = bound(free), 1 / bound(free[::-1])  # det S is not 0, and neither is a root
+    parts = [(-largest, -least), (least, largest)]
+    found = {below(at): at for part in parts for at in part}
+    while parts:
+        low, high = parts.pop()
         if below(high) - below(low) < 2:
             continue
-        middle = (low + high) / 2
+        middle = between(low, high)
         while sign(free, middle) == 0:
             middle = (low + middle) / 2
-        found.append(middle)
-        open_parts += [(low, middle), (middle, high)]
-    return sorted(found)
+        found[below(middle)] = middle
+        parts += [(low, middle), (middle, high)]
+    return sorted(found.values())
+
+
+def bound(poly):
+    """A power of two above the absolute value of every root: more than 1 + |each coefficient / the first|."""
+    largest = max(abs(each) for each in poly) // abs(poly[-1])
+    return Fraction(1 << (1 + largest).bit_length())
+
+
+def between(low, high):
+    """A number between two of one sign: a power of two where they are far apart, as the roots of stiff pairs are."""
+    one, other = (each.numerator.bit_length() - each.denominator.bit_length() for each in map(abs, (low, high)))
+    if abs(one - other) < 2:
+        return (low + high) / 2
+    return Fraction(2) ** ((one + other) // 2) * (-1 if low < 0 else 1)

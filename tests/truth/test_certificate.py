@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.certificate import Certificate, check_certificate
@@ -83,6 +83,7 @@ def test_a_position_given_as_a_bare_integer_is_that_position():
         check_certificate(inside, Certificate(7, multiplier=Fraction(-8)))
 
 
+@settings(max_examples=30)
 @given(pairs)
 def test_a_proof_of_one_position_proves_no_other(pair):
     certificate = prove(pair)
