@@ -127,7 +127,7 @@ def remainder(poly, by):
 
 
 def between_roots(poly):
-    """A rational number in each gap between neighbouring real roots, none of them 0, and beyond the first and the last."""
+    """A rational number between each two neighbouring real roots, of which none is 0, and beyond the first and last."""
     common, other = primitive(poly), primitive(derivative(poly))
     while any(other):
         common, other = other, remainder(common, other)

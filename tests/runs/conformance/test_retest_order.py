@@ -67,6 +67,7 @@ def test_small_batches_have_every_remainder_of_a_vector_length():
 
 @pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + MANY), (0.0, ALONE)])
 def test_implementation_is_asked_many_single_rows_until_the_time_for_them_is_over(monkeypatch, seconds, count):
+    monkeypatch.setattr(retest, "MANY", MANY)
     monkeypatch.setattr(retest, "MANY_S", seconds)
     assert sum(len(places) for places, batch in asked(LONGEST) if batch == 1) == count
 
