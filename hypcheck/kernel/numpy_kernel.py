@@ -116,7 +116,8 @@ def answer_scene(
 
 def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:  # noqa: ARG001
     """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike."""
-    start, end = positions(np.ascontiguousarray(rows[:, :7])), positions(rows[:, [0, 1, 2, 3, 7, 8, 9]])
+    axis = [*range(len(WAYS.upright), rows.shape[1])]
+    start, end = (positions(rows[:, [0, 1, 2, 3, *centre, *axis]]) for centre in ((4, 5, 6), (7, 8, 9)))
     hits = np.where((start == 0) | (start != end), 1, CANNOT_SAY).astype(np.int8)
     hits[invalid(rows, WAYS)] = REFUSED
     return hits, np.where((start == 0) & (hits == 1), 0.0, np.nan)

@@ -8,10 +8,9 @@ any time in [0, 1] is not below the least distance, and the one that is taken is
 
 **Whether contact is on it.** The kernel's answer about ways (core/parts/ways.h) is asked twice: about a spheroid that
 is larger, and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as in
-scene_pairs.py. Of a mover that leans, these are the balls of its longer and of its shorter semi-axis. The larger one
-clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences by
-truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is known. So is a way
-that may hit, and leaves the modelled height: of it the part at that height counts.
+scene_pairs.py. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
+exact differences by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is
+known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts.
 """
 
 from __future__ import annotations
@@ -94,22 +93,22 @@ def hits_beside(bodies: Bodies, body: Indices, mover: Mover, axis: Point | None,
     origins, shapes = bodies.origins[body], bodies.shapes[body]
     low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
     leaves = (low < bodies.heights[body, 0]) | (high > bodies.heights[body, 1])
-    longest, shortest = (mover.b, mover.d), (mover.b, mover.d)
+    radii, leaning = (mover.b, mover.d), np.empty((len(body), 0))
     if axis is not None:
-        longest, shortest = (max(longest),) * 2, (min(shortest),) * 2
+        leaning = np.broadcast_to(axis, (len(body), 3))
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
-        stretch = np.where(lost == 0, 0.0, lost / min(shortest) * (1 + MARGIN) + ROUNDED)
-        larger, smaller = np.outer(1 + stretch, longest), np.outer(1 - stretch, shortest)
+        stretch = np.where(lost == 0, 0.0, lost / min(radii) * (1 + MARGIN) + ROUNDED)
+        larger, smaller = np.outer(1 + stretch, radii), np.outer(1 - stretch, radii)
         fits = np.isfinite(start).all(axis=1) & np.isfinite(end).all(axis=1) & (lost < GREATEST)
         fits &= (smaller > LEAST).all(axis=1) & (larger < GREATEST).all(axis=1)
     hits = np.zeros(len(body), np.bool_)
     open_ways = ~fits
     asked = np.flatnonzero(fits)
-    said = kernel().answer_ways(np.concatenate([shapes, larger, start, end], axis=1)[asked])[0]
+    said = kernel().answer_ways(np.concatenate([shapes, larger, start, end, leaning], axis=1)[asked])[0]
     asked = asked[said != 0]
-    said = kernel().answer_ways(np.concatenate([shapes, smaller, start, end], axis=1)[asked])[0]
+    said = kernel().answer_ways(np.concatenate([shapes, smaller, start, end, leaning], axis=1)[asked])[0]
     hits[asked] = said == 1
     open_ways[asked] = (said != 1) | leaves[asked]
     for index in np.flatnonzero(open_ways).tolist():

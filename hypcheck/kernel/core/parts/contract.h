@@ -73,7 +73,7 @@ size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const doub
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
 
-/* Whether an upright spheroid whose centre goes straight from one place to another meets contact, both ends included: rows
+/* Whether a spheroid whose centre goes straight from one place to another meets contact, both ends included: rows
    of 10 doubles, alpha, gamma, b, d, the centre at the start and at the end. A hit is
 
        1  contact somewhere on the way    0  clear all along    2  the bounds do not tell    127  the row is invalid
@@ -81,9 +81,11 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
    and 1 and 0 are exact. 2 is said of ways that graze the surface, or end in tangency, and of sizes beyond 2^±100 and
    coordinates beyond 2^150; hypcheck.passage of Python decides these. `times` may be NULL; else it gets a time from 0 to
    1 for each hit: before it the way is clear, and at it there is contact of the spheroid with b and d larger by
-   2^-45 (1 + S), S being the sum of |x| and |y| in units of b and of |z| in units of d, of both ends. NaN where there is
-   no hit, or where the bounds do not tell when. */
+   2^-43 (1 + S), S being the sum of |x| and |y| in units of b and of |z| in units of d, of both ends; all are in units of
+   the smaller of b and d where the axis leans. NaN where there is no hit, or where the bounds do not tell when. Rows of 13
+   have axis_x, axis_y, axis_z behind these, which stay the same on the way. */
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
+void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
 /* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
    hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */

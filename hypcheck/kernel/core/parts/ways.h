@@ -1,40 +1,60 @@
-/* ---- straight ways of upright spheroids ---- */
+/* ---- straight ways ---- */
 
 #define HC_WAY_STEPS 128
 #define HC_SHORTEST 7.1054273576010019e-15 /* 2^-47: a shorter step says that steps come to nothing here */
 #define HC_FARTHEST_WAY 1.4272476927059599e+45 /* 2^150, limit of coordinates: R and T stay below the cap */
 #define HC_GREATEST_SLACK 0.25
-#define HC_SEEN 16 /* slacks by which a spheroid grown has contact at the time that is called its first */
+#define HC_SEEN 64 /* slacks by which a spheroid grown has contact at the time that is called its first */
 
 /* A way from a float centre: `change` is the rounded difference of both ends. At a computed centre, and along `change`
    from there up to the end of the way, the exact centre lies within `slack` of the computed one, in radii. For each
    coordinate the change is rounded once, and so are its product with the time and the sum: each by u (|from| + |to|) at
    most, up to second order, which makes 3u (1 + 4u) (|from| + |to|). slack = 4u (1 + the sum of these in radii), with
-   the rest for its own rounding and that of b (1 + slack) and b (1 - slack). */
+   the rest for its own rounding and that of b (1 + slack) and b (1 - slack). Where the axis leans, the smaller of b and d
+   is the radius. */
 typedef struct {
     double sizes[4], from[3], change[3], slack;
-    double v; /* where the multiplier was found last */
+    double v;           /* where the multiplier was found last */
+    const double *axis; /* NULL where it is vertical */
+    hc_tilted_scene poles; /* of the spheroid larger by the slack, where it leans, as the basis is */
+    hc_ball basis[3][3], along[3];
 } hc_way;
 
+/* The components of a place in the basis. */
+static void hc_components(hc_ball components[3], hc_ball basis[3][3], const double place[3]) {
+    int i, k;
+    for (i = 0; i < 3; i++) {
+        components[i] = hc_times(basis[i][0], hc_exactly(place[0]));
+        for (k = 1; k < 3; k++) components[i] = hc_plus(components[i], hc_times(basis[i][k], hc_exactly(place[k])));
+    }
+}
+
 /* Returns 0 where the numbers are too large or small for the bounds. */
-static int hc_make_way(hc_way *way, const double row[10]) {
-    double sum = 0;
+static int hc_make_way(hc_way *way, const double row[10], const double *axis) {
+    const double least = row[2] < row[3] ? row[2] : row[3];
+    double sum = 0, larger[4];
     int k;
     for (k = 0; k < 4; k++) {
         way->sizes[k] = row[k];
         if (!(row[k] > HC_least_size && row[k] < HC_greatest_size)) return 0;
     }
     for (k = 0; k < 3; k++) {
-        const double from = row[4 + k], to = row[7 + k];
-        const double reach = hc_size(from) + hc_size(to);
+        const double from = row[4 + k], to = row[7 + k], reach = hc_size(from) + hc_size(to);
         if (!(reach < HC_FARTHEST_WAY)) return 0;
         way->from[k] = from;
         way->change[k] = to - from;
-        sum += reach / row[k == 2 ? 3 : 2];
+        sum += reach / (axis ? least : row[k == 2 ? 3 : 2]);
     }
     way->slack = HC_u_4 * (1 + sum);
     way->v = 0;
-    return HC_FLOATS_DECIDE && way->slack < HC_GREATEST_SLACK;
+    way->axis = axis;
+    if (!(HC_FLOATS_DECIDE && way->slack < HC_GREATEST_SLACK)) return 0;
+    if (axis) {
+        for (k = 0; k < 4; k++) larger[k] = k < 2 ? row[k] : row[k] * (1 + way->slack);
+        hc_basis(&way->poles, way->basis, larger, axis);
+        hc_components(way->along, way->basis, way->change);
+    }
+    return 1;
 }
 
 /* The spheroid at a time, b and d multiplied. */
@@ -44,11 +64,23 @@ static void hc_way_at(const hc_way *way, double time, double scale, double row[7
     for (k = 0; k < 3; k++) row[4 + k] = way->from[k] + time * way->change[k];
 }
 
-/* Contact of the spheroid less its slack at the computed centre is contact of the spheroid at the exact one. */
-static int hc_way_touches(const hc_way *way, double time) {
+/* The exact position of a valid row of seven, with an axis if it leans. */
+static int hc_position_with(const double row[7], const double *axis) {
+    double ten[10];
+    hc_bits found;
+    if (!axis) return hc_position_of(row);
+    memcpy(ten, row, 7 * sizeof *row);
+    memcpy(ten + 7, axis, 3 * sizeof *axis);
+    found = hc_tilted_plain(ten, 1, 1);
+    return HC_FLOATS_DECIDE && found.decided ? (int)found.plus - (int)found.minus : hc_exact_tilted_position(ten);
+}
+
+/* Whether the spheroid, b and d multiplied, has contact at a computed centre. With less than its slack that is contact of
+   the spheroid itself at the exact centre. */
+static int hc_way_touches(const hc_way *way, double time, double scale) {
     double row[7];
-    hc_way_at(way, time, 1 - way->slack, row);
-    return hc_position_of(row) == 0;
+    hc_way_at(way, time, scale, row);
+    return hc_position_with(row, way->axis) == 0;
 }
 
 /* About the multiplier at which a half plane of that side lies farthest from a centre of height Q: the root of
@@ -90,11 +122,12 @@ static void hc_tangent_high(const double sizes[4], double mu, hc_line *line) {
 /* A number below the first root of here + 2 slope s + bend s², here > 0; 2 where there is none in [0, 1]. The root is
    here/(√D - slope), D = slope² - here bend. D is off by 3u of its terms' sizes at most, hence 4u; Heron's step is not
    below the root of what it is asked, but for its 4 roundings. What underflows in D is below 2^-1020, so 2^-500 covers it;
-   that costs nothing, for here is a difference of numbers above 2^-349 and so at least 2^-402. */
+   that costs nothing where `here` is not below 2^-402; it is 0 or more than that beside half planes. */
 static double hc_way_root(double here, double slope, double bend) {
     const double square = slope * slope, product = here * bend, size = hc_size(product);
     const double most = square - product + HC_u_4 * (square + size);
     double root = 3.0549363634996047e-151 /* 2^-500 */, bottom;
+    if (!(here > 9.6817414919811262e-122 /* 2^-402 */)) return 0;
     if (most < 0) return 2;
     if (most > 1e-290) {
         const double rough = hc_rough_root(most);
@@ -104,6 +137,61 @@ static double hc_way_root(double here, double slope, double bend) {
     return bottom > 0 && here < 2 * bottom ? here / bottom * HC_less : 2;
 }
 
+/* The same for a spheroid that leans: the m at which side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l), l = side m, is
+   greatest: P1 (m/(A1+l))² + P2 (m/(A2+l))² + Q (m/(B-l))² = 1, which rises with m, m = pole v/(1 + v). */
+static double hc_leaning_multiplier(const hc_way *way, const hc_ball at[3], int side, double *before) {
+    const double poles[3] = {way->poles.A1.v, way->poles.A2.v, way->poles.B.v};
+    const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
+    double low = 0, high = 1 / HC_settled, v = *before > 0 && *before < high ? *before : 1;
+    int i, k;
+    for (i = 0; i < 48; i++) {
+        const double inverse = 1 / (1 + v), m = pole * v * inverse;
+        double off = -1, rise = 0, moved;
+        for (k = 0; k < 3; k++) {
+            const double from = 1 / (poles[k] + (k < 2 ? side : -side) * m), part = m * from * at[k].v * at[k].v;
+            off += part * m * from;
+            rise += 2 * part * poles[k] * from * from * pole * inverse * inverse;
+        }
+        if (off > 0) high = v;
+        else low = v;
+        moved = v - off / rise;
+        if (!(moved > low && moved < high)) moved = low > 0 && high > 4 * low ? hc_rough_root(low * high) : 0.5 * (low + high);
+        if (hc_size(moved - v) < HC_settled * HC_settled * v) break;
+        v = moved;
+    }
+    *before = v;
+    return side * pole * v / (1 + v);
+}
+
+/* As hc_way_reach, for a spheroid that leans. With l fixed, side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l) > 0 proves the
+   side, and is quadratic along the way; numbers with bounds compute it. */
+static double hc_leaning_reach(hc_way *way, const double place[3], int position) {
+    const hc_ball *const poles[3] = {&way->poles.A1, &way->poles.A2, &way->poles.B};
+    const hc_ball one = hc_exactly(1), nothing = hc_exactly(0);
+    hc_ball at[3], sums[3], l;
+    double lower[3];
+    int i, k;
+    hc_components(at, way->basis, place);
+    l = hc_exactly(hc_leaning_multiplier(way, at, position, &way->v));
+    sums[0] = hc_minus(nothing, hc_plus(one, hc_over(one, l)));
+    sums[1] = sums[2] = nothing;
+    for (i = 0; i < 3; i++) {
+        const hc_ball from = i < 2 ? hc_plus(*poles[i], l) : hc_minus(*poles[i], l), weight = hc_over(one, from);
+        const hc_ball here = hc_times(at[i], at[i]), slope = hc_times(at[i], way->along[i]);
+        const hc_ball parts[3] = {here, slope, hc_times(way->along[i], way->along[i])};
+        if (!(hc_at_least(from) > 0)) return 0;
+        for (k = 0; k < 3; k++) {
+            const hc_ball part = hc_times(parts[k], weight);
+            sums[k] = i < 2 ? hc_plus(sums[k], part) : hc_minus(sums[k], part);
+        }
+    }
+    for (k = 0; k < 3; k++) {
+        lower[k] = hc_at_least(position > 0 ? sums[k] : hc_minus(nothing, sums[k]));
+        if (!(hc_size(lower[k]) < HC_cap)) return 0; /* as where nothing is known */
+    }
+    return position * l.v > 0 ? hc_way_root(lower[0], lower[1], lower[2]) : 0;
+}
+
 /* How far from a time the spheroid is proved to stay on that side: a part of the whole way, 2 to its end, 0 where
    nothing is proved. */
 static double hc_way_reach(hc_way *way, double time, int position) {
@@ -111,6 +199,7 @@ static double hc_way_reach(hc_way *way, double time, int position) {
     double row[7];
     hc_line half_plane;
     hc_way_at(way, time, 1 + way->slack, row);
+    if (way->axis) return hc_leaning_reach(way, row + 4, position);
     {
         const double a = row[0] / row[2], c = row[1] / row[3], q = row[6] / row[3];
         const double at = hc_way_multiplier(a * a, c * c, q * q, position, &way->v);
@@ -125,7 +214,7 @@ static double hc_way_reach(hc_way *way, double time, int position) {
         /* printed from the program "piece" */
         @PIECE@
         /* end of the program "piece" */
-        return size < HC_cap && here > 0 ? hc_way_root(here, slope, bend) : 0;
+        return size < HC_cap ? hc_way_root(here, slope, bend) : 0;
     }
 }
 
@@ -133,58 +222,68 @@ static double hc_way_reach(hc_way *way, double time, int position) {
 static double hc_way_look(const hc_way *way, double time, double contact) {
     double ahead;
     for (ahead = HC_SHORTEST; time + ahead < contact && time + ahead < 1; ahead *= 8)
-        if (hc_way_touches(way, time + ahead)) return time + ahead;
+        if (hc_way_touches(way, time + ahead, 1 - way->slack)) return time + ahead;
     return contact;
 }
 
-/* Whether the spheroid, a few slacks larger, has contact at a time. */
-static int hc_way_is_met(const hc_way *way, double time) {
-    double row[7];
-    hc_way_at(way, time, 1 + HC_SEEN * way->slack, row);
-    return hc_position_of(row) == 0;
-}
-
-/* 1, 0, or 2 where the bounds do not tell, for a valid row; the time is NULL where it is not wanted. */
-static int hc_passage_of(const double row[10], double *time) {
+/* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it leans; the time is NULL where it is not
+   wanted. */
+static int hc_passage_of(const double row[10], const double *axis, double *time) {
     double end_row[7], contact, now = 0;
     int start, end, step;
     hc_way way;
     memcpy(end_row, row, 4 * sizeof *row);
     memcpy(end_row + 4, row + 7, 3 * sizeof *row);
-    start = hc_position_of(row);
-    end = hc_position_of(end_row);
+    start = hc_position_with(row, axis);
+    end = hc_position_with(end_row, axis);
     if (start == 0) {
         if (time) *time = 0;
         return 1;
     }
     contact = end == start ? 2 : 1; /* a time of contact, 2 while none is known: between unlike positions there is one */
     if (contact < 2 && !time) return 1;
-    if (!hc_make_way(&way, row)) return contact < 2 ? 1 : 2;
+    if (!hc_make_way(&way, row, axis)) return contact < 2 ? 1 : 2;
     for (step = 0; step < HC_WAY_STEPS; step++) {
         const double reach = hc_way_reach(&way, now, start);
         if (reach * HC_less >= 1 - now) return 0;
         if (!(reach > HC_SHORTEST)) break;
         now += reach - 2 * HC_u_4; /* rounding adds 2^-52 at most */
-        if (now + 0.5 * reach < contact && now + 0.5 * reach < 1 && hc_way_touches(&way, now + 0.5 * reach)) {
+        if (now + 0.5 * reach < contact && now + 0.5 * reach < 1 && hc_way_touches(&way, now + 0.5 * reach, 1 - way.slack)) {
             contact = now + 0.5 * reach;
             if (!time) return 1;
         }
     }
     if (contact == 2) contact = hc_way_look(&way, now, contact);
     if (contact == 2) return 2;
-    if (time && hc_way_is_met(&way, now)) *time = now;
+    if (time && hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
     return 1;
 }
 
-void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times) {
-    const uint64_t nan_bits = (uint64_t)0x7ff8 << 48;
+/* The rows of a question about ways, 10 or 13 numbers each. */
+static void hc_passages(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
+    const double nan = hc_nothing_known();
     size_t i;
     for (i = 0; i < n; i++) {
-        const double *const row = rows10 + 10 * i;
-        double end[7];
-        if (times) memcpy(times + i, &nan_bits, sizeof nan_bits);
+        const double *const row = rows + width * i;
+        double start[10] = {0}, end[7], *const axis = start + 7;
+        int valid = 1, leans = 0;
+        memcpy(start, row, 7 * sizeof *row);
         memcpy(end, row, 4 * sizeof *row);
         memcpy(end + 4, row + 7, 3 * sizeof *row);
-        hits[i] = (int8_t)(hc_valid(row) && hc_valid(end) ? hc_passage_of(row, times ? times + i : NULL) : 127);
+        if (times) times[i] = nan;
+        if (width > 10) {
+            memcpy(axis, row + 10, 3 * sizeof *row);
+            valid = hc_has_direction(axis);
+            leans = valid && !hc_is_upright(start);
+            if (leans) hc_scale_axis(axis);
+        }
+        valid = valid && hc_valid(start) && hc_valid(end);
+        hits[i] = (int8_t)(valid ? hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL) : 127);
     }
+}
+
+void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times) { hc_passages(n, 10, rows10, hits, times); }
+
+void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times) {
+    hc_passages(n, 13, rows13, hits, times);
 }
