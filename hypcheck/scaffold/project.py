@@ -126,6 +126,7 @@ LONGEST_NAME = 64
 
 _IGNORED = "gitignore"
 _PLACE = re.compile(r"@([A-Z]+)@")
+_MARK = re.compile(rf"@({'|'.join(STUBS)}|end)@\n")
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +173,7 @@ class Project:
     def filled(self, folder: str, name: str) -> str:
         """A template with the values of @NAME@ and the like; that of the stub if it has one of its own."""
         own = f"{folder}-{self.stub}"
-        return filled(own if template(own, name).is_file() else folder, name, self._values)
+        return filled(own if template(own, name).is_file() else folder, name, self._values, self.stub)
 
     @property
     def _values(self) -> Mapping[str, str]:
@@ -188,10 +189,19 @@ class Project:
         }
 
 
-def filled(folder: str, name: str, values: Mapping[str, str]) -> str:
-    """The text of a template, with these values for its places."""
-    text = template(folder, name).read_text(encoding="utf-8")
-    return _PLACE.sub(lambda place: values[place[1]], text)
+def filled(folder: str, name: str, values: Mapping[str, str], stub: str = STUBS[0]) -> str:
+    """The text of a template for a stub, with these values for its places.
+
+    Lines after @position@ or @passage@, to the next of these or to @end@, are for that stub alone.
+    """
+    wanted, kept = True, []
+    for line in template(folder, name).read_text(encoding="utf-8").splitlines(keepends=True):
+        mark = _MARK.fullmatch(line)
+        if mark is None and wanted:
+            kept.append(line)
+        elif mark is not None:
+            wanted = mark[1] in (stub, "end")
+    return _PLACE.sub(lambda place: values[place[1]], "".join(kept))
 
 
 def template(folder: str, name: str) -> Traversable:

@@ -15,7 +15,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.scaffold import project as languages
-from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, Project, safe_name
+from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, STUBS, Project, safe_name
 from hypcheck.scaffold.repository import shared_files
 
 if sys.version_info >= (3, 11):
@@ -86,6 +86,22 @@ def test_the_stub_says_in_its_file_that_it_is_a_stub(language, tmp_path):
     written = every_file(tmp_path, language, "engine")
     saying = [path for path, text in written.items() if "Replace this with your predicate" in text]
     assert saying == [f"{language.folder}/{language.predicate}"]
+
+
+def test_an_adapter_for_each_question_is_the_one_template_without_the_other_part(language):
+    marks = re.compile(r"@(position|passage|end)@\n")
+    for name in language.files:
+        text = files("hypcheck.scaffold").joinpath("templates", language.name, *name.split("/")).read_text()
+        found = marks.findall(text)
+        if name == language.predicate or not found:
+            continue
+        assert re.fullmatch("(P?W?E)*", "".join({"position": "P", "passage": "W", "end": "E"}[each] for each in found))
+        assert "end" in found
+        one, other = (Project(language, "x", stub).filled(language.name, name).splitlines() for stub in STUBS)
+        assert one != other
+        shared = [line for line in marks.split(text)[0].splitlines() if "@" not in line]
+        assert all(line in one and line in other for line in shared)
+        assert len(one) + len(other) > 1.3 * len(text.splitlines())  # most lines are of both
 
 
 def test_every_folder_of_templates_is_a_language():

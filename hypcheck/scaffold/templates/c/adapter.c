@@ -18,10 +18,15 @@
 #include <io.h>
 #endif
 
+@position@
 enum { MOST_COLUMNS = 10, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
+@passage@
+enum { MOST_COLUMNS = 13, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
+@end@
 
 static double rows[MOST * MOST_COLUMNS];
 static unsigned char bytes[MOST * MOST_COLUMNS * 8];
+@position@
 static int8_t positions[MOST];
 
 /* Whether the predicate claims "tilt":true, and the numbers of a row then. */
@@ -29,6 +34,16 @@ static bool tilt;
 static size_t columns = 7;
 
 static void classify(size_t n) { (tilt ? hypcheck_classify_tilted : hypcheck_classify)(n, rows, positions); }
+@passage@
+static int8_t hits[MOST];
+static double first[MOST];
+
+/* Whether the predicate claims "tilt":true and "times":true, and the numbers of a row. */
+static bool tilt, times;
+static size_t columns = 10;
+
+static void classify(size_t n) { (tilt ? hypcheck_passage_tilted : hypcheck_passage)(n, rows, hits, times ? first : NULL); }
+@end@
 
 /* The next line, false at the end of the input. One that is too long to mean anything becomes empty. */
 static bool read_line(char line[LINE]) {
@@ -62,6 +77,14 @@ static double little_endian(const unsigned char *byte) {
     return value;
 }
 
+@passage@
+static void write_little_endian(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; i++) putchar((int)(bits >> (8 * i) & 255));
+}
+
+@end@
 /* Both read the n rows of a question, and return false where these are none. */
 static bool read_text(size_t n) {
     bool understood = true;
@@ -80,10 +103,21 @@ static bool read_binary(size_t n) {
 
 /* Each reads the rest of a question and replies, or returns what is wrong. */
 static const char *classify_text(const char *sequence, size_t n) {
+@position@
     if (!read_text(n)) return tilt ? "a row is not ten decimals" : "a row is not seven decimals";
+@passage@
+    if (!read_text(n)) return tilt ? "a row is not thirteen decimals" : "a row is not ten decimals";
+@end@
     classify(n);
     printf("%s %zu\n", sequence, n);
+@position@
     for (size_t i = 0; i < n; i++) printf("%d\n", positions[i]);
+@passage@
+    for (size_t i = 0; i < n; i++) {
+        if (times && hits[i] == 1) printf("1 %.17g\n", first[i]);
+        else printf("%d\n", hits[i]);
+    }
+@end@
     return NULL;
 }
 
@@ -91,7 +125,12 @@ static const char *classify_binary(const char *sequence, size_t n) {
     if (!read_binary(n)) return "the input ended within the rows";
     classify(n);
     printf("%s %zu\n", sequence, n);
+@position@
     fwrite(positions, 1, n, stdout);
+@passage@
+    fwrite(hits, 1, n, stdout);
+    for (size_t i = 0; times && i < n; i++) write_little_endian(first[i]);
+@end@
     return NULL;
 }
 
@@ -103,15 +142,25 @@ static const char *time_binary(const char *sequence, size_t n, unsigned long rep
     clock_gettime(CLOCK_MONOTONIC, &stop);
     long long nanoseconds = (stop.tv_sec - start.tv_sec) * 1000000000LL + (stop.tv_nsec - start.tv_nsec);
     long checksum = 0;
+@position@
     for (size_t i = 0; i < n; i++) checksum += positions[i];
+@passage@
+    for (size_t i = 0; i < n; i++) checksum += hits[i];
+@end@
     printf("%s %lld %ld\n", sequence, nanoseconds, checksum);
     return NULL;
 }
 
+@position@
 /* Whether the rows come in this form: text or binary, or tilted-text or tilted-binary. */
 static bool comes_as(const char *how, const char *form) {
     if (!tilt) return strcmp(how, form) == 0;
     return strncmp(how, "tilted-", 7) == 0 && strcmp(how + 7, form) == 0;
+@passage@
+/* Whether the rows come in this form: passage-text or passage-binary. */
+static bool comes_as(const char *how, const char *form) {
+    return strncmp(how, "passage-", 8) == 0 && strcmp(how + 8, form) == 0;
+@end@
 }
 
 /* The widths keep numbers from overflowing (-1 is read as the greatest), and `more` is what may not follow. */
@@ -135,6 +184,9 @@ int main(void) {
     _setmode(_fileno(stdout), _O_BINARY);
 #endif
     tilt = strstr(hypcheck_describe(), "\"tilt\":true") != NULL;
+@passage@
+    times = strstr(hypcheck_describe(), "\"times\":true") != NULL;
+@end@
     if (tilt) columns = MOST_COLUMNS;
     puts(hypcheck_describe());
     fflush(stdout);

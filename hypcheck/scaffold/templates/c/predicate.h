@@ -8,10 +8,18 @@
 /* What the predicate claims, as one line of JSON. */
 const char *hypcheck_describe(void);
 
+@position@
 /* Answers n rows of alpha, gamma, b, d, x, y, z. */
 void hypcheck_classify(size_t n, const double *rows, int8_t *positions);
 
 /* Answers n rows of alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, if the predicate claims "tilt":true. */
 void hypcheck_classify_tilted(size_t n, const double *rows, int8_t *positions);
+@passage@
+/* Answers n rows of alpha, gamma, b, d, x0, y0, z0, x1, y1, z1; times may be a null pointer, and is NaN without a hit. */
+void hypcheck_passage(size_t n, const double *rows, int8_t *hits, double *times);
+
+/* Answers n rows with axis_x, axis_y, axis_z behind, if the predicate claims "tilt":true. */
+void hypcheck_passage_tilted(size_t n, const double *rows, int8_t *hits, double *times);
+@end@
 
 #endif

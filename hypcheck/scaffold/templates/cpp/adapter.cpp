@@ -25,11 +25,20 @@ namespace {
 
 constexpr std::size_t most = 65536;
 
+@position@
 // Whether the predicate claims "tilt":true, and the numbers of a row then.
 const bool tilt = std::strstr(hypcheck_describe(), R"("tilt":true)") != nullptr;
 const std::size_t columns = tilt ? 10 : 7;
 const char *const no_row = tilt ? "a row is not ten decimals" : "a row is not seven decimals";
 const std::string text_form = tilt ? "tilted-text" : "text", binary_form = tilt ? "tilted-binary" : "binary";
+@passage@
+// Whether the predicate claims "tilt":true and "times":true, and the numbers of a row.
+const bool tilt = std::strstr(hypcheck_describe(), R"("tilt":true)") != nullptr;
+const bool times = std::strstr(hypcheck_describe(), R"("times":true)") != nullptr;
+const std::size_t columns = tilt ? 13 : 10;
+const char *const no_row = tilt ? "a row is not thirteen decimals" : "a row is not ten decimals";
+const std::string text_form = "passage-text", binary_form = "passage-binary";
+@end@
 
 using Rows = std::vector<double>;
 using Words = std::vector<std::string>;
@@ -90,14 +99,42 @@ Rows read_binary(std::size_t n) {
     return rows;
 }
 
+@position@
 void ask(std::size_t n, const Rows &rows, std::vector<std::int8_t> &positions) {
     (tilt ? hypcheck_classify_tilted : hypcheck_classify)(n, rows.data(), positions.data());
+@passage@
+struct Answers {
+    std::vector<std::int8_t> hits;
+    std::vector<double> first;
+    explicit Answers(std::size_t n) : hits(n), first(times ? n : 0) {}
+};
+
+void ask(std::size_t n, const Rows &rows, Answers &answers) {
+    double *first = times ? answers.first.data() : nullptr;
+    (tilt ? hypcheck_passage_tilted : hypcheck_passage)(n, rows.data(), answers.hits.data(), first);
+}
+
+void write_little_endian(double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; i++) std::cout.put(static_cast<char>(bits >> (8 * i) & 255));
+}
+
+void write_lines(const Answers &answers) {
+    std::cout.precision(17);
+    for (std::size_t i = 0; i < answers.hits.size(); i++) {
+        std::cout << int(answers.hits[i]);
+        if (times && answers.hits[i] == 1) std::cout << ' ' << answers.first[i];
+        std::cout << '\n';
+    }
+@end@
 }
 
 void classify(const Words &words) {
     const std::size_t n = parse_count(words[2], 0, most);
     const bool text = words[3] == text_form;
     const Rows rows = text ? read_text(n) : read_binary(n);
+@position@
     std::vector<std::int8_t> positions(n);
     ask(n, rows, positions);
     std::cout << words[1] << ' ' << n << '\n';
@@ -105,6 +142,14 @@ void classify(const Words &words) {
         for (const int position : positions) std::cout << position << '\n';
     else
         std::cout.write(reinterpret_cast<const char *>(positions.data()), static_cast<std::streamsize>(n));
+@passage@
+    Answers answers(n);
+    ask(n, rows, answers);
+    std::cout << words[1] << ' ' << n << '\n';
+    if (text) return write_lines(answers);
+    std::cout.write(reinterpret_cast<const char *>(answers.hits.data()), static_cast<std::streamsize>(n));
+    for (const double time : answers.first) write_little_endian(time);
+@end@
 }
 
 void time(const Words &words) {
@@ -112,11 +157,19 @@ void time(const Words &words) {
     const std::size_t n = parse_count(words[2], 0, most);
     const std::size_t repeat = parse_count(words[3], 1, 999999999);
     const Rows rows = read_binary(n);
+@position@
     std::vector<std::int8_t> positions(n);
     const auto start = Clock::now();
     for (std::size_t i = 0; i < repeat; i++) ask(n, rows, positions);
     const auto took = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
     const long checksum = std::accumulate(positions.begin(), positions.end(), 0L);
+@passage@
+    Answers answers(n);
+    const auto start = Clock::now();
+    for (std::size_t i = 0; i < repeat; i++) ask(n, rows, answers);
+    const auto took = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
+    const long checksum = std::accumulate(answers.hits.begin(), answers.hits.end(), 0L);
+@end@
     std::cout << words[1] << ' ' << took.count() << ' ' << checksum << '\n';
 }
 

@@ -19,27 +19,49 @@ import (
 )
 
 const (
+@position@
 	mostColumns = 10
+@passage@
+	mostColumns = 13
+@end@
 	most        = 65536
 )
 
+@position@
 // row holds alpha, gamma, b, d, x, y, z, and the axis if the predicate claims "tilt":true.
+@passage@
+// row holds alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, and the axis if the predicate claims "tilt":true.
+@end@
 type row [mostColumns]float64
 
 var (
 	tilt        = strings.Contains(description, `"tilt":true`)
+@position@
 	columns     = 7
 	textForm    = "text"
 	binaryForm  = "binary"
 	errQuestion = errors.New("the question is not understood")
 	errRow      = errors.New("a row is not seven decimals")
+@passage@
+	times       = strings.Contains(description, `"times":true`)
+	columns     = 10
+	textForm    = "passage-text"
+	binaryForm  = "passage-binary"
+	errQuestion = errors.New("the question is not understood")
+	errRow      = errors.New("a row is not ten decimals")
+@end@
 	errEnd      = errors.New("the input ended within the rows")
 )
 
 func init() {
 	if tilt {
+@position@
 		columns, textForm, binaryForm = mostColumns, "tilted-text", "tilted-binary"
 		errRow = errors.New("a row is not ten decimals")
+@passage@
+		columns = mostColumns
+		errRow = errors.New("a row is not thirteen decimals")
+@end@
 	}
 }
 
@@ -85,16 +107,30 @@ func readBinary(input io.Reader, n int) ([]row, error) {
 	return rows, nil
 }
 
+@position@
 func positions(rows []row, answers []int8) {
+@passage@
+// passages writes the times of first contact, negative where there is none.
+func passages(rows []row, first []float64) {
+@end@
 	for i, r := range rows {
 		if tilt {
+@position@
 			answers[i] = tilted(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9])
+@passage@
+			first[i] = tilted(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10], r[11], r[12])
+@end@
 			continue
 		}
+@position@
 		answers[i] = predicate(r[0], r[1], r[2], r[3], r[4], r[5], r[6])
+@passage@
+		first[i] = predicate(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9])
+@end@
 	}
 }
 
+@position@
 func classify(sequence string, rows []row, text bool) []byte {
 	answers := make([]int8, len(rows))
 	positions(rows, answers)
@@ -104,21 +140,61 @@ func classify(sequence string, rows []row, text bool) []byte {
 			reply = append(strconv.AppendInt(reply, int64(answer), 10), '\n')
 		} else {
 			reply = append(reply, byte(answer))
+@passage@
+func hit(time float64) int {
+	if time >= 0 {
+		return 1
+	}
+	return 0
+}
+
+func classify(sequence string, rows []row, text bool) []byte {
+	first := make([]float64, len(rows))
+	passages(rows, first)
+	reply := []byte(fmt.Sprintf("%s %d\n", sequence, len(rows)))
+	for _, time := range first {
+		if !text {
+			reply = append(reply, byte(hit(time)))
+			continue
+		}
+		reply = strconv.AppendInt(reply, int64(hit(time)), 10)
+		if times && hit(time) == 1 {
+			reply = strconv.AppendFloat(append(reply, ' '), time, 'g', -1, 64)
+		}
+		reply = append(reply, '\n')
+	}
+	if times && !text {
+		for _, time := range first {
+			reply = binary.LittleEndian.AppendUint64(reply, math.Float64bits(time))
+@end@
 		}
 	}
 	return reply
 }
 
 func timed(sequence string, rows []row, repeat int) []byte {
+@position@
 	answers := make([]int8, len(rows))
+@passage@
+	first := make([]float64, len(rows))
+@end@
 	start := time.Now()
 	for i := 0; i < repeat; i++ {
+@position@
 		positions(rows, answers)
+@passage@
+		passages(rows, first)
+@end@
 	}
 	took := time.Since(start)
 	checksum := 0
+@position@
 	for _, answer := range answers {
 		checksum += int(answer)
+@passage@
+	for _, time := range first {
+		checksum += hit(time)
+@end@
 	}
 	return []byte(fmt.Sprintf("%s %d %d\n", sequence, took.Nanoseconds(), checksum))
 }

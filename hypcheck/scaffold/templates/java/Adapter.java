@@ -18,11 +18,20 @@ import java.util.StringTokenizer;
  */
 final class Adapter {
     private static final boolean TILT = Predicate.DESCRIPTION.contains("\"tilt\":true");
+@position@
     private static final int COLUMNS = TILT ? 10 : 7;
     private static final String TILTED = TILT ? "tilted-" : "";
+@passage@
+    private static final boolean TIMES = Predicate.DESCRIPTION.contains("\"times\":true");
+    private static final int COLUMNS = TILT ? 13 : 10;
+@end@
     private static final int MOST = 65536;
     private static final String NOT_UNDERSTOOD = "the question is not understood";
+@position@
     private static final String NO_ROW = TILT ? "a row is not ten decimals" : "a row is not seven decimals";
+@passage@
+    private static final String NO_ROW = TILT ? "a row is not thirteen decimals" : "a row is not ten decimals";
+@end@
 
     private final InputStream input = new BufferedInputStream(System.in, 1 << 16);
     private final OutputStream output = new BufferedOutputStream(System.out, 1 << 16);
@@ -60,17 +69,30 @@ final class Adapter {
         long sequence = number(words[1], 0, Long.MAX_VALUE);
         int n = (int) number(words[2], 0, MOST);
         String form = words[0] + " " + words[words.length - 1];
+@position@
         if (words.length == 4 && form.equals("classify " + TILTED + "text")) {
             StringBuilder reply = new StringBuilder(sequence + " " + n + "\n");
             for (byte answer : classify(readText(n))) {
                 reply.append(answer).append('\n');
+@passage@
+        if (words.length == 4 && form.equals("classify passage-text")) {
+            StringBuilder reply = new StringBuilder(sequence + " " + n + "\n");
+            for (double first : classify(readText(n))) {
+                reply.append(hit(first)).append(TIMES && hit(first) == 1 ? " " + first : "").append('\n');
+@end@
             }
             write(reply.toString());
+@position@
         } else if (words.length == 4 && form.equals("classify " + TILTED + "binary")) {
             byte[] answers = classify(readBinary(n));
             write(sequence + " " + n + "\n");
             output.write(answers);
         } else if (words.length == 5 && form.equals("time " + TILTED + "binary")) {
+@passage@
+        } else if (words.length == 4 && form.equals("classify passage-binary")) {
+            writeBinary(sequence, classify(readBinary(n)));
+        } else if (words.length == 5 && form.equals("time passage-binary")) {
+@end@
             int repeat = (int) number(words[3], 1, 999_999_999);
             write(sequence + " " + time(readBinary(n), repeat) + "\n");
         } else {
@@ -78,37 +100,92 @@ final class Adapter {
         }
     }
 
+@position@
     private static byte[] classify(double[] rows) {
         byte[] answers = new byte[rows.length / COLUMNS];
         classify(rows, answers);
         return answers;
+@passage@
+    private void writeBinary(long sequence, double[] times) throws IOException {
+        ByteBuffer reply = ByteBuffer.allocate(times.length * (TIMES ? 9 : 1)).order(ByteOrder.LITTLE_ENDIAN);
+        for (double first : times) {
+            reply.put(hit(first));
+        }
+        if (TIMES) {
+            reply.asDoubleBuffer().put(times);
+        }
+        write(sequence + " " + times.length + "\n");
+        output.write(reply.array());
+@end@
     }
 
+@position@
     private static void classify(double[] rows, byte[] answers) {
         for (int i = 0, k = 0; i < answers.length; i++, k += COLUMNS) {
             answers[i] = (byte) (TILT ? tilted(rows, k) : upright(rows, k));
+@passage@
+    private static byte hit(double first) {
+        return (byte) (first >= 0 ? 1 : 0);
+    }
+
+    /** The times of first contact, negative where there is none. */
+    private static double[] classify(double[] rows) {
+        double[] times = new double[rows.length / COLUMNS];
+        classify(rows, times);
+        return times;
+    }
+
+    private static void classify(double[] rows, double[] times) {
+        for (int i = 0, k = 0; i < times.length; i++, k += COLUMNS) {
+            times[i] = TILT ? tilted(rows, k) : upright(rows, k);
+@end@
         }
     }
 
+@position@
     private static int upright(double[] r, int k) {
         return Predicate.predicate(r[k], r[k + 1], r[k + 2], r[k + 3], r[k + 4], r[k + 5], r[k + 6]);
     }
 
     private static int tilted(double[] r, int k) {
         return Predicate.tilted(
+@passage@
+    private static double upright(double[] r, int k) {
+        return Predicate.predicate(
+@end@
                 r[k], r[k + 1], r[k + 2], r[k + 3], r[k + 4], r[k + 5], r[k + 6], r[k + 7], r[k + 8], r[k + 9]);
     }
 
+@position@
     private static String time(double[] rows, int repeat) {
         byte[] answers = new byte[rows.length / COLUMNS];
+@passage@
+    private static double tilted(double[] r, int k) {
+        return Predicate.tilted(
+                r[k], r[k + 1], r[k + 2], r[k + 3], r[k + 4], r[k + 5], r[k + 6], r[k + 7], r[k + 8], r[k + 9],
+                r[k + 10], r[k + 11], r[k + 12]);
+    }
+
+    private static String time(double[] rows, int repeat) {
+        double[] times = new double[rows.length / COLUMNS];
+@end@
         long start = System.nanoTime();
         for (int i = 0; i < repeat; i++) {
+@position@
             classify(rows, answers);
+@passage@
+            classify(rows, times);
+@end@
         }
         long took = System.nanoTime() - start;
         long checksum = 0;
+@position@
         for (byte answer : answers) {
             checksum += answer;
+@passage@
+        for (double first : times) {
+            checksum += hit(first);
+@end@
         }
         return took + " " + checksum;
     }

@@ -8,11 +8,20 @@ import * as asked from "./predicate.mjs"; // whole: one that takes no tilt needs
 const { description, predicate, tilted } = asked;
 
 const TILT = description.tilt === true;
+@position@
 const COLUMNS = TILT ? 10 : 7;
 const TILTED = TILT ? "tilted-" : "";
+@passage@
+const TIMES = description.times === true;
+const COLUMNS = TILT ? 13 : 10;
+@end@
 const MOST = 65536;
 const NOT_UNDERSTOOD = "the question is not understood";
+@position@
 const NO_ROW = TILT ? "a row is not ten decimals" : "a row is not seven decimals";
+@passage@
+const NO_ROW = TILT ? "a row is not thirteen decimals" : "a row is not ten decimals";
+@end@
 const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // Number alone would read "" as 0 and 0x10 as 16
 const SPECIAL = { nan: NaN, inf: Infinity, "-inf": -Infinity };
 
@@ -85,6 +94,7 @@ async function readBinary(n) {
   return rows;
 }
 
+@position@
 function classify(rows, answers) {
   for (let i = 0, at = 0; i < answers.length; i++, at += COLUMNS) {
     answers[i] = TILT
@@ -92,13 +102,42 @@ function classify(rows, answers) {
       : predicate(rows[at], rows[at + 1], rows[at + 2], rows[at + 3], rows[at + 4], rows[at + 5], rows[at + 6]);
   }
   return answers;
+@passage@
+/** Times of first contact, negative where there is none. */
+function classify(rows, first) {
+  for (let i = 0, at = 0; i < first.length; i++, at += COLUMNS) {
+    first[i] = (TILT ? tilted : predicate)(...rows.subarray(at, at + COLUMNS));
+  }
+  return first;
+@end@
 }
 
+@position@
 function time(rows, answers, repeat) {
   const start = process.hrtime.bigint();
   for (let i = 0; i < repeat; i++) classify(rows, answers);
   const nanoseconds = process.hrtime.bigint() - start;
   return `${nanoseconds} ${answers.reduce((sum, answer) => sum + answer, 0)}`;
+@passage@
+const hit = (first) => (first >= 0 ? 1 : 0);
+
+function inText(first) {
+  return Array.from(first, (time) => (TIMES && hit(time) ? `1 ${time}\n` : `${hit(time)}\n`)).join("");
+}
+
+function inBinary(first) {
+  const bytes = Buffer.alloc(first.length * (TIMES ? 9 : 1));
+  first.forEach((time, i) => bytes.writeInt8(hit(time), i));
+  if (TIMES) first.forEach((time, i) => bytes.writeDoubleLE(time, first.length + 8 * i));
+  return bytes;
+}
+
+function time(rows, first, repeat) {
+  const start = process.hrtime.bigint();
+  for (let i = 0; i < repeat; i++) classify(rows, first);
+  const nanoseconds = process.hrtime.bigint() - start;
+  return `${nanoseconds} ${first.reduce((sum, time) => sum + hit(time), 0)}`;
+@end@
 }
 
 /** A whole number in digits alone, from least to greatest. */
@@ -113,6 +152,7 @@ async function answer(line) {
   const [verb, sequence, size, ...rest] = line.trim().split(/\s+/);
   if (!/^\d{1,19}$/.test(sequence)) throw new Trouble(NOT_UNDERSTOOD);
   const n = count(size, 0, MOST);
+@position@
   const answers = new Int8Array(n);
   const form = `${verb} ${rest.at(-1)} ${rest.length}`;
   if (form === `classify ${TILTED}text 1`) {
@@ -124,6 +164,19 @@ async function answer(line) {
   if (form === `time ${TILTED}binary 2`) {
     const repeat = count(rest[0], 1, 999999999);
     return [`${sequence} ${time(await readBinary(n), answers, repeat)}\n`];
+@passage@
+  const first = new Float64Array(n);
+  const form = `${verb} ${rest.at(-1)} ${rest.length}`;
+  if (form === "classify passage-text 1") {
+    return [`${sequence} ${n}\n`, inText(classify(await readText(n), first))];
+  }
+  if (form === "classify passage-binary 1") {
+    return [`${sequence} ${n}\n`, inBinary(classify(await readBinary(n), first))];
+  }
+  if (form === "time passage-binary 2") {
+    const repeat = count(rest[0], 1, 999999999);
+    return [`${sequence} ${time(await readBinary(n), first, repeat)}\n`];
+@end@
   }
   throw new Trouble(NOT_UNDERSTOOD);
 }

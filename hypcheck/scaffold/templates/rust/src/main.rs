@@ -14,13 +14,22 @@ use std::time::Instant;
 const MOST: usize = 65536;
 const NOT_UNDERSTOOD: &str = "the question is not understood";
 
+@position@
 /// What the predicate claims of its rows: how many numbers they have, and what stands before their form.
+@passage@
+/// What the predicate claims: how many numbers its rows have, and whether it gives times.
+@end@
 #[derive(Clone, Copy)]
 struct Rows {
     columns: usize,
+@position@
     tilted: &'static str,
+@passage@
+    times: bool,
+@end@
     none: &'static str,
 }
+@position@
 
 const UPRIGHT: Rows = Rows {
     columns: 7,
@@ -32,6 +41,7 @@ const TILTED: Rows = Rows {
     tilted: "tilted-",
     none: "a row is not ten decimals",
 };
+@end@
 
 /// The next line, None at the end of the input.
 fn read_line(input: &mut impl BufRead) -> io::Result<Option<String>> {
@@ -70,37 +80,82 @@ fn read_binary(input: &mut impl Read, n: usize, form: Rows) -> Result<Vec<f64>, 
     Ok(bytes.chunks_exact(8).map(number).collect())
 }
 
+@position@
 fn positions(rows: &[f64], form: Rows) -> Vec<i8> {
     let rows = rows.chunks_exact(form.columns);
     if form.columns == 7 {
         rows.map(|row| predicate::predicate(row.try_into().expect("a row is seven numbers")))
+@passage@
+/// The times of first contact, negative where there is none.
+fn passages(rows: &[f64], form: Rows) -> Vec<f64> {
+    let rows = rows.chunks_exact(form.columns);
+    if form.columns == 10 {
+        rows.map(|row| predicate::predicate(row.try_into().expect("a row is ten numbers")))
+@end@
             .collect()
     } else {
+@position@
         rows.map(|row| predicate::tilted(row.try_into().expect("a row is ten numbers")))
+@passage@
+        rows.map(|row| predicate::tilted(row.try_into().expect("a row is thirteen numbers")))
+@end@
             .collect()
     }
 }
 
+@passage@
+fn hit(first: f64) -> u8 {
+    u8::from(first >= 0.0)
+}
+
+@end@
 fn classify(sequence: u64, rows: &[f64], form: Rows, text: bool) -> Vec<u8> {
     let mut reply = format!("{sequence} {}\n", rows.len() / form.columns).into_bytes();
+@position@
     for position in positions(rows, form) {
         if text {
             reply.extend(format!("{position}\n").bytes());
         } else {
             reply.push(position as u8);
         }
+@passage@
+    let times = passages(rows, form);
+    for &first in &times {
+        if !text {
+            reply.push(hit(first));
+        } else if form.times && hit(first) == 1 {
+            reply.extend(format!("1 {first:?}\n").bytes());
+        } else {
+            reply.extend(format!("{}\n", hit(first)).bytes());
+        }
+    }
+    if form.times && !text {
+        reply.extend(times.iter().flat_map(|first| first.to_le_bytes()));
+@end@
     }
     reply
 }
 
 fn time(sequence: u64, rows: &[f64], form: Rows, repeat: usize) -> Vec<u8> {
+@position@
     let mut answers = Vec::new();
+@passage@
+    let mut times = Vec::new();
+@end@
     let start = Instant::now();
     for _ in 0..repeat {
+@position@
         answers = black_box(positions(black_box(rows), form));
+@passage@
+        times = black_box(passages(black_box(rows), form));
+@end@
     }
     let nanoseconds = start.elapsed().as_nanos();
+@position@
     let checksum: i64 = answers.into_iter().map(i64::from).sum();
+@passage@
+    let checksum: i64 = times.into_iter().map(|first| i64::from(hit(first))).sum();
+@end@
     format!("{sequence} {nanoseconds} {checksum}\n").into_bytes()
 }
 
@@ -117,7 +172,11 @@ fn answer(line: &str, input: &mut impl BufRead, form: Rows) -> Result<Vec<u8>, S
     };
     let sequence: u64 = sequence.parse().map_err(|_| NOT_UNDERSTOOD)?;
     let n = count(n, 0..=MOST)?;
+@position@
     let how = rest.last().and_then(|how| how.strip_prefix(form.tilted));
+@passage@
+    let how = rest.last().and_then(|how| how.strip_prefix("passage-"));
+@end@
     match (*verb, rest, how) {
         ("classify", [_], Some("text")) => {
             Ok(classify(sequence, &read_text(input, n, form)?, form, true))
@@ -140,7 +199,19 @@ fn main() -> io::Result<()> {
     let mut input = BufReader::with_capacity(1 << 16, io::stdin().lock());
     let mut output = BufWriter::new(io::stdout().lock());
     let tilt = predicate::DESCRIPTION.contains(r#""tilt":true"#);
+@position@
     let form = if tilt { TILTED } else { UPRIGHT };
+@passage@
+    let form = Rows {
+        columns: if tilt { 13 } else { 10 },
+        times: predicate::DESCRIPTION.contains(r#""times":true"#),
+        none: if tilt {
+            "a row is not thirteen decimals"
+        } else {
+            "a row is not ten decimals"
+        },
+    };
+@end@
     writeln!(output, "{}", predicate::DESCRIPTION)?;
     output.flush()?;
     while let Some(line) = read_line(&mut input)? {
