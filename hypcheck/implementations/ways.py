@@ -7,8 +7,6 @@ float64 (n,), NaN where it sees no contact.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -146,7 +144,8 @@ def certified(rows: Rows) -> NDArray[np.int8]:
     return hits
 
 
-def rough_exponent(row: Rows) -> float:
-    """log2 of how far the size of a spheroid is from the one with which contact begins on its way, roughly."""
-    off = abs(float(least_distances(row)[0]) - 1)
-    return math.log2(off) if 0 < off < math.inf else (math.inf if off else -math.inf)
+def rough_exponents(rows: Rows) -> Floats:
+    """log2 of how far the sizes of spheroids are from those with which contact begins on their ways, roughly: (n,)."""
+    off = np.abs(least_distances(rows) - 1)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.where(np.isnan(off), -np.inf, np.log2(off)))

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import UPRIGHT
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Floats, Indices, Mask, Positions, Rows
-from hypcheck.implementations.ways import rough_exponent
+from hypcheck.implementations.ways import rough_exponents
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.truth import passage_error
 from hypcheck.truth.swept import Passage
@@ -26,6 +26,8 @@ from hypcheck.truth.swept import Passage
 Row = tuple[float, ...]
 
 _REMEMBERED = 1 << 16
+_TOGETHER = 256
+"""Wrong answers whose size errors are estimated at a time."""
 
 CLEAR, HIT = 0, 1
 LABELS = {CLEAR: "clear on the way", HIT: "in contact on the way"}
@@ -65,12 +67,15 @@ class PassageJudge:
         self, rows: Rows, answers: NDArray[np.int8], times: Floats | None, wrong: Indices, criterion: Criterion
     ) -> Iterator[WrongCase]:
         """The wrong answers at these indices, judged in order."""
-        for index in wrong.tolist():
-            row, answer = tuple(rows[index].tolist()), int(answers[index])
-            if passage_of(row).hit == bool(answer) and times is not None:
-                yield _wrong_time(index, row, float(times[index]))
-            else:
-                yield _wrong_hit(index, row, answer, criterion)
+        for start in range(0, len(wrong), _TOGETHER):
+            part = wrong[start : start + _TOGETHER]
+            some = np.ascontiguousarray(rows[part])
+            for index, each, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
+                row, answer = tuple(each), int(answers[index])
+                if passage_of(row).hit == bool(answer) and times is not None:
+                    yield _wrong_time(index, row, float(times[index]))
+                else:
+                    yield _wrong_hit(index, row, answer, criterion, near)
 
     def measured(self, case: WrongCase, criterion: Criterion) -> float:  # noqa: ARG002 - the same in all
         """The size error of a wrong answer, to 1 %: a lower end unless it is tolerated; of a wrong time, radii."""
@@ -136,9 +141,9 @@ def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
     return WrongCase(index, row, HIT, HIT, mistake, Status.WRONG, exponent, time)
 
 
-def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion) -> WrongCase:
+def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: float) -> WrongCase:
     change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
     within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
     mistake = Mistake.FALSE_CONTACT if answer else Mistake.FALSE_CLEAR
     status = Status.TOLERATED if within else Status.WRONG
-    return WrongCase(index, row, 1 - answer, answer, mistake, status, rough_exponent(np.array([row])))
+    return WrongCase(index, row, 1 - answer, answer, mistake, status, near)

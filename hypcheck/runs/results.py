@@ -6,6 +6,7 @@ sent, stored, and merged with others in any order.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -215,8 +216,12 @@ def _excused(case: WrongCase, name: str, family: str, rules: JudgingRules) -> tu
     """The case, EXCUSED if known failures cover it, and the numbers of these."""
     if case.status is not Status.WRONG or not rules.known:
         return case, []
-    error_u = judge.in_units(judge_of(rules.criterion.question).measured(case, rules.criterion), rules.criterion.unit)
-    covering = [number for number, entry in enumerate(rules.known) if entry.covers(name, family, error_u)]
+    naming = [(number, entry) for number, entry in enumerate(rules.known) if entry.names(name, family)]
+    error_u = 0.0
+    if any(entry.max_u < math.inf for _, entry in naming):  # to measure takes a thousand times as long as to judge
+        measured = judge_of(rules.criterion.question).measured(case, rules.criterion)
+        error_u = judge.in_units(measured, rules.criterion.unit)
+    covering = [number for number, entry in naming if error_u <= entry.max_u]
     return (replace(case, status=Status.EXCUSED) if covering else case), covering
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -118,6 +120,20 @@ def test_a_hit_without_a_time_from_0_to_1_is_no_answer(words):
         answered = it.classify(some)
     assert (~answered.answered).astype(int).tolist() == hits
     assert answered.reasons[hits.index(1)] == "it answered 1 with the time nan; it must be a number from 0 to 1"
+
+
+def test_the_conversation_about_ways_in_the_protocol_is_right():
+    text = (Path(__file__).parents[2] / "docs" / "protocol.md").read_text(encoding="utf-8")
+    (said,) = re.findall(r"((?:^    [→←] .*\n)*)", text[text.index("    → classify 1 2 passage-text") :], re.MULTILINE)[
+        :1
+    ]
+    lines = [line[6:] for line in said.splitlines()]
+    ways = np.array([line.split() for line in lines[1:3]], dtype=np.float64)
+    hits, times = truth(ways)
+    assert lines[3:6] == ["1 2", f"1 {times[0]!r}", "0"]
+    assert hits == [1, 0]
+    bits = [np.uint64(int(word, 16)).view(np.float64) for word in re.findall("[0-9a-f]{16}", lines[7] + lines[9])]
+    assert bits == [*ways[0], times[0]]
 
 
 def test_rows_of_another_width_are_refused():

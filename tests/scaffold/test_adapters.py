@@ -305,7 +305,7 @@ def test_the_adapter_ends_quietly_at_any_end_of_input(built, spec, left):
 @commands
 def test_the_example_in_docs_protocol_is_what_the_adapter_says(built, spec):
     said, shown = [], []
-    for line in PROTOCOL.read_text(encoding="utf-8").splitlines():
+    for line in PROTOCOL.read_text(encoding="utf-8").partition("## Lines")[0].splitlines():
         if line.startswith(("    → ", "    ← ")):
             (said if line[4] == "→" else shown).append(raw(line[6:]))
     heard = built.talk(spec, b"".join(said))

@@ -25,9 +25,10 @@ MODULES = (
     "refusals",
     "extremes",
     "tilted",
+    "passages",
     "correct",
 )
-"""Small modules, each with one kind of mistake; the last with none. In tilted there are right ones too."""
+"""Small modules, each with one kind of mistake; the last with none. In tilted and passages there are right ones too."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs import judge, results
 from hypcheck.runs.judge import Criterion
+from hypcheck.truth import passage_error
 from tests.support.without_drawing import draw_nothing
 from tests.tools.mutants.collection import Mutant
 from tests.tools.mutants.expectation import Options
@@ -115,6 +116,8 @@ _KEPT = (
     (judge, "flip_exponents", _remembered),
     (judge, "_judged", _judged_before),
     (results, "cases_of_chunk", lru_cache(maxsize=256)(results.cases_of_chunk)),
+    (passage_error, "is_tolerated", lru_cache(maxsize=1 << 16)(passage_error.is_tolerated)),
+    (passage_error, "size_error", lru_cache(maxsize=1 << 16)(passage_error.size_error)),
 )
 """What costs most of a run and does not depend on the implementation: where it stands, and what stands in for it."""
 

@@ -21,8 +21,6 @@ from tests.tools.mutants.gating import Result, Ruling, gate
 HERE = Path(__file__).parent
 PAGE = HERE / "README.md"
 MACHINERY = {"__init__", "__main__", "collection", "dual", "exactly", "expectation", "gating", "table", "test_mutants"}
-ELSEWHERE = {"passages"}
-"""Implementations of another question, judged in tests/runs/test_passages.py."""
 BY_NAME = {mutant.name: mutant for mutant in mutants()}
 
 SAMPLE = {
@@ -44,6 +42,9 @@ SAMPLE = {
     "refusals.forgets_nan": "axis",
     "tilted.transposed_rotation": "tilted-uniform",
     "tilted.kernel": "tilted-uniform,uniform",
+    "passages.late_times": "way-still",
+    "passages.ring_is_contact": "way-ring",
+    "passages.exact_from_above": "way-short",
     "correct.whole_numbers": "ring,tangent,waist,osculation",
     "correct.dual_form_in_float32": "ring,tangent,tiny-spheroids",
     "correct.procedure_1_mended": "ring,regime-borders",
@@ -73,7 +74,7 @@ def test_what_the_mutants_of_matrices_are_made_of_is_right_away_from_contact():
 
 
 def test_every_module_of_the_folder_is_in_the_collection():
-    assert {path.stem for path in HERE.glob("*.py")} - MACHINERY - ELSEWHERE == set(MODULES)
+    assert {path.stem for path in HERE.glob("*.py")} - MACHINERY == set(MODULES)
     assert len(set(MODULES)) == len(MODULES)
 
 
@@ -94,10 +95,12 @@ def test_mutants_are_enough_and_have_different_names():
 
 def test_every_answer_has_the_length_of_the_question():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
+    way = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0, 4.0, 0.5, 3.0]])
     for name, mutant in BY_NAME.items():
-        asked = with_axis(row) if mutant.module == "tilted" else row.copy()
+        asked = {"tilted": with_axis(row), "passages": way}.get(mutant.module, row).copy()
         answers = getattr(imported(mutant.module), mutant.function)(asked)
-        assert np.asarray(answers).shape == (1,), name
+        for each in answers if mutant.module == "passages" else (answers,):
+            assert np.asarray(each).shape == (1,), name
 
 
 def test_page_of_the_mutants_lists_this_collection():
