@@ -20,6 +20,7 @@ from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import groupby
 
 from sympy import QQ, Poly, symbols
 
@@ -177,17 +178,18 @@ def told(first):
     return "no time" if first is None else f"t = {float(first[0])!r} … {float(first[1])!r}"
 
 
-def frozen_ways():
+def frozen_ways(names=frozen.WAY_NAMES):
     """What the files say."""
-    for name in frozen.WAY_NAMES:
+    for name in names:
         for case in frozen.load_ways(name).cases:
             yield Said(case.id, case.row, case.first and tuple(map(Fraction, case.first)))
 
 
-def generated_ways(count, seed):
+def generated_ways(count, seed, names=frozen.WAY_NAMES):
     """What hypcheck.passage says of so many ways, those of each family in turn."""
-    share = -(-count // len(WAY_FAMILIES))
-    for name, family in WAY_FAMILIES.items():
+    share = -(-count // len(names))
+    for name in names:
+        family = WAY_FAMILIES[name]
         for number, row in enumerate(family.rows(seed, share).tolist()):
             found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
             yield Said(f"{name}/{family.version}/{seed}/{number}", tuple(row), found.first)
@@ -205,31 +207,40 @@ def main(arguments=None):
     parser.add_argument("--rows", type=int, help="generated ways; without it the frozen ones")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=64, help="times on a way, and before its first contact")
+    parser.add_argument("--families", default=",".join(frozen.WAY_NAMES), help="names, with commas between")
     parser.add_argument("--jobs", type=int, default=1)
     asked = parser.parse_args(arguments)
-    ways = list(frozen_ways() if asked.rows is None else generated_ways(asked.rows, asked.seed))
+    names = asked.families.split(",")
+    ways = list(frozen_ways(names) if asked.rows is None else generated_ways(asked.rows, asked.seed, names))
     with ProcessPoolExecutor(asked.jobs) as pool:
         return compared(ways, pool.map(faults, ways, [asked.samples] * len(ways), chunksize=8))
 
 
 def compared(ways, results):
-    """Print each disagreement as it comes, then a table, and return the status."""
-    total, hits, undecided, disagreed = Counter(), Counter(), Counter(), 0
-    for said, found in zip(ways, results, strict=True):
-        family = said.name.partition("/")[0] if "/" in said.name else said.name.rpartition("-")[0]
-        total[family] += 1
-        hits[family] += said.first is not None
-        undecided[family] += found is None
-        for each in found or ():
-            tell(f"{said.name}: {each}; row {','.join(map(repr, said.row))}")
-        disagreed += bool(found)
-    for family in total:
-        tell(f"{family:26} {total[family]:6} ways, {hits[family]:6} with contact, {undecided[family]:4} undecided")
-    tell(
-        f"{total.total()} ways, {hits.total()} with contact: {undecided.total()} left undecided by the discriminant, "
-        f"{disagreed} disagreements"
-    )
+    """Print each disagreement as it comes, each family as it is done, and return the status."""
+    total, disagreed = Counter(), 0
+    for family, some in groupby(zip(ways, results, strict=True), key=lambda each: family_of(each[0])):
+        counted = Counter()
+        for said, found in some:
+            counted.update(ways=1, hits=said.first is not None, undecided=found is None)
+            disagreed += bool(found)
+            for each in found or ():
+                tell(f"{said.name}: {each}; row {','.join(map(repr, said.row))}")
+        tell(f"{family:26} {table_line(counted)}")
+        total += counted
+    tell(f"{'together':26} {table_line(total)}, {disagreed} disagreements")
     return 1 if disagreed else 0
+
+
+def family_of(said):
+    """The family of a way, frozen or generated."""
+    return said.name.partition("/")[0] if "/" in said.name else said.name.rpartition("-")[0]
+
+
+def table_line(counted):
+    """Counts in words."""
+    ways, hits, undecided = (counted[name] for name in ("ways", "hits", "undecided"))
+    return f"{ways:6} ways, {hits:6} with contact, {undecided:4} left undecided by the discriminant"
 
 
 if __name__ == "__main__":
