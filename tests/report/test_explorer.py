@@ -1,4 +1,4 @@
-"""The explorer: its exact answers, formulas, clearance and roots by node; its page in a real browser.
+"""The explorer's exact answers, formulas, clearance and roots, by node; test_browser.py has its page.
 
 HYPCHECK_EXPLORER is the number of rows; 10000 take a minute.
 """
@@ -28,7 +28,7 @@ from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest_exact import nearest
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
-from tests.report import browser, page_checks, record_samples
+from tests.report import record_samples
 
 FEW = 400
 ROWS = int(os.environ.get("HYPCHECK_EXPLORER", FEW))
@@ -128,90 +128,6 @@ def test_the_roots_of_the_explorer_are_those_of_g(found):
         wanted = np.roots([1, *map(float, (c2, c1, c0))])
         for root in map(float, each["roots"]):
             assert np.abs(wanted - root).min() <= 1e-6 * np.abs(wanted).max(), row
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with browser.opened() as window:
-        yield window
-
-
-@pytest.fixture
-def visit(chromium, tmp_path):
-    """The explorer as a page of its own."""
-    path = tmp_path / "explorer.html"
-    path.write_bytes(html.explorer_page())
-    return chromium.visit(path)
-
-
-def said(visit):
-    return visit.page.locator(".said").inner_text()
-
-
-def numbers(visit):
-    return [float(visit.page.locator(f"#explorer-{name}").input_value()) for name in COLUMNS]
-
-
-def test_the_explorer_is_quiet_readable_and_named_for_a_screen_reader(visit):
-    assert "Exact answer: exterior. Clearance: 0.5 spheroid radii. On the ring" in said(visit)
-    unnamed = "all => all.filter(each => !each.labels.length && !each.ariaLabel).map(each => each.outerHTML)"
-    assert visit.page.locator("input").evaluate_all(unnamed) == []
-    assert visit.page.locator("input").count() == 11
-    assert visit.page.get_by_role("application", name="The two bodies in the half plane (r, z)").count() == 1
-    assert visit.page.locator(".said").get_attribute("aria-live") == "polite"
-    assert page_checks.unreachable(visit) == []
-    for scheme in ("light", "dark"):
-        visit.page.emulate_media(color_scheme=scheme)
-        assert page_checks.faint(visit) == []
-    visit.page.set_viewport_size({"width": 360, "height": 800})
-    assert page_checks.overflowing(visit) == []
-    assert page_checks.quiet(visit) == []
-
-
-def test_keys_sliders_and_buttons_of_the_explorer_move_the_bodies(visit):
-    picture = visit.page.locator(".half-plane")
-    for key, place, change in (("ArrowRight", 4, 1), ("ArrowLeft", 4, -1), ("ArrowUp", 6, 1), ("ArrowDown", 6, -1)):
-        before = numbers(visit)[place]
-        picture.press(key)
-        moved = numbers(visit)[place] - before
-        assert moved * change > 0, key
-        picture.press(f"Shift+{key}")
-        assert 0 < (numbers(visit)[place] - before - moved) / moved < 0.02, key
-    visit.page.get_by_label("α, radius of the waist, slider").fill("0.3")
-    assert numbers(visit)[0] == 2.0
-    assert "contact" in said(visit)
-    visit.page.get_by_label("γ, height where the radius is α√2", exact=True).fill("8")
-    visit.page.get_by_role("button", name="Go to the ring").click()
-    assert numbers(visit)[4:] == [pytest.approx(math.sqrt(65 * (4 + 64) / 64)), 0, 0]
-    assert "Exact answer: exterior" in said(visit)
-    visit.page.get_by_label("γ, height where the radius is α√2", exact=True).fill("1")
-    assert visit.page.get_by_role("button", name="Go to the ring").is_disabled()
-
-
-def test_a_pointer_drags_the_centre_of_the_explorer(visit):
-    box = visit.page.locator(".half-plane").bounding_box()
-    visit.page.mouse.move(box["x"] + box["width"] * 0.6, box["y"] + box["height"] * 0.5)
-    visit.page.mouse.down()
-    visit.page.mouse.move(box["x"] + box["width"] * 0.3, box["y"] + box["height"] * 0.3, steps=3)
-    visit.page.mouse.up()
-    moved = numbers(visit)
-    assert "Exact answer: contact" in said(visit)
-    assert moved[6] > 0.5
-    visit.page.mouse.move(box["x"] + box["width"] * 0.9, box["y"] + box["height"] * 0.5)
-    assert numbers(visit) == moved
-    ellipse, edge = (visit.page.locator(f".half-plane {name}").bounding_box() for name in ("ellipse", ".center"))
-    assert ellipse["x"] + ellipse["width"] / 2 == pytest.approx(edge["x"] + edge["width"] / 2, abs=1)
-
-
-def test_the_explorer_refuses_what_is_no_size_in_a_sentence(visit):
-    field = visit.page.get_by_label("b, semi-axis across", exact=True)
-    field.fill("-1")
-    assert "b, semi-axis across must be a number greater than 0 of float64." in said(visit)
-    assert field.get_attribute("aria-invalid") == "true"
-    field.fill("1e-160")
-    assert field.get_attribute("aria-invalid") is None
-    assert "Exact answer: exterior" in said(visit)
-    assert page_checks.quiet(visit) == []
 
 
 def test_only_valid_rows_of_upright_spheroids_at_rest_are_drawn():

@@ -484,7 +484,7 @@ function explored(place) {
     update();
     origin.textContent = `Case ${name}.`;
     place.scrollIntoView();
-    picture.focus();
+    picture.focus({ preventScroll: true });
   }
 
   COLUMNS.forEach((name) => fields[name].addEventListener("input", () => typed(name)));
