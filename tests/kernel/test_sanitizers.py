@@ -48,7 +48,7 @@ static int check(size_t n, const double *rows, int8_t *answers) {
 int main(void) {
     static const char *const levels[] = {"avx512", "avx2", "sse2", "plain"};
     size_t capacity = 1 << 20, n = 0, level;
-    double *all = (double *)malloc(7 * sizeof(double) * capacity), *rows;
+    double *all = (double *)malloc(7 * sizeof(double) * capacity), *rows, *times;
     int8_t *answers;
     while (fread(all + 7 * n, 7 * sizeof(double), 1, stdin) == 1) n++;
     rows = (double *)malloc(7 * sizeof(double) * n);
@@ -59,7 +59,11 @@ int main(void) {
         if (!check(n, rows, answers)) return 1;
         fwrite(answers, 1, n, stdout);
     }
-    free(all), free(rows), free(answers);
+    times = (double *)malloc(n * sizeof(double)); /* the same numbers as ways, which are longer rows */
+    hypcheck_passage(7 * n / 10, rows, answers, times);
+    hypcheck_passage_tilted(7 * n / 13, rows, answers, times);
+    hypcheck_passage_tilted(7 * n / 13, rows, answers, NULL);
+    free(all), free(rows), free(answers), free(times);
     return 0;
 }
 """
