@@ -4,7 +4,7 @@
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
     hypcheck.passage((alpha, gamma, b, d), start, end, axis=None) -> .hit, .first_lower, .first_upper
-    hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,)
+    hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,); .passage(start, end) -> int8 (n,)
     hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
 
 They are loaded when first used; all but position and passage load numpy.
