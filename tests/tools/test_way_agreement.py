@@ -37,7 +37,7 @@ def test_roots_in_time_and_samples_confirm_a_frozen_way(name):
 def test_roots_in_time_and_samples_confirm_generated_ways(capsys):
     ways = list(islice(generated_ways(22, 5), 2))
     assert compared(ways, [faults(each, 4) for each in ways]) == 0
-    assert "way-anywhere                    2 ways, " in capsys.readouterr().out
+    assert "together                        2 ways, " in capsys.readouterr().out
 
 
 def test_answers_that_are_wrong_are_seen(capsys):
