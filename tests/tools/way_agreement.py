@@ -15,6 +15,7 @@ Each disagreement is printed with its row, and makes the status 1.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
@@ -30,11 +31,11 @@ from hypcheck.vectors.families import WAY_FAMILIES
 from tests.support import fractions_truth, tilted_fractions
 
 T = symbols("t")
-NEAR = Fraction(1, 2**300)
-"""A root is enclosed to this width."""
+BITS = 300
+"""A root is enclosed to a width of 2⁻³⁰⁰."""
 
 GROWTH = 1 + Fraction(1, 2**100)
-"""A spheroid that touches for an instant is in contact, within NEAR of the instant, where it is as much larger."""
+"""A spheroid that touches for an instant is in contact, within 2⁻³⁰⁰ of the instant, where it is as much larger."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,26 +123,41 @@ def first_contact(row):
 
 
 def enclosed(poly, low, high):
-    """The one root between them, or at both, to NEAR, by bisection; each of them may be another root."""
+    """The one root between them, or at both, to BITS, by bisection; each of them may be another root."""
     if low == high:
         return low, high
-    terms = [Fraction(int(each.p), int(each.q)) for each in poly.all_coeffs()]
+    terms = stretched([Fraction(int(each.p), int(each.q)) for each in poly.all_coeffs()], low, high)
 
-    def sign(when):
-        total = Fraction(0)
-        for each in terms:
-            total = total * when + each
+    def sign(place):
+        total = 0
+        for power, each in enumerate(terms):
+            total = total * place + (each << BITS * power)
         return (total > 0) - (total < 0)
 
-    below = sign(low) or -sign(high)
+    first, last = 0, 1 << BITS
+    below = sign(first) or -sign(last)
     if not below:
         raise ArithmeticError("roots at both ends of an interval leave its own root without a change of sign")
-    while high - low > NEAR:
-        middle = (low + high) / 2
-        if sign(middle) == 0:
-            return middle, middle
-        low, high = (middle, high) if sign(middle) == below else (low, middle)
-    return low, high
+    while last - first > 1:
+        middle = (first + last) // 2
+        side = sign(middle)
+        if not side:
+            first = last = middle
+        elif side == below:
+            first = middle
+        else:
+            last = middle
+    return tuple(low + (high - low) * Fraction(each, 1 << BITS) for each in (first, last))
+
+
+def stretched(terms, low, high):
+    """The coefficients, highest first and in whole numbers, of the polynomial over s, at low + (high − low) s."""
+    found = []
+    for each in terms:  # found · (low + (high − low) s) + each, lowest first
+        found = [low * a + (high - low) * b for a, b in zip([*found, 0], [0, *found], strict=True)] if found else [0]
+        found[0] += each
+    times = math.lcm(*(each.denominator for each in found))
+    return [int(each * times) for each in reversed(found)]
 
 
 def sampled_faults(said, count):
