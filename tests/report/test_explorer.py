@@ -9,6 +9,7 @@ import json
 import math
 import os
 import random
+import re
 import shutil
 import subprocess
 from fractions import Fraction
@@ -135,6 +136,16 @@ def test_only_valid_rows_of_upright_spheroids_at_rest_are_drawn():
     for row, drawn in ((upright, True), ((*upright, 0.0, 0.0, 1.0), False), ((math.nan, *upright[1:]), False)):
         text = html.html_text(Code("ring-0001", row))
         assert ('<svg class="bodies"' in text, 'data-row="1.0 2.0 1.0 1.0 2.5 0.0 0.0"' in text) == (drawn, drawn)
+
+
+def test_every_place_of_a_small_picture_is_a_number_and_thin_bodies_are_wide_enough_to_be_seen():
+    for row in [*rows()[-100:], (1e300, 1e-300, 1e-320, 1e300, 1e308, 1e308, -1e308), (5e-324,) * 7]:
+        drawn = explorer.small_picture(row)
+        places = re.findall(r'(?:points|rx|ry)="([^"]*)"', drawn)
+        assert all(math.isfinite(float(place)) for place in re.split("[ ,]", " ".join(places))), row
+    thin = explorer.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
+    assert 'rx="24" ry="16"' in thin
+    assert 'rx="16" ry="16"' in explorer.small_picture(explorer.ON_THE_RING)
 
 
 def test_a_failing_case_is_drawn_in_the_table_of_failures_and_the_explorer_begins_with_it():

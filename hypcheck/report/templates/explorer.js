@@ -270,7 +270,7 @@ function explored(place) {
   const fields = Object.fromEntries(COLUMNS.map((name) => [name, find(name)]));
   const sliders = Object.fromEntries(SIZES.map((name) => [name, find(`${name}-slider`)]));
   let row = place.dataset.row.split(" ").map(Number);
-  let view = { r: 0, z: 0, scale: 1 }; // the middle of the picture, and its units for one unit of length
+  let view = { r: 0, z: 0, scales: [1, 1] }; // the middle of the picture, and its units for one length across and up
 
   function element(name, attributes = {}, text = "") {
     const made = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -281,14 +281,19 @@ function explored(place) {
 
   const radius = () => Math.hypot(row[4], row[5]);
   const limited = (value) => Math.min(Math.max(value, -1e5), 1e5); // browsers draw no farther
-  const across = (r) => limited(WIDTH / 2 + (r - view.r) * view.scale);
-  const up = (z) => limited(HEIGHT / 2 - (z - view.z) * view.scale);
+  const across = (r) => limited(WIDTH / 2 + (r - view.r) * view.scales[0]);
+  const up = (z) => limited(HEIGHT / 2 - (z - view.z) * view.scales[1]);
   const wall = (z) => row[0] * Math.hypot(1, z / row[1]);
 
-  /** Let the picture show r from `left` to `right` and z from `low` to `high`. */
+  /**
+   * Let the picture show r from `left` to `right` and z from `low` to `high`. If one is far longer, each has a scale of
+   * its own: thin bodies would not be seen, and bodies that touch do so in any scale (Theorem 1 of the paper).
+   */
   function show(left, right, low, high) {
-    const scale = 0.9 * Math.min(WIDTH / (right - left), HEIGHT / (high - low));
-    if (scale > 0 && Number.isFinite(scale)) view = { r: (left + right) / 2, z: (low + high) / 2, scale };
+    const scales = [(0.9 * WIDTH) / (right - left), (0.9 * HEIGHT) / (high - low)];
+    const [least, greatest] = [Math.min(...scales), Math.max(...scales)];
+    if (!(least > 0 && Number.isFinite(greatest))) return;
+    view = { r: (left + right) / 2, z: (low + high) / 2, scales: greatest > 4 * least ? scales : [least, least] };
   }
 
   function showAll() {
@@ -302,14 +307,14 @@ function explored(place) {
   }
 
   function zoom(factor) {
-    view = { r: radius(), z: row[6], scale: view.scale * factor };
+    view = { r: radius(), z: row[6], scales: view.scales.map((scale) => scale * factor) };
     update();
   }
 
   // ---- the pictures
 
   function meridian(side) {
-    const points = Array.from({ length: 97 }, (_, step) => view.z + ((step / 96 - 0.5) * HEIGHT) / view.scale);
+    const points = Array.from({ length: 97 }, (_, step) => view.z + ((step / 96 - 0.5) * HEIGHT) / view.scales[1]);
     return points.map((z) => `${across(side * wall(z)).toFixed(2)},${up(z).toFixed(2)}`);
   }
 
@@ -327,8 +332,8 @@ function explored(place) {
         class: `body ${POSITIONS[decision.position]}`,
         cx: across(r),
         cy: up(z),
-        rx: limited(b * view.scale),
-        ry: limited(d * view.scale),
+        rx: limited(b * view.scales[0]),
+        ry: limited(d * view.scales[1]),
       }),
       element("path", { class: "center", d: `M${across(r) - 7} ${up(z)}h14M${across(r)} ${up(z) - 7}v14` }),
       label(Math.min(Math.max(across(0) + 5, 5), WIDTH - 60), 16, across(0) < 0 ? "← axis" : "axis"),
@@ -338,9 +343,13 @@ function explored(place) {
       parts.push(element("circle", { class: "ring", cx: across(ring), cy: up(0), r: 9 }));
       parts.push(label(across(ring), up(0) + 25, "ring", "middle"));
     }
-    const bar = 10 ** Math.floor(Math.log10((0.4 * WIDTH) / view.scale));
-    parts.push(element("path", { class: "bar", d: `M12 ${HEIGHT - 12}h${bar * view.scale}` }));
-    parts.push(label(12, HEIGHT - 20, short(bar)));
+    const [wide, tall] = view.scales.map((scale) => 10 ** Math.floor(Math.log10((0.4 * WIDTH) / scale)));
+    parts.push(element("path", { class: "bar", d: `M12 ${HEIGHT - 12}h${wide * view.scales[0]}` }));
+    parts.push(label(18, HEIGHT - 18, short(wide)));
+    if (view.scales[0] !== view.scales[1]) {
+      parts.push(element("path", { class: "bar", d: `M12 ${HEIGHT - 12}v${-tall * view.scales[1]}` }));
+      parts.push(label(18, HEIGHT - 12 - tall * view.scales[1] + 12, `${short(tall)} (heights have a scale of their own)`));
+    }
     picture.replaceChildren(...parts);
   }
 
@@ -460,9 +469,12 @@ function explored(place) {
   function pointed(event) {
     const matrix = picture.getScreenCTM().inverse();
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
-    const digit = 10 ** Math.ceil(Math.log10(view.scale)); // a place of the picture is known to a unit of it
-    const near = (value) => Number((Math.round(value * digit) / digit).toPrecision(12));
-    moveTo(near(view.r + (at.x - WIDTH / 2) / view.scale), near(view.z - (at.y - HEIGHT / 2) / view.scale));
+    const [wide, tall] = view.scales;
+    const near = (value, scale) => { // a place of the picture is known to a unit of it
+      const digit = 10 ** Math.ceil(Math.log10(scale));
+      return Number((Math.round(value * digit) / digit).toPrecision(12));
+    };
+    moveTo(near(view.r + (at.x - WIDTH / 2) / wide, wide), near(view.z - (at.y - HEIGHT / 2) / tall, tall));
   }
 
   const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
@@ -471,10 +483,10 @@ function explored(place) {
     if (event.key === "+" || event.key === "-") zoom(event.key === "+" ? 1.5 : 1 / 1.5);
     if (!(event.key in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    const step = 10 ** Math.round(Math.log10(WIDTH / view.scale / 50)) / (event.shiftKey ? 100 : 1);
+    const steps = view.scales.map((scale) => 10 ** Math.round(Math.log10(WIDTH / scale / 50)) / (event.shiftKey ? 100 : 1));
     const [right, higher] = KEYS[event.key];
-    const moved = (value, sign) => (sign ? Number((value + sign * step).toPrecision(12)) : value);
-    moveTo(moved(radius(), right), moved(row[6], higher));
+    const moved = (value, change) => (change ? Number((value + change).toPrecision(12)) : value);
+    moveTo(moved(radius(), right * steps[0]), moved(row[6], higher * steps[1]));
   }
 
   /** Show a case of the run: its row, and where it comes from. */
