@@ -17,7 +17,7 @@ CERTIFIED = "where its bound cannot tell, integers do"
 _JUMPS = "it cannot see what lies between two of its times"
 _BISECTED = "its distance is found by plain bisection, which nothing was done to make fast; a graze takes many steps"
 
-JUDGED, QUICK_JUDGED = 400, 24
+JUDGED, QUICK_JUDGED = 200, 24
 """Ways of a workload that an engine is asked: where sizes differ, each takes a mesh."""
 
 TIMED, SLOW, FEW = 16, ("passage-fcl-advancement", "passage-fcl-polynomial"), 3
@@ -28,12 +28,13 @@ def way_contenders() -> Iterable[Contender]:
     """All of them, including the reference."""
     methods = passage_methods()
     yield of_method(methods["passage-exact"], "python", "exact", timed=16, singles=8)
-    yield of_method(methods["passage-certified"], "numpy", "certified", timed=16, singles=1, note=CERTIFIED)
-    tier = "C" if choice().kernel == "compiled" else "numpy"
+    compiled = choice().kernel == "compiled"
+    tier, timed, singles = ("C", 2048, 32) if compiled else ("numpy", 16, 1)
+    yield of_method(methods["passage-certified"], tier, "certified", timed=timed, singles=singles, note=CERTIFIED)
     for count in SAMPLES:
         yield of_method(methods[f"passage-sampled-{count}"], tier, "sampling", timed=32_768 // count, note=_JUMPS)
     for name, kind in (("passage-advancement", "advancement"), ("passage-capsule", "bounding")):
-        found = of_method(methods[name], "numpy", kind, judged=JUDGED, timed=256, singles=0, note=_BISECTED)
+        found = of_method(methods[name], "numpy", kind, judged=JUDGED, timed=8, singles=0, note=_BISECTED)
         yield replace(found, quick=False)
     yield from _in_engines()
 

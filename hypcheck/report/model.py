@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from msgspec import UNSET
+
 from hypcheck.record import Record
 from hypcheck.record.lines import (
     FindingLine,
@@ -44,6 +46,9 @@ REFUSED = "certificate refused"
 
 SubjectKey = tuple[str, "str | None"]
 """A name and a SPEC: two implementations may have the same name."""
+
+PASSAGE = "passage"
+"""The question about the way between two positions."""
 
 REFERENCE = "plain numpy formula"
 """The contender whose time every other is divided by."""
@@ -263,6 +268,13 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
     )
 
 
+def drawn_way(each: ImplementationTotal) -> WrongAnswer | None:
+    """The worst answer about a way of an upright spheroid, which can be drawn in the half plane; None without any."""
+    if each.question != PASSAGE or not each.gated:
+        return None
+    return worst_case([case for group in each.groups for case in group.worst if case.axis is UNSET])
+
+
 BATCH, SINGLE, BUILD = "batch", "single", "build"
 
 PRINCIPAL = "near-contact"
@@ -377,7 +389,7 @@ def way_totals(record: Record) -> list[WayTotal]:
     return [
         _way_total(each, each.speed.get(where))
         for each in measured_methods(record)
-        if each.line.question == "passage" and each.asked
+        if each.line.question == PASSAGE and each.asked
     ]
 
 

@@ -16,6 +16,7 @@ from hypcheck.record import Record
 from hypcheck.report import badge, csv, gitlab, junit, markdown, sarif, summary, terminal
 from hypcheck.report.drawings import ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
+from hypcheck.report.model import drawn_way, implementations
 from hypcheck.tables.streams import writing
 
 FOR_PROGRAMS: Mapping[str, ModuleType] = {
@@ -75,6 +76,8 @@ def files_of(record: Record) -> list[str]:
 
 
 def _has_content(report: ReportFormat, record: Record) -> bool:
+    if report.ways:
+        return any(drawn_way(each) is not None for each in implementations(record))
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 

@@ -28,17 +28,17 @@ def test_report_without_options_prints_the_summary(run, capsys):
     assert os.listdir(run) == ["record.jsonl"]
 
 
-OF_A_BENCHMARK = ("errors", "pareto", "front")
+OF_OTHER_RUNS = ("errors", "pareto", "front", "ways")
 
 
-@pytest.mark.parametrize("name", OF_A_BENCHMARK)
+@pytest.mark.parametrize("name", OF_OTHER_RUNS)
 def test_a_picture_without_its_lines_is_refused(run, name, tmp_path, capsys):
     assert main(["report", str(run), "--format", name, "--out", str(tmp_path / "a.svg")]) == 2
     assert "hypcheck: error: the record has no " in capsys.readouterr().err
     assert not (tmp_path / "a.svg").exists()
 
 
-@pytest.mark.parametrize("name", [name for name in REPORTS if name not in OF_A_BENCHMARK])
+@pytest.mark.parametrize("name", [name for name in REPORTS if name not in OF_OTHER_RUNS])
 def test_report_with_one_format_writes_it_to_standard_output(run, name, capfdbinary):
     assert main(["report", str(run / "record.jsonl"), "--format", name]) == 0
     assert capfdbinary.readouterr().out == render(name, samples_read(run))
@@ -53,7 +53,7 @@ def samples_read(run):
 def test_report_with_a_folder_writes_the_reports_of_a_run(run, tmp_path):
     assert main(["report", str(run), "--out", str(tmp_path / "new")]) == 0
     assert set(os.listdir(tmp_path / "new")) == {REPORTS[name].file for name in kept_formats()} - {
-        REPORTS[name].file for name in OF_A_BENCHMARK
+        REPORTS[name].file for name in OF_OTHER_RUNS
     }
     assert main(["report", str(run), "--out", str(tmp_path / "two"), "--format", "json", "--format", "terminal"]) == 0
     assert set(os.listdir(tmp_path / "two")) == {"summary.json", "report.txt"}

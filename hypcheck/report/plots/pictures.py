@@ -1,4 +1,4 @@
-"""Every plot by its name, and the files map.svg, errors.svg, pareto.svg and front.svg."""
+"""Every plot by its name, and the files map.svg, ways.svg, errors.svg, pareto.svg and front.svg."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.report.model import way_totals
-from hypcheck.report.plots import curves, forest_walk, half_plane, heat, pareto, times, tower, ways
+from hypcheck.report.plots import curves, forest_walk, half_plane, heat, pareto, times, tower, ways, worst_way
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, inline, standalone, together
 
@@ -21,6 +21,7 @@ def _front_plots(record: Record) -> Iterator[Plot]:
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "map": half_plane.map_plots,
+    "ways": worst_way.plots,
     "octaves": curves.octave_plots,
     "sizes": heat.size_plots,
     "fields": half_plane.field_plots,
@@ -41,14 +42,15 @@ PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
 _JUDGED_AND_TIMED = "the record has no method that was both judged and timed"
 
 FILES = {
+    "ways": ("The worst answers about ways", "the record has no wrong answer about a way of an upright spheroid"),
     "errors": ("Share of wrong answers against distance", "the record has no errors by distance"),
     "pareto": ("Error against run time", _JUDGED_AND_TIMED),
     "front": ("Error against run time", _JUDGED_AND_TIMED),
 }
 """Plots that have a file of their own: its title, and the reason if there is nothing to draw.
 
-The share of wrong answers, one curve a method; error against run time, with the front that no method beats; and the
-same near contact and at its worst, which stands for a whole run.
+The worst answer about a way of each implementation; the share of wrong answers, one curve a method; error against run
+time, with the front that no method beats; and the same near contact and at its worst, which stands for a whole run.
 """
 
 

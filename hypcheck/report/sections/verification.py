@@ -34,6 +34,7 @@ from hypcheck.report.model import (
     OracleTotal,
     TimingTotal,
     UnderTest,
+    drawn_way,
     explanation,
     implementations,
     oracle_totals,
@@ -247,6 +248,20 @@ def _gated_value(tested: UnderTest) -> Text:
         f" {counted(line.restarts, 'restart')}.{known}{troubles}"
     )
     return (name, said)
+
+
+WAYS = Figures("ways", "the way of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
+_WAYS = prose(
+    "The worst answer of each implementation about a way of an upright spheroid. Distance from the axis is drawn across"
+    " and height up, so that a straight way is curved; a spheroid touches the hyperboloid in this plane. On the right"
+    " is where it first touches, or comes nearest, each direction in its own scale."
+)
+
+
+def way_sections(record: Record) -> Iterator[Section]:
+    """The worst answers about ways, drawn; none if no such answer is wrong."""
+    if any(drawn_way(each) is not None for each in implementations(record)):
+        yield Section("The worst ways", (Paragraph(_WAYS), WAYS))
 
 
 def timing_sections(record: Record) -> Iterator[Section]:

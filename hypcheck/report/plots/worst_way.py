@@ -1,0 +1,188 @@
+"""The worst answer of each implementation about a way: that way in the half plane (r, z), where it is curved.
+
+An upright spheroid meets the hyperboloid in the half plane of its centre, so that the half plane shows the truth at
+each time. The whole way stands left; right of it is where the spheroid first touches, or comes nearest, which a long
+way would hide. Ways of spheroids that lean have no picture: where they touch, it need not be in this plane.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse, Patch
+
+from hypcheck.geometry.rows import Floats
+from hypcheck.implementations.ways import distances
+from hypcheck.messages import escaped
+from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
+from hypcheck.record.lines import WrongAnswer
+from hypcheck.report.messages import figure, from_hex
+from hypcheck.report.model import drawn_way, implementations
+from hypcheck.report.plots.half_plane import draw_surface
+from hypcheck.report.plots.style import WIDTH, colour, new_figure
+from hypcheck.report.plots.svg import Plot
+from hypcheck.runs.passages import LABELS, passage_of
+
+BROAD, HEIGHT = 1.6 * WIDTH, 330
+
+AROUND = 2.6
+"""The right panel shows so many semi-axes of the spheroid on each side of its centre."""
+
+_POINTS, _ZOOMS = 400, 5
+_LONGEST_NAME = 40
+
+WAY, TOUCHES, SAID = "series-1", "series-2", "series-4"
+"""The roles of the way's colour, of the spheroid's where it first touches, and of its at the answered time."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """A way to be drawn: its row, the time that the right panel shows, and the answered time if that is wrong."""
+
+    row: tuple[float, ...]
+    answer: int
+    hit: bool
+    shown: float
+    said: float | None
+
+    def at(self, times: Floats | float) -> tuple[Floats, Floats]:
+        """Distances of the centre from the axis, and heights, at these times."""
+        t = np.asarray(times, dtype=np.float64)
+        x, y, z = (self.row[4 + i] * (1 - t) + self.row[7 + i] * t for i in range(3))
+        return np.hypot(x, y), np.asarray(z)
+
+
+def plots(record: Record) -> Iterator[Plot]:
+    """A plot for each implementation under test that answered wrongly about a way of an upright spheroid."""
+    for number, each in enumerate(implementations(record)):
+        case = drawn_way(each)
+        if case is not None:
+            yield _plot(f"way-{number}", each.name, case)
+
+
+def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
+    way = _way_of(case)
+    drawn = new_figure(BROAD, HEIGHT)
+    whole, near = drawn.subplots(1, 2)
+    _whole(whole, way)
+    _near(near, way)
+    _legend(drawn, way)
+    said = f"{escaped(case.case)}: {LABELS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
+    return Plot(name, f"{escaped(method, _LONGEST_NAME)}: {escaped(case.case, _LONGEST_NAME)}", said, drawn)
+
+
+def _way_of(case: WrongAnswer) -> _Way:
+    row = from_hex(numbers_of(case))
+    found = passage_of(row)
+    shown = found.first_lower if found.hit else _nearest_time(row)
+    return _Way(row, int(case.answer), found.hit, shown, case.time if case.time else None)
+
+
+def _nearest_time(row: tuple[float, ...]) -> float:
+    """About when the spheroid is nearest to the surface."""
+    low, high = 0.0, 1.0
+    for _ in range(_ZOOMS):
+        times = np.linspace(low, high, _POINTS // _ZOOMS)
+        place = int(np.argmin(distances(np.repeat([row], len(times), axis=0), times)))
+        low, high = times[max(place - 1, 0)], times[min(place + 1, len(times) - 1)]
+    return float((low + high) / 2)
+
+
+def _when(way: _Way) -> str:
+    return f", first at {figure(way.shown)} of it" if way.hit else ""
+
+
+def _answer(way: _Way) -> str:
+    return LABELS.get(way.answer, str(way.answer)) + (f", first at {figure(way.said)}" if way.said is not None else "")
+
+
+def _whole(axes: Axes, way: _Way) -> None:
+    alpha, gamma, b, d = way.row[:4]
+    rs, zs = way.at(_times(way))
+    (near_r, near_z) = _about(way)
+    r = min(float(rs.min()) - 1.2 * b, near_r[0]), max(float(rs.max()) + 1.2 * b, near_r[1])
+    z = min(float(zs.min()) - 1.2 * d, near_z[0]), max(float(zs.max()) + 1.2 * d, near_z[1])
+    span = r[1] - r[0]
+    r = (0.0 if r[0] < span else r[0]), r[1] + 0.04 * span  # the axis, unless it is far away; the marks of both ends
+    _frame(axes, r, z, "the whole way")
+    draw_surface(axes, (alpha, gamma), r, z, colour("ink"))
+    axes.plot(rs, zs, color=colour(WAY), linewidth=1.4, zorder=3)
+    for time, marker in ((0.0, "o"), (1.0, "s")):
+        axes.plot(*way.at(time), marker=marker, markersize=6, color=colour(WAY), zorder=4)
+        _body(axes, way, time, WAY)
+    _touching(axes, way)
+
+
+def _near(axes: Axes, way: _Way) -> None:
+    alpha, gamma = way.row[:2]
+    r, z = _about(way)
+    _frame(axes, r, z, "where it first touches" if way.hit else "where it comes nearest")
+    draw_surface(axes, (alpha, gamma), r, z, colour("ink"))
+    axes.plot(*way.at(_times(way)), color=colour(WAY), linewidth=1.4, zorder=3)
+    _touching(axes, way)
+
+
+def _about(way: _Way) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The part of the half plane about the spheroid at the time that is shown."""
+    b, d = way.row[2:4]
+    r, z = (float(each) for each in way.at(way.shown))
+    return (max(0.0, r - AROUND * b), r + AROUND * b), (z - AROUND * d, z + AROUND * d)
+
+
+def _times(way: _Way) -> Floats:
+    """Times of the whole way, and more of them about the one that is shown and where it is nearest to the axis."""
+    x, y = way.row[4:6]
+    u, v = way.row[7] - x, way.row[8] - y
+    turn = -(x * u + y * v) / (u * u + v * v) if u or v else 0.0
+    close = np.concatenate([[0.0], np.geomspace(1e-12, 1.0, _POINTS // 4)])
+    every = [np.linspace(0.0, 1.0, _POINTS)]
+    every += [middle + side * close for middle in (turn, way.shown) for side in (-1.0, 1.0)]
+    return np.unique(np.clip(np.concatenate(every), 0.0, 1.0))
+
+
+def _frame(axes: Axes, r: tuple[float, float], z: tuple[float, float], title: str) -> None:
+    axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
+    axes.set_title(title, fontsize=10)
+    axes.locator_params(nbins=4)
+    axes.ticklabel_format(useOffset=False)
+
+
+def _touching(axes: Axes, way: _Way) -> None:
+    _body(axes, way, way.shown, TOUCHES if way.hit else WAY, filled=way.hit)
+    axes.plot(*way.at(way.shown), marker="+", markersize=7, color=colour(TOUCHES if way.hit else WAY), zorder=5)
+    if way.said is not None:
+        _body(axes, way, way.said, SAID)
+
+
+def _body(axes: Axes, way: _Way, time: float, role: str, *, filled: bool = False) -> None:
+    b, d = way.row[2:4]
+    r, z = (float(each) for each in way.at(time))
+    face = colour(role) if filled else "none"
+    axes.add_patch(
+        Ellipse((r, z), 2 * b, 2 * d, facecolor=face, edgecolor="none", alpha=0.25, zorder=2)  # its rim is drawn apart
+    )
+    turn = np.linspace(0.0, 2 * math.pi, 121)
+    dashes = (0, (4, 2)) if role == SAID else "solid"
+    rim = r + b * np.cos(turn), z + d * np.sin(turn)
+    axes.plot(*rim, color=colour(role), linewidth=1.2, linestyle=dashes, zorder=3)
+
+
+def _legend(drawn: Figure, way: _Way) -> None:
+    own = colour(WAY)
+    handles: list[Line2D | Patch] = [
+        Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid"),
+        Line2D([], [], color=own, marker="o", markersize=6, label="the way, from its start"),
+        Line2D([], [], color=own, marker="s", markersize=6, label="to its end"),
+    ]
+    if way.hit:
+        handles.append(Patch(facecolor=colour(TOUCHES), alpha=0.4, label="first contact"))
+    if way.said is not None:
+        handles.append(Line2D([], [], color=colour(SAID), linestyle=(0, (4, 2)), label="at the answered time"))
+    drawn.legend(handles=handles, loc="outside lower center", ncols=3)

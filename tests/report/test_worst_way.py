@@ -1,0 +1,88 @@
+"""The picture of an implementation's worst way: which case it shows, what stands in it, and when there is none."""
+
+from __future__ import annotations
+
+import pytest
+
+from hypcheck.report import markdown
+from hypcheck.report.drawings import ReportContext
+from hypcheck.report.model import drawn_way, implementations
+from hypcheck.report.plots.pictures import draw_plots
+from hypcheck.report.write import files_of
+from tests.report.record_samples import group, hexes, record
+
+SIZES = (4.0, 6.0, 1.0, 0.5)
+THROUGH = ((60, 1, 0.2), (-140, 1, 0.2))
+"""From outside through the waist and out: r falls from 60 to 1 and grows to 140."""
+
+CLEAR = ((9, 0, 0), (7, 0, 1))
+
+
+def case(name, start, end, error, *, answer=0, truth=1, axis=None, **others):
+    return {
+        "case": name,
+        "row": hexes(map(float, (*SIZES, *start))),
+        "end": hexes(map(float, end)),
+        **({} if axis is None else {"axis": hexes(map(float, axis))}),
+        "truth": truth,
+        "answer": answer,
+        "mistake": "false-contact" if answer else "false-clear",
+        "status": "wrong",
+        "backward_error": error,
+        "backward_error_u": error,
+        **others,
+    }
+
+
+def ways(*cases, tested=True):
+    """The record of a run about ways with these worst cases."""
+    under_test = {"spec": "builtin:mine", "failing": ["wrong"], "faults": []} if tested else {}
+    counts = {"right": 10, "wrong": len(cases)}
+    return record([group("mine", "float64", "way-long", counts, cases, question="passage", **under_test)], exit_code=1)
+
+
+def test_the_picture_shows_the_worst_case_of_an_upright_spheroid():
+    found = ways(
+        case("way-long/1/1/3", *THROUGH, 2.0),
+        case("way-long/1/1/4", *CLEAR, 3.0, answer=1, truth=0),
+        case("tilted-way-uniform/1/1/5", *THROUGH, 9.0, axis=(1, 0, 1)),
+    )
+    (each,) = implementations(found)
+    assert drawn_way(each).case == "way-long/1/1/4"
+    (plot,) = draw_plots("ways", found)
+    assert plot.title == "mine: way-long/1/1/4"
+    assert plot.description == "way-long/1/1/4: clear on the way; answered: in contact on the way."
+
+
+def test_a_straight_way_is_curved_and_its_first_contact_stands_in_both_panels():
+    (plot,) = draw_plots("ways", ways(case("way-long/1/1/3", *THROUGH, 2.0)))
+    assert plot.description == (
+        "way-long/1/1/3: in contact on the way, first at 0.275 of it; answered: clear on the way."
+    )
+    whole, near = plot.figure.axes
+    curve = max(whole.lines, key=lambda line: len(line.get_xdata()))
+    rs = curve.get_xdata()
+    assert (rs[0], rs[-1]) == pytest.approx((60.0, 140.0), rel=1e-3)
+    assert rs.min() == pytest.approx(1.0)
+    for axes in (whole, near):
+        marks = [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "+"]
+        assert marks == pytest.approx([4 + 1.0], rel=0.01)  # one radius outside the waist, nearly
+    assert near.get_xlim()[1] - near.get_xlim()[0] < 6 < whole.get_xlim()[1]
+
+
+def test_a_wrong_time_is_drawn_as_a_body_of_its_own():
+    late = case("way-long/1/1/3", *THROUGH, 7.0, answer=1, mistake="late", time=0.5, first=[0.275, 0.276])
+    (plot,) = draw_plots("ways", ways(late))
+    assert plot.description.endswith("answered: in contact on the way, first at 0.5.")
+    labels = [text.get_text() for legend in plot.figure.legends for text in legend.get_texts()]
+    assert labels[-2:] == ["first contact", "at the answered time"]
+
+
+def test_the_text_refers_to_the_picture_and_a_run_without_such_a_case_has_none():
+    found = ways(case("way-long/1/1/3", *THROUGH, 2.0))
+    assert "ways.svg" in files_of(found)
+    assert "](ways.svg)" in markdown.render(found, ReportContext(["ways.svg"])).decode()
+    leaning = ways(case("tilted-way-uniform/1/1/5", *THROUGH, 9.0, axis=(1, 0, 1)))
+    for without in (ways(), leaning, ways(case("way-long/1/1/3", *THROUGH, 2.0), tested=False)):
+        assert "ways.svg" not in files_of(without)
+        assert "worst ways" not in markdown.render(without).decode()
