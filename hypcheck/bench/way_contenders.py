@@ -20,7 +20,7 @@ _BISECTED = "its distance is found by plain bisection, which nothing was done to
 JUDGED, QUICK_JUDGED = 200, 24
 """Ways of a workload that an engine is asked: where sizes differ, each takes a mesh."""
 
-TIMED, SLOW, FEW = 16, ("passage-fcl-advancement", "passage-fcl-polynomial"), 3
+TIMED, SLOW, FEW = 8, ("passage-fcl-advancement", "passage-fcl-polynomial"), 3
 """Ways of a timed batch: few of the solvers that take twenty milliseconds for one."""
 
 
