@@ -76,9 +76,3 @@ def test_case_that_is_no_way_or_a_way_where_none_is_wanted_is_refused_in_one_sen
     code, said = replayed(capsys, case, spec)
     assert code == 2
     assert sentence in said.err
-
-
-@pytest.mark.parametrize("words", [("hunt", "builtin:passage-exact"), ("minimise", "builtin:passage-exact", THROUGH)])
-def test_hunt_and_minimise_refuse_an_implementation_that_answers_about_ways(words, capsys):
-    assert main(list(words)) == 2
-    assert "answers 'passage'; hypcheck verify and hypcheck replay take it" in capsys.readouterr().err
