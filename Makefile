@@ -35,13 +35,12 @@ check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): be
 quick: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow and not thorough'
 
-test: $(VENV)/ready-dev ## lint, format, strict types, import layers and every test but the thorough ones
-	$(MAKE) --no-print-directory --jobs 2 lint check-cases
+test: $(VENV)/ready-dev lint ## lint, format, strict types, import layers and every test but the thorough ones
 	$(BIN)/python -m pytest -n auto --dist worksteal -m 'not thorough' || { \
 		echo "What failed beside other tests runs once more, alone: a loaded machine refuses no change. What fails twice fails."; \
 		$(BIN)/python -m pytest -m 'not thorough' --last-failed --last-failed-no-failures none --maxfail 3; }
 
-thorough: $(VENV)/ready-dev ## the tests that repeat with many rows or processes what others test with few (ten minutes)
+thorough: $(VENV)/ready-dev check-cases ## all labels, and the tests that repeat with many rows or processes what others test with few
 	$(BIN)/python -m pytest -n auto --dist worksteal -m thorough
 
 cases: $(VENV)/ready ## the frozen vectors anew, every id kept (two minutes)

@@ -238,7 +238,13 @@ WITHOUT_A_COMPILER = {
 }
 
 
-@pytest.mark.parametrize("name", STEPS)
+FEW = ("verify", "verify-spec", "small")
+"""What `make test` types; `make thorough` types the others, too."""
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.thorough) for name in STEPS]
+)
 def test_every_command_of_the_installed_package_ends_as_it_should_in_an_empty_folder(installed, name, tmp_path):
     for command, code, part in STEPS[name]:
         if not installed.variant.compiler:
@@ -255,6 +261,7 @@ def test_the_installed_package_with_the_report_extra_writes_the_page_with_its_pl
     assert "</svg>" in (tmp_path / "run/report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("source", ["wheel", "git"] if ALL else ["wheel"])
 def test_the_workflow_of_init_runs_as_written_in_a_fresh_clone_and_gates_two_languages(installed, source, tmp_path):
     """Its command lines, in an environment without hypcheck. The stubs are right in the family that is asked here."""

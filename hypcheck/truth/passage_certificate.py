@@ -29,7 +29,7 @@ Rationals = tuple[Fraction, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PairAtTime:
     """A pair at a rational time of a way: seven rational numbers, and the axis."""
 
     row: Rationals
@@ -49,13 +49,13 @@ class PassageCertificate:
     double_root: Fraction | None = None
 
 
-def place(row: Sequence[float], time: Fraction) -> Place:
+def place(row: Sequence[float], time: Fraction) -> PairAtTime:
     """The pair of a row of ten or thirteen numbers at a time."""
     numbers = [Fraction(each) for each in row]
     start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(WAY_COLUMNS)]
     centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]
     axis = numbers[len(WAY_COLUMNS) :] or list(map(Fraction, UPRIGHT))
-    return Place((*numbers[: len(SIZES)], *centre), tuple(axis))
+    return PairAtTime((*numbers[: len(SIZES)], *centre), tuple(axis))
 
 
 def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:

@@ -13,7 +13,7 @@ from fractions import Fraction
 from hypcheck.geometry.pair import WAY_COLUMNS
 from hypcheck.truth import prove as upright
 from hypcheck.truth.journey import Journey, UprightJourney, piece, shortened
-from hypcheck.truth.passage_certificate import PassageCertificate, Place, place
+from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
 from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.steps import reach
 from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, rounded
@@ -130,14 +130,14 @@ def _points(row: Sequence[float], journey: UprightJourney | TiltedJourney, time:
     return points
 
 
-def _level(here: Place, point: Point) -> Fraction:
+def _level(here: PairAtTime, point: Point) -> Fraction:
     """The hyperboloid's equation at a point."""
     alpha, gamma = here.row[:2]
     x, y, z = point
     return (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
 
 
-def _within(here: Place, offset: Sequence[Fraction]) -> bool:
+def _within(here: PairAtTime, offset: Sequence[Fraction]) -> bool:
     """Whether the spheroid has the point C + b · offset."""
     b, d = here.row[2:4]
     along = sum((a * v for a, v in zip(offset, here.axis, strict=True)), Fraction(0)) ** 2

@@ -15,7 +15,7 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Point
 from hypcheck.truth.exact import Cubic, Decision
-from hypcheck.truth.passage_certificate import Place
+from hypcheck.truth.passage_certificate import PairAtTime
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
@@ -51,7 +51,7 @@ def _multiplier(g: Cubic) -> Fraction:
     raise AssertionError("unreachable: the precisions do not end")
 
 
-def points(pair: Pair | Place, lengths: Lengths) -> tuple[Point, ...]:
+def points(pair: Pair | PairAtTime, lengths: Lengths) -> tuple[Point, ...]:
     """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
     alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
 
@@ -74,7 +74,7 @@ def points(pair: Pair | Place, lengths: Lengths) -> tuple[Point, ...]:
     raise AssertionError("unreachable: the candidates do not end")
 
 
-def _candidates(pair: Pair | Place, lengths: Lengths, outward: bool) -> Iterator[Point]:
+def _candidates(pair: Pair | PairAtTime, lengths: Lengths, outward: bool) -> Iterator[Point]:
     """Points of the spheroid's plane through the axis, first the simple ones, then ever nearer to the best one."""
     _, _, b, d, x, y, z = map(Fraction, pair.row)
     radius = _root(x * x + y * y, 30, upward=True)

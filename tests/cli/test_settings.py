@@ -186,6 +186,7 @@ def test_settings_that_weaken_the_gate_are_shown_at_the_start_and_in_every_repor
     assert f"S{told[1:]}." in html.unescape((folder / "report.md").read_text()).replace("\\", "")
 
 
+@pytest.mark.thorough
 def test_a_run_as_strict_as_the_defaults_shows_no_settings(project, capsys):
     project("")
     Path(FILE).unlink()

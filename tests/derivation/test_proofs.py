@@ -81,6 +81,7 @@ def test_table_2_with_any_single_step_changed_is_not_proved():
     assert survivors("table-2") == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "every"), SAMPLED.items())
 def test_a_formula_with_one_step_of_a_sample_changed_is_not_proved(name, every):
     # In [c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0] it is the same to write c2 ≠ 0 for c2 < 0.

@@ -165,6 +165,7 @@ def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bo
     return exact.position(Lengths(*radial, 0, *axial))
 
 
+@pytest.mark.thorough
 @needs_compiler
 def test_lines_of_a_compiled_scene_hold_at_both_ends_of_their_reach(tmp_path):
     """At T = 0 and at the greatest T the exact position just beside each line is the one that the line claims."""

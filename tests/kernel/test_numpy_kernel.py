@@ -22,6 +22,7 @@ def test_the_numpy_kernel_is_right_on_known_witnesses(row, position, clearance, 
     assert integers.position(Pair.from_row(row).lengths) is position, why
 
 
+@pytest.mark.thorough
 @given(st.lists(pairs, min_size=1, max_size=20))
 def test_every_answer_has_a_checked_proof(some):
     rows = np.array([pair.row for pair in some])
@@ -67,6 +68,7 @@ def test_rows_of_a_chunk_and_beyond_are_all_answered():
     assert found[-1] == -1
 
 
+@pytest.mark.thorough
 def test_heights_that_no_line_covers_and_sizes_that_allow_none_are_answered_too():
     random = np.random.default_rng(2)
     x, y, z = random.uniform(-4, 4, (3, numpy_kernel.LINES_FROM))

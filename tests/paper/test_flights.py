@@ -61,6 +61,7 @@ def test_a_flight_of_a_block_is_the_one_flown_alone_from_its_words(name, step):
         assert state[:3] == pytest.approx(ends[:, lane].tolist(), abs=1e-9)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
 def test_the_mean_agrees_with_that_of_scalar_flights_with_other_random_numbers(name):
     """Executions with Δ ≤ 0 in percent, within 4 standard errors of the difference."""

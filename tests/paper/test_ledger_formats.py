@@ -97,6 +97,7 @@ def formulas():
     return inline | {formula(part.text) for _, links in shown for link in links for part in link.parts}
 
 
+@pytest.mark.thorough
 def test_every_formula_can_be_typeset():
     parser = MathTextParser("path")
     for each in sorted(formulas()):

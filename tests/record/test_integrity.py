@@ -40,6 +40,7 @@ def test_a_record_as_written_is_complete(data):
     assert outcome(data) == ("whole", LINES)
 
 
+@pytest.mark.thorough
 def test_a_record_with_one_changed_byte_is_refused_except_at_the_last_line_end(data):
     for place, byte in enumerate(data):
         for other in range(256):
@@ -58,6 +59,7 @@ def test_a_record_cut_at_any_byte_is_read_up_to_its_last_whole_line(data):
         assert outcome(data[:length]) == (("truncated", LINES[:whole]) if whole else ("refused", []))
 
 
+@pytest.mark.thorough
 def test_a_record_with_a_byte_lost_or_added_is_refused_except_for_cuts_and_windows_line_ends(data):
     for place in range(len(data)):
         found, lines = outcome(data[:place] + data[place + 1 :])

@@ -108,6 +108,7 @@ def test_invalid_criterion_is_refused(bad):
         Criterion(**bad)
 
 
+@pytest.mark.thorough
 @given(st.lists(ordinary_pairs, min_size=1, max_size=10), st.integers(0, 2**32))
 def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
     rows = np.array([pair.row for pair in some])

@@ -142,6 +142,7 @@ def test_formula_without_a_valid_proof_ends_the_run_with_6(tmp_path, monkeypatch
     assert exit_code(tmp_path) == 6
 
 
+@pytest.mark.thorough
 def test_same_seed_gives_the_same_record_except_for_times(whole, tmp_path):
     def lines(folder):
         return [

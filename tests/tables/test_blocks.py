@@ -60,6 +60,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("tables")
 
 
+@pytest.mark.thorough
 @settings(max_examples=400)
 @example([(GOOD, "\n")] * 9, False)
 @example([*[(GOOD, "\n")] * 5, (("1",) * 6, "\n"), *[(GOOD, "\n")] * 5], False)
@@ -71,6 +72,7 @@ def test_csv_read_by_blocks_has_the_answers_and_errors_of_csv_read_by_lines(fold
     assert by_block == by_line
 
 
+@pytest.mark.thorough
 @settings(max_examples=400)
 @example([(GOOD, "\n")] * 9, False)
 @given(st.lists(st.tuples(ROWS, ENDS), max_size=12), st.booleans())

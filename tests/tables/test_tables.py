@@ -203,6 +203,7 @@ def test_with_on_invalid_flag_rows_that_are_no_pairs_are_marked_127(tmp_path):
     assert [(one["position"], one["x"], one["b"]) for one in found] == [(127, None, 1), (0, 2, 1), (127, 1.5, -1)]
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not report a process's peak memory")
 @pytest.mark.parametrize("kind", ["csv", "jsonl", "npy"])
 def test_memory_does_not_grow_with_the_table(tmp_path, kind):

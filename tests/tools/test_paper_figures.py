@@ -16,6 +16,7 @@ from tests.tools.paper_figures import BODIES, DOCS, DRAWN_WITH, bodies_picture, 
 PAGE = (DOCS / "figures.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.thorough
 def test_each_picture_of_the_page_exists_and_each_drawn_one_is_shown():
     shown = set(re.findall(r"\]\((\w+/[\w-]+\.svg)\)", PAGE))
     assert all((DOCS / name).is_file() for name in shown)

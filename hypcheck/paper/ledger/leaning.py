@@ -61,14 +61,14 @@ class LeaningWitness:
 
 
 @dataclass(frozen=True, slots=True)
-class LeaningSearch:
+class FirstChange:
     """How many pairs with an axis were tried, and the first that was looked for, if any."""
 
     tried: int
     found: LeaningWitness | None
 
 
-def first_change(before: Position, after: Position, shows: str) -> LeaningSearch:
+def first_change(before: Position, after: Position, shows: str) -> FirstChange:
     """The simplest pair that is `before` upright and `after` as it leans, both proved."""
     tried = 0
     for numbers in _pairs():
@@ -79,10 +79,8 @@ def first_change(before: Position, after: Position, shows: str) -> LeaningSearch
             tried += 1
             pair = TiltedPair.from_row((*numbers, *axis))
             if exact.position(pair.lengths) is after:
-                return LeaningSearch(
-                    tried, LeaningWitness(pair, prove.prove(pair), upright_prove.prove(vertical), shows)
-                )
-    return LeaningSearch(tried, None)
+                return FirstChange(tried, LeaningWitness(pair, prove.prove(pair), upright_prove.prove(vertical), shows))
+    return FirstChange(tried, None)
 
 
 def _pairs() -> Iterator[tuple[float, ...]]:

@@ -9,14 +9,24 @@ from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.report.model import way_totals
-from hypcheck.report.plots import curves, forest_walk, half_plane, heat, pareto, times, tower, ways, worst_way
+from hypcheck.report.plots import (
+    curves,
+    forest_walk,
+    half_plane,
+    heat,
+    missed_contacts,
+    pareto,
+    times,
+    tower,
+    worst_way,
+)
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, inline, standalone, together
 
 
 def _front_plots(record: Record) -> Iterator[Plot]:
     """What methods cost and get wrong: of a benchmark of ways, missed and false contacts; else errors by distance."""
-    yield from ways.plots(record) if way_totals(record) else pareto.front_plots(record)
+    yield from missed_contacts.plots(record) if way_totals(record) else pareto.front_plots(record)
 
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {

@@ -45,6 +45,7 @@ def test_invisible_characters_in_names_are_escaped_and_end_no_comment_or_line():
     assert not comment_text("C:\\").endswith("\\")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("language", DIALECTS)
 def test_a_kernel_of_a_scene_with_a_hostile_name_builds_without_warnings_and_answers(language, tmp_path):
     """As the same kernel with a plain name does; warnings are errors, and C's trigraphs count."""

@@ -60,6 +60,7 @@ def pids(client):
     return client.run(os.getpid)
 
 
+@pytest.mark.thorough
 def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client):
     some = steps_of(["tower-body", "ring"], 4500)
 
@@ -84,6 +85,7 @@ def _subject(folder: Path) -> tuple[Path, ImplementationOpener]:
     return file, ImplementationOpener(f"python:{file}:f", Limits())
 
 
+@pytest.mark.thorough
 def test_file_that_a_worker_lacks_is_sent_to_it(client, tmp_path):
     file, opening = _subject(tmp_path)
     some = steps_of(["ring"], 2000)

@@ -33,6 +33,7 @@ def statuses(record):
     return total
 
 
+@pytest.mark.thorough
 def test_an_exact_implementation_passes_with_no_tolerance(tmp_path):
     code, record = gate(tmp_path, subject("exact"), "--tolerance", "0", "--families", "extreme,*", count="10")
     assert code == 0
@@ -211,6 +212,7 @@ def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
 
+@pytest.mark.thorough
 def test_worst_cancellations_are_asked_if_no_families_are_chosen(tmp_path):
     _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
     asked = {line.family: line for line in record.of(GroupLine)}

@@ -56,6 +56,7 @@ def test_one_case_in_a_hundred_of_a_large_family_is_retested(tmp_path):
     assert line.again.within == line.again.beyond == 0
 
 
+@pytest.mark.thorough
 def test_answer_that_changes_within_the_tolerance_fails_only_with_deterministic(tmp_path):
     families = ("--families", "tangent,tower-body")
     code, record = gate(tmp_path, "forgets_a_little", *families)

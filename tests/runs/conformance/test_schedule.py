@@ -127,6 +127,7 @@ def test_every_pending_case_is_retested_in_one_part_of_one_round():
     assert not total.pending
 
 
+@pytest.mark.thorough
 def test_restarts_are_charged_in_the_order_of_steps():
     """Cases on the axis end the process: the first few do, and all others are not run."""
     some = steps_of(["tower-body", "axis", "tower-rotors"], 375)
@@ -241,6 +242,7 @@ def dies_of(rows):
     )
 
 
+@pytest.mark.thorough
 def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_chunk(tmp_path):
     """Two, then three of three that are allowed: the second chunk counts whole, and nothing behind it is asked."""
     some = steps_of(["tower-body"], 1500)

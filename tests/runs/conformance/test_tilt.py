@@ -115,6 +115,7 @@ def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(
     assert sum(steps) == planned_size(plan) + sum(more)
 
 
+@pytest.mark.thorough
 def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(tmp_path):
     code, record = gate(tmp_path, "upright", "--families", "tilted-tangent,tilted-slight", count="3")
     found = by_family(record)
@@ -178,6 +179,7 @@ def test_a_wrong_answer_about_a_tilted_spheroid_is_wrong_by_at_least_what_is_rec
     assert low <= judge.measured(case, "position") <= 1.25 * high
 
 
+@pytest.mark.thorough
 def test_an_undecided_answer_makes_a_run_inconclusive_that_would_have_passed_and_is_shown(tmp_path, capsys):
     code, record = gate(tmp_path, "wrong_where_no_proof_is_found", "--families", "tilted-twins", count="0")
     shown = capsys.readouterr().out

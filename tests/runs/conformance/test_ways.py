@@ -30,6 +30,7 @@ def verified(folder, *words):
     return main(["verify", *words, "--out", str(folder)])
 
 
+@pytest.mark.thorough
 def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_path):
     assert verified(tmp_path, "builtin:passage-sampled-4", *FEW) == 1
     (group,) = (line for line in read(tmp_path).of(GroupLine))

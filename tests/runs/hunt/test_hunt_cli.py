@@ -49,6 +49,7 @@ def told(capsys, *arguments):
     return code, output, errors
 
 
+@pytest.mark.thorough
 def test_hunt_prints_the_worst_first_with_commands_to_continue(capsys):
     code, output, _ = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "3000", "--show", "2")
     assert code == Exit.WRONG
@@ -71,6 +72,7 @@ def test_hunt_prints_the_worst_first_with_commands_to_continue(capsys):
     assert told(capsys, *replay[1:])[0] == Exit.WRONG
 
 
+@pytest.mark.thorough
 def test_options_replace_what_the_implementation_declares(capsys):
     arguments = ("hunt", "builtin:procedure-1-float64", "--queries", "2600")
     everywhere = told(capsys, *arguments, "--regimes", "any", "--tolerance", "9")[1]

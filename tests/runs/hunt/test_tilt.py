@@ -23,6 +23,7 @@ UPRIGHT = "python:tests.runs.leaning:upright"
 ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_with_the_axis(capsys, tmp_path):
     out = tmp_path / "kept.json"
@@ -54,6 +55,7 @@ def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_va
     assert len(np.unique(around.rows[around.owners == 0][:, 7:], axis=0)) > 4
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_the_simplest_row_that_fails_alike_is_about_a_tilted_spheroid_and_short(capsys):
     assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5"]) == 0

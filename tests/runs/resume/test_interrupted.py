@@ -15,6 +15,7 @@ from tests.support.without_drawing import COMMAND
 from tests.tools.miniatures import all_gone, needs_proc, token  # noqa: F401
 
 
+@pytest.mark.thorough
 @needs_proc
 @pytest.mark.parametrize(("number", "code", "workers"), [(signal.SIGINT, 130, "2"), (signal.SIGTERM, 143, "1")])
 def test_interrupted_run_names_its_finished_part(tmp_path, token, number, code, workers):  # noqa: F811

@@ -71,6 +71,7 @@ def test_bracket_of_a_near_contact_is_narrow():
     assert narrow >= 5
 
 
+@pytest.mark.thorough
 def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
     draw = random.Random(5)  # noqa: S311
     for _, row in rows(["uniform", "near", "stiff"], 6, seed=6):

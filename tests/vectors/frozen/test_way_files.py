@@ -72,6 +72,7 @@ def test_the_rows_of_a_file_of_ways_are_the_first_of_its_family_each_once(name):
     assert np.isnan(file.firsts).any(axis=1).tolist() == (file.hits == 0).tolist()
 
 
+@pytest.mark.thorough
 @every_file
 def test_dense_exact_sampling_confirms_the_answers_about_ways(name):
     """No contact before the first, clear on one side all along where the way is clear, and contact where it is said."""
