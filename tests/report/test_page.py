@@ -23,6 +23,7 @@ from hypcheck.report.write import render
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 from tests.report.pages import page_of
+from tests.report.test_worst_way import THROUGH, case, ways
 
 VOID = {"meta", "link", "br", "img", "input", "rect", "use", "path", "image"}
 
@@ -178,13 +179,20 @@ def test_the_page_shows_changes_against_another_record(no_plots):
 
 
 def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
+    about_ways = ways(case("way-long/1/1/3", *THROUGH, 2.0))
     records = (record_samples.record(), bench_record())
-    drawn = {name: [plot.name for record in records for plot in draw_plots(name, record)] for name in PLOTS}
+    drawn = {
+        name: [
+            plot.name for record in ([about_ways] if name == "ways" else records) for plot in draw_plots(name, record)
+        ]
+        for name in PLOTS
+    }
     assert all(drawn.values()), drawn
     names = [each for found in drawn.values() for each in found]
     assert len(names) == len(set(names))
+    shown = pages["verify"] + pages["bench"] + html.render(about_ways).decode("utf-8")
     for each in names:
-        assert f'"{each}-title"' in pages["verify"] + pages["bench"]
+        assert f'"{each}-title"' in shown
 
 
 @pytest.mark.parametrize(
