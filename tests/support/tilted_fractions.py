@@ -151,6 +151,8 @@ def between_roots(poly):
         if below(high) - below(low) < 2:
             continue
         middle = between(low, high)
+        if sign(free, middle) == 0:  # a power of two would be met again and again
+            middle = (low + high) / 2
         while sign(free, middle) == 0:
             middle = (low + middle) / 2
         found[below(middle)] = middle
