@@ -139,6 +139,7 @@ def ended_in(folder: Path, *words: str, path: Path | None = None) -> subprocess.
     return done
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("shared", ["--workers=2", "--cluster=local:1"])
 def test_workers_do_not_execute_files_in_the_working_directory_named_like_standard_modules(shared, tmp_path_factory):
     """A module that the SPEC names is found there all the same. Reports are written without drawing."""

@@ -56,9 +56,10 @@ def test_classify_of_one_pair_loads_no_numpy():
         (["simulate", "forest"], {"numpy", "mpmath"}),
         (["replay", "tower-body/1/1/3", "builtin:fast"], {"msgspec", "numpy"}),
         (["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"], {"msgspec", "numpy"}),
-        (
+        pytest.param(
             ["verify", "--self", "--oracles", "exact,roots", "--families", "tower-body", "--count", "9"],
             {"msgspec", "numpy", "sympy", "mpmath"},
+            marks=pytest.mark.thorough,
         ),
     ],
 )

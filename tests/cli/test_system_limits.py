@@ -24,6 +24,7 @@ process()
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no such limits")
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_path):

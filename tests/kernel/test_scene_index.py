@@ -68,6 +68,7 @@ def centres_about(scene, count, seed):
     return np.clip(centres, [-40, -40, -2], [40, 40, 2])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", range(4))
 def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
     scene = forest(60, seed)

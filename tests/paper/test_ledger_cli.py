@@ -23,6 +23,7 @@ def told(capsys, *arguments):
     return code, output, errors
 
 
+@pytest.mark.thorough
 def test_without_options_everything_is_shown_and_holds(capsys):
     code, output, errors = told(capsys)
     assert code == Exit.HELD

@@ -23,6 +23,7 @@ def test_each_picture_of_the_page_exists_and_each_drawn_one_is_shown():
     assert shown == {*pictures(), "simulate/tower-table-5.svg"}
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(
     DRAWN_WITH.read_text(encoding="utf-8") != versions(),
     reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",

@@ -71,6 +71,7 @@ def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client
     assert saved_state(there(client, KILLS, some, kill)) == saved_state(here(KILLS, some))
 
 
+@pytest.mark.thorough
 def test_only_cases_that_kill_their_worker_end_as_crashes(client):
     some = steps_of(["uniform", "tower-body"], 2600)
     culprit, others = without_culprit(some)

@@ -104,6 +104,7 @@ def test_mutants_are_enough_and_have_different_names():
     assert sum(mutant.expectation.right for mutant in BY_NAME.values()) >= 10
 
 
+@pytest.mark.thorough
 def test_every_answer_has_the_length_of_the_question():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
     way = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0, 4.0, 0.5, 3.0]])

@@ -213,6 +213,7 @@ LIGHT = (["--help"], ["list", "--help"], ["check", "--help"])
 NUMPY_ALONE = (["list"], ["show", "ring-0007"], ["show", "invalid"], ["generate", "ring", "--format", "csv"])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("arguments", "allowed"),
     [*((arguments, set()) for arguments in LIGHT), *((arguments, {"numpy"}) for arguments in NUMPY_ALONE)],
