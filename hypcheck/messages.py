@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from json import JSONDecodeError
 
 
 def escaped(text: object, width: int | None = None) -> str:
@@ -50,6 +51,14 @@ def counted(number: int, noun: str, many: str | None = None) -> str:
 
 def _escaped_character(character: str) -> str:
     return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
+
+
+def json_trouble(error: JSONDecodeError) -> str:
+    """What Python's reader says is wrong with a JSON text, as the end of a sentence.
+
+    Some of its sentences end with "at" or "starting at", because the place follows: "Unterminated string starting at: …".
+    """
+    return error.msg.lower().removesuffix(" at").removesuffix(" starting")
 
 
 _LONGEST_COMPARED = 100

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.messages import counted, escaped, shortened
+from hypcheck.messages import counted, escaped, json_trouble, shortened
 from tests.report import record_samples
 
 
@@ -45,3 +47,10 @@ def test_longer_text_ends_with_an_ellipsis():
 def test_a_number_has_its_noun_in_the_singular_of_one_alone():
     assert [counted(number, "row") for number in (0, 1, 2, 5600)] == ["0 rows", "1 row", "2 rows", "5,600 rows"]
     assert [counted(number, "box", "boxes") for number in (1, 2)] == ["1 box", "2 boxes"]
+
+
+@pytest.mark.parametrize(("text", "trouble"), [('"a\nb"', "invalid control character"), ('"a', "unterminated string")])
+def test_what_is_wrong_with_json_ends_no_sentence_with_at(text, trouble):
+    with pytest.raises(json.JSONDecodeError) as caught:
+        json.loads(text)
+    assert json_trouble(caught.value) == trouble

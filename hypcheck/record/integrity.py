@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from hypcheck.errors import InputError
+from hypcheck.messages import json_trouble
 from hypcheck.tables.numbers import shown, shown_json
 from hypcheck.tables.streams import Reader, reading, same_file, writing
 
@@ -191,7 +192,7 @@ class RecordScan:
         except RecursionError:
             self._refuse("it is nested too deeply")
         except json.JSONDecodeError as error:
-            self._refuse(f"it is no JSON at character {error.pos + 1}: {error.msg.lower()}")
+            self._refuse(f"it is no JSON at character {error.pos + 1}: {json_trouble(error)}")
         except ValueError as error:
             self._refuse(str(error))
         if not isinstance(line, dict) or not isinstance(line.get("type"), str):

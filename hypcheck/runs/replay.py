@@ -17,6 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import (
     AXIS,
     COLUMNS,
+    END,
     REFUSED,
     TILTED_COLUMNS,
     TILTED_WAY_COLUMNS,
@@ -113,7 +114,10 @@ def _given_row(text: str) -> Row:
     """Seven or ten valid numbers, decimal or hexadecimal; or ten or thirteen, which are a valid way."""
     parts = text.split(",")
     if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS)):
-        wanted = f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}"
+        wanted = (
+            f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}; "
+            f"a way has {', '.join(END)} after z, so it has 10, or 13 with an axis"
+        )
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
     layout = WAYS if len(parts) == len(TILTED_WAY_COLUMNS) else PAIRS
     row = tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))

@@ -19,6 +19,7 @@ import numpy as np
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows, invalid
+from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
     ADDED,
     CHUNK,
@@ -146,7 +147,7 @@ def _values(text: str, where: str) -> tuple[object, ...]:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:
         cut = " (the line may have been cut off)" if error.pos >= len(text) else ""
-        raise InputError(f"{where}: not JSON at character {error.pos + 1}: {error.msg.lower()}{cut}") from None
+        raise InputError(f"{where}: not JSON at character {error.pos + 1}: {json_trouble(error)}{cut}") from None
     except RecursionError:
         raise InputError(f"{where}: nested too deeply; it must be one flat object") from None
     except ValueError as error:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from hypcheck.errors import InputError
+from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import first_double
 from hypcheck.tables.numbers import Literal, shown, shown_json
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, reading, text_lines
@@ -164,7 +165,7 @@ class _JsonScanner:
         try:
             value, self._at = self._decoder.raw_decode(self._text, self._at)
         except json.JSONDecodeError as error:
-            raise self._not_json(error.pos, error.msg.lower()) from None
+            raise self._not_json(error.pos, json_trouble(error)) from None
         except RecursionError:
             raise InputError(f"{place}: nested too deeply") from None
         except ValueError as error:

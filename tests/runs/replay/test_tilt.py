@@ -68,6 +68,11 @@ def test_a_tilted_row_to_be_refused_is_replayed_by_its_id(capsys):
             "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction",
         ),
         ("2,5,1,0.5,2.5,0,0,1", f"{SPEC}exact", "has 8 numbers; it must have 7: alpha, gamma"),
+        (
+            "2,5,1,0.5,2.5,0,0,1",
+            f"{SPEC}exact",
+            "a way has x1, y1, z1 after z, so it has 10, or 13 with an axis",
+        ),
     ],
 )
 def test_case_that_cannot_be_replayed_is_refused_in_one_sentence(case, spec, sentence, capsys):
