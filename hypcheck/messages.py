@@ -56,7 +56,7 @@ def _escaped_character(character: str) -> str:
 def json_trouble(error: JSONDecodeError) -> str:
     """What Python's reader says is wrong with a JSON text, as the end of a sentence.
 
-    Some of its sentences end with "at" or "starting at", because the place follows: "Unterminated string starting at: …".
+    Some of its sentences end with "at" or "starting at", because the place follows.
     """
     return error.msg.lower().removesuffix(" at").removesuffix(" starting")
 
