@@ -3,6 +3,7 @@
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
+    hypcheck.clearance(rows) -> hypcheck.Clearance: .lower, .upper, .distance_lower, .distance_upper, .nearest, .touch
     hypcheck.passage((alpha, gamma, b, d), start, end, axis=None) -> .hit, .first_lower, .first_upper
     hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,); .passage(start, end) -> int8 (n,)
     hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
@@ -18,19 +19,32 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import classify, classify_scene
+    from hypcheck.kernel.clearance import Clearance, clearance
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
     from hypcheck.truth.swept import passage
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
-__all__ = ["InputError", "Scene", "__version__", "classify", "classify_scene", "passage", "position"]
+__all__ = [
+    "Clearance",
+    "InputError",
+    "Scene",
+    "__version__",
+    "classify",
+    "classify_scene",
+    "clearance",
+    "passage",
+    "position",
+]
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
+    "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
     "InputError": ("hypcheck.errors", "InputError"),
     "Scene": ("hypcheck.kernel.scene", "Scene"),
     "classify": ("hypcheck.kernel.classify", "classify"),
     "classify_scene": ("hypcheck.kernel.classify", "classify_scene"),
+    "clearance": ("hypcheck.kernel.clearance", "clearance"),
     "passage": ("hypcheck.truth.swept", "passage"),
     "position": ("hypcheck.kernel.scalar", "position"),
 }

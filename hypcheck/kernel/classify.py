@@ -92,7 +92,7 @@ def classify(
     is not raises InputError (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are
     marked 127.
     """
-    number = _required(question, threads, on_invalid)
+    number = required(question, threads, on_invalid)
     queries = as_rows(rows, tilted=True)
     _require_fitting(out, len(queries))
     result, refused = kernel().answer_rows(queries, question, number)
@@ -121,7 +121,7 @@ def classify_scene(
     with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
     valid are always refused.
     """
-    number = _required(question, threads, on_invalid)
+    number = required(question, threads, on_invalid)
     four = _sizes(sizes)
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:
@@ -168,7 +168,7 @@ def _one_axis(numbers: Floats, on_invalid: str) -> Axis:
     return vx, vy, vz
 
 
-def _required(question: str, threads: int | None, on_invalid: str) -> int | None:
+def required(question: str, threads: int | None, on_invalid: str) -> int | None:
     """The number of threads, when all three make sense."""
     if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")

@@ -54,6 +54,13 @@ def _classify(rows: Rows, result: Positions) -> None:
         result[place] = tilted_integers.position(rows[place].tolist())
 
 
+def multipliers(rows: Rows) -> Floats:
+    """Near the multiplier, in squares of b, where the dual function of each row (n, 10) is greatest: a hint, (n,)."""
+    alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
+    row = (alpha, gamma, b, d, x, y, z, *_scaled(np.stack(axis)))
+    return _multiplier(tilted.tilted_form(*row, list(np.empty((tilted.TILTED_FORM_BUFFERS[0], len(rows))))))
+
+
 def _scaled(axes: Floats) -> tuple[Floats, Floats, Floats]:
     """Axes of any length, (3, n), with the largest number in [1/2, 1): times a power of two, NaN where not exact."""
     exponents = np.frexp(np.abs(axes).max(axis=0))[1]

@@ -1,0 +1,265 @@
+"""Where a spheroid first touches when it is grown, and the shortest gap: points in floats. Only `error` is proved.
+
+**Upright touches.** In lengths scaled by b and d, with p = a r, q = c z and W = A + B (docs/mathematics.md), τ = A + λ
+and σ = B − λ at the dual's maximum satisfy τ/p = σ/√(σ² + q²). The left side less the right one is convex and increases
+with λ, and is linear but for where σ ~ q: Newton's method needs few turns from any start.
+
+Their error. Let the smaller of τ and σ be exact: that says what λ is. The other is W less it, at least W/2 and within
+12u (u = 2⁻⁵²), so that ρ = A r/τ and ζ = B z/σ are within 16u. For every X on the hyperboloid, the exact place X* too,
+|X − C|² − D(λ) = (X₁ − ρ)² τ/A + (X₂ − ζ)² σ/B. At X* it is the least, so any other X bounds it by some Γ: those of the
+height ζ and of the radius ρ. Hence |ρ* − ρ| ≤ √(Γ A/τ) and |ζ* − ζ| ≤ √(Γ B/σ), and as X* is on the hyperboloid
+the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A − 1). _ROUNDED = 32u holds each coordinate.
+
+**Leaning touches.** The multiplier is that of the kernel's second stage (numpy_tilted.py), the point X solves a linear
+system. With G = M + λD ≥ μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where
+|h| max|D| < |n|² (h changes its sign on the way along n), and X − G⁻¹r is where |X − C|² + λ h is least. So the exact
+place is within |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ). Elimination shows μ: where G − shift has positive pivots in floats,
+μ ≥ shift − 8·_ROUNDED·(the terms of G). The terms of r and of h take fewer than 16 roundings each.
+
+Both hold for lengths in 2^±100, coordinates that may be smaller, and b/d in 2^±20; elsewhere `error` is inf.
+
+**The gap.** In the meridian plane of the centre the tangent of the hyperbola at the height ζ has the slope
+s = αζ/(γ√(γ² + ζ²)), and the spheroid's parallel tangent is at the distance
+
+    G = (c (r − s z − w) − v)/n,   w = α²/ρ, ρ the radius at ζ,   v² = b² + d² s²,   n² = 1 + s²,
+
+c = 1 outside and −1 inside. The least G outside, and the greatest inside, is the distance of the bodies: outside the
+hyperboloid a meridian plane is convex, and inside it the far side is. G' = 0 says ζ − z = c s (d²/v + G/n).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
+from hypcheck.kernel import numpy_tilted
+
+TURNS = 12
+GAP_TURNS = 12
+_SETTLED = 2.0**-30
+POLISHED = 2
+
+_ROUNDED = 2.0**-47
+_MORE = 1 + 2.0**-30
+_LEAST_SHARE = 2.0**-70
+"""A σ of 0 would say nothing of the height, where two nearest points are about to fall together."""
+
+_RANGE = (2.0**-100, 2.0**100)
+_RATIO = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """Near the point where the grown spheroid first touches: the factor (n,), the point (n, 3).
+
+    The exact point is not farther than `error` away, (n,); inf where that is not known.
+    """
+
+    factor: Floats
+    point: Floats
+    error: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Gaps:
+    """Near the shortest gap: its length and the spheroid's half width across it (n,), its two ends (n, 3) each."""
+
+    length: Floats
+    support: Floats
+    there: Floats
+    here: Floats
+
+
+def upright_touches(rows: Rows) -> Touches:
+    """The touches of valid rows (n, 7)."""
+    alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
+    a, c, r, h = alpha / b, gamma / d, np.hypot(x, y) / b, np.abs(z) / d
+    A, B = a * a, c * c
+    tau, sigma = _poles(A, B, a * r, c * h)
+    lesser = tau < sigma
+    tau, sigma = np.where(lesser, tau, A + B - sigma), np.where(lesser, A + B - tau, sigma)
+    radius, height = A * r / tau, B * h / sigma
+    low, high = a * np.sqrt(1 + (height / c) ** 2), c * np.sqrt(np.maximum((radius / a) ** 2 - 1, 0))
+    rounded = _ROUNDED * B * (radius / a) ** 2 / high
+    by_low = (np.abs(low - radius) + _ROUNDED * (low + radius)) ** 2 * (tau / A)
+    by_high = (np.abs(high - height) + _ROUNDED * (high + height) + rounded) ** 2 * (sigma / B)
+    least = np.fmin(by_low, by_high)
+    across, up = np.sqrt(least * (A / tau)), np.sqrt(least * (B / sigma))
+    off_low = d * up + b * (A * (height + up) / (B * low)) * up
+    off_high = b * across + d * ((B / A) * (2 * radius + across) * across / high + rounded)
+    other = off_high < off_low
+    radius, height = np.where(other, radius, low), np.where(other, high, height)
+    point = _placed(rows, radius * b, height * d)
+    error = _MORE * (np.fmin(off_low, off_high) + _ROUNDED * np.abs(point).sum(axis=1))
+    return Touches(np.hypot(radius - r, height - h), point, _known(rows, error))
+
+
+def _known(rows: Rows, error: Floats) -> Floats:
+    """The errors where their bounds hold, else inf."""
+    size = np.abs(rows[:, :7])
+    usual = (size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1)
+    usual &= np.abs(np.log2(rows[:, 2] / rows[:, 3])) <= _RATIO
+    return np.where(usual & (error >= 0), error, np.inf)
+
+
+def _poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
+    """τ and σ, by Newton's method from λ = 0."""
+    W = A + B
+    p, q = np.maximum(p, 1e-150), np.maximum(q, 1e-150)
+    tau, sigma = A.copy(), B.copy()
+    slope = 1 / p
+    for _ in range(TURNS):
+        cone = np.sqrt(sigma * sigma + q * q)
+        step = (sigma / cone - tau * slope) / (slope + (q / cone) ** 2 / cone)
+        tau = np.minimum(tau + step, W)
+        sigma = np.maximum(sigma - step, 0)
+        if (np.abs(step) <= 2.0**-40 * np.minimum(tau, sigma)).all():
+            break
+    return np.maximum(tau, 1e-300), np.maximum(sigma, _LEAST_SHARE * W)
+
+
+def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
+    """The points (n, 3) with these radii in each centre's meridian plane, at heights that count towards the centre."""
+    x, y, z = rows[:, 4], rows[:, 5], rows[:, 6]
+    scale = np.maximum(np.abs(x), np.abs(y))  # the direction of subnormal numbers is exact so
+    off = scale > 0
+    cos, sin = (np.divide(each, scale, out=np.full_like(each, axis), where=off) for each, axis in ((x, 1.0), (y, 0.0)))
+    length = np.sqrt(cos * cos + sin * sin)
+    cos, sin = cos / length, sin / length
+    return np.stack([radius * cos, radius * sin, np.where(z < 0, -height, height)], axis=1)
+
+
+def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
+    """Hints for valid rows (n, 7) that are clear, from the places where they first touch, (n, 3)."""
+    alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
+    r, level, side = np.hypot(x, y), np.abs(z), position.astype(np.float64)
+    height = np.abs(touch[:, 2])
+    lowest, highest = np.zeros_like(height), np.where(side > 0, np.inf, level)
+    for _ in range(GAP_TURNS):
+        share = height / gamma
+        cone = np.sqrt(1 + share * share)
+        slope = alpha / gamma * (share / cone)
+        v, n = np.sqrt(b * b + (d * slope) ** 2), np.sqrt(1 + slope * slope)
+        gap = (side * (r - slope * level - alpha / cone) - v) / n
+        off = height - level - side * slope * (d * d / v + gap / n)
+        lowest, highest = np.where(off > 0, lowest, height), np.where(off > 0, height, highest)
+        bend = 1 - side * alpha / (gamma * gamma * cone**3) * ((b * d) ** 2 / v**3 + gap / n**3)
+        moved = height - off / bend
+        if (np.abs(moved - height) <= _SETTLED * height).all():
+            break
+        inside = (moved >= lowest) & (moved <= highest) & (bend > 0)
+        height = np.where(inside, moved, np.minimum((lowest + highest) / 2, 2 * height + level))
+    there = _placed(rows, alpha * cone, share * gamma)
+    here = _placed(rows, r - side * b * (b / v), level + side * slope * (d * d / v))
+    return Gaps(gap, v / n, there, here)
+
+
+def leaning_touches(rows: Rows) -> Touches:
+    """The touches of valid rows (n, 10) whose axis leans."""
+    alpha, gamma, b, d = np.ascontiguousarray(rows[:, :4].T)
+    unit, centre = _unit(rows[:, 7:]), rows[:, 4:7] / b[:, None]
+    stretch = (b / d) ** 2 - 1
+    at = np.concatenate([numpy_tilted.multipliers(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK)])
+    form = np.stack([(b / alpha) ** 2, (b / alpha) ** 2, -((b / gamma) ** 2)], axis=1)
+    outer = stretch[:, None, None] * (unit[:, :, None] * unit[:, None, :])
+    own = centre + (stretch * (unit * centre).sum(axis=1))[:, None] * unit
+    for turn in range(POLISHED + 1):
+        matrix = np.eye(3) * (1 + at[:, None, None] * form[:, None, :]) + outer
+        adjugate, determinant = _adjugate(matrix)
+        place = (adjugate * own[:, :, None]).sum(axis=1) / determinant[:, None]
+        if turn == POLISHED:
+            break
+        normal = form * place
+        bend = ((adjugate * normal[:, :, None]).sum(axis=1) * normal).sum(axis=1) / determinant
+        step = ((normal * place).sum(axis=1) - 1) / (2 * bend)
+        at = np.where(np.abs(step) < 2.0**-10 * np.abs(at), at + step, at)
+    error = _error(rows, unit, at, form, place, matrix, determinant / np.trace(adjugate, axis1=1, axis2=2))
+    x, y, z = (place * b[:, None]).T
+    radius = np.hypot(x, y)
+    low = alpha * np.sqrt(1 + (z / gamma) ** 2) / radius
+    high = np.copysign(gamma * np.sqrt(np.maximum((radius / alpha) ** 2 - 1, 0)), z)
+    points = np.stack([x * low, y * low, z], axis=1), np.stack([x, y, high], axis=1)
+    by_low, by_high = (_factor(rows, unit, point) for point in points)
+    other = (by_high < by_low) & (radius >= alpha)
+    point = np.where(other[:, None], points[1], points[0])
+    moved = np.sqrt(((point - place * b[:, None]) ** 2).sum(axis=1)) + _ROUNDED * np.abs(point).sum(axis=1)
+    return Touches(np.where(other, by_high, by_low), point, _known(rows, _MORE * (b * error + moved)))
+
+
+def _error(rows: Rows, unit: Floats, at: Floats, form: Floats, place: Floats, matrix: Floats, least: Floats) -> Floats:
+    """How far the exact place is from a computed one at most, in units of b; NaN where nothing is shown.
+
+    `least` is a guess of half the least eigenvalue of the matrix M + λD.
+    """
+    stretch, size = (rows[:, 2] / rows[:, 3]) ** 2 + 2, np.abs(at)
+    centre = rows[:, 4:7] / rows[:, 2:3]
+    way, normal = place - centre, form * place
+    left = way + ((stretch - 3) * (unit * way).sum(axis=1))[:, None] * unit + at[:, None] * normal
+    terms = stretch * (np.abs(place).sum(axis=1) + np.abs(centre).sum(axis=1)) + size * np.abs(normal).sum(axis=1)
+    off = np.sqrt((left * left).sum(axis=1)) + _ROUNDED * terms
+    squares = form * place * place
+    height = np.abs(squares.sum(axis=1) - 1) + _ROUNDED * (1 + np.abs(squares).sum(axis=1))
+    length = np.sqrt((normal * normal).sum(axis=1)) * (1 - _ROUNDED)
+    whole = 3 * stretch + size * np.abs(form).sum(axis=1)
+    shift = least / 2
+    mu = np.where(_has_positive_pivots(matrix - shift[:, None, None] * np.eye(3)), shift - 8 * _ROUNDED * whole, np.nan)
+    beside = height / length
+    holds = (mu > 0) & (_MORE * beside * np.abs(form).max(axis=1) < length)
+    return np.where(holds, off / mu + np.sqrt(whole / mu) * (beside + off / mu), np.nan)
+
+
+def _has_positive_pivots(matrix: Floats) -> Mask:
+    """Whether elimination finds three positive pivots in each symmetric matrix (n, 3, 3)."""
+    first = matrix[:, 0, 0]
+    p, q = matrix[:, 0, 1] / first, matrix[:, 0, 2] / first
+    second = matrix[:, 1, 1] - p * matrix[:, 0, 1]
+    off = matrix[:, 1, 2] - p * matrix[:, 0, 2]
+    third = matrix[:, 2, 2] - q * matrix[:, 0, 2] - off / second * off
+    return np.asarray((first > 0) & (second > 0) & (third > 0))
+
+
+_CHUNK = 2048
+
+
+def _unit(axis: Floats) -> Floats:
+    scaled = axis / np.abs(axis).max(axis=1, keepdims=True)
+    return np.asarray(scaled / np.sqrt((scaled * scaled).sum(axis=1, keepdims=True)))
+
+
+def _adjugate(matrix: Floats) -> tuple[Floats, Floats]:
+    """The adjugates of symmetric matrices (n, 3, 3), row by row, and the determinants (n,)."""
+    rows = np.moveaxis(matrix, 1, 0)
+    adjugate = np.stack([np.cross(rows[(k + 1) % 3], rows[(k + 2) % 3]) for k in range(3)], axis=1)
+    return adjugate, (rows[0] * adjugate[:, 0]).sum(axis=1)
+
+
+def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
+    """How many times as large the spheroid reaches the point."""
+    way = point - rows[:, 4:7]
+    along = (unit * way).sum(axis=1)
+    across = way - along[:, None] * unit
+    return np.asarray(np.sqrt((across * across).sum(axis=1) / rows[:, 2] ** 2 + (along / rows[:, 3]) ** 2))
+
+
+def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
+    """Hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
+
+    A spheroid that contains all points within some length of the given one, and no more of them in the direction of the
+    gap, first touches where the gap is.
+    """
+    unit, grown = _unit(rows[:, 7:]), rows.copy()
+    b, d = rows[:, 2], rows[:, 3]
+    for turn in range(GAP_TURNS):
+        normal = touch / np.stack([rows[:, 0], rows[:, 0], rows[:, 1]], axis=1) ** 2 * (1.0, 1.0, -1.0)
+        normal *= -position[:, None] / np.sqrt((normal * normal).sum(axis=1, keepdims=True))
+        along = (normal * unit).sum(axis=1)
+        half = (b * b)[:, None] * normal + ((d * d - b * b) * along)[:, None] * unit
+        v = np.sqrt((half * normal).sum(axis=1))
+        here = rows[:, 4:7] + half / v[:, None]
+        gap = ((touch - here) * normal).sum(axis=1)
+        if turn < GAP_TURNS - 1:
+            grown[:, 2], grown[:, 3] = np.sqrt((v + gap) * (b * b / v + gap)), np.sqrt((v + gap) * (d * d / v + gap))
+            touch = leaning_touches(grown).point  # its error is made in vain, for short arrays
+    return Gaps(gap, v, touch, here)

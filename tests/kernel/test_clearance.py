@@ -1,0 +1,127 @@
+"""hypcheck.clearance: intervals that contain what the nearest-point oracle says, whatever the guess is."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair
+from hypcheck.kernel import clearance_points
+from hypcheck.truth import nearest
+from hypcheck.truth.nearest_exact import nearest as nearest_of
+from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+
+UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
+LEANING = ("tilted-uniform", "tilted-tangent", "tilted-ring", "tilted-sphere")
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return np.concatenate([FAMILIES[name].rows(1, 40) for name in UPRIGHT])
+
+
+@pytest.fixture(scope="module")
+def found(rows):
+    return hypcheck.clearance(rows)
+
+
+def test_the_clearances_of_each_family_lie_in_their_intervals(rows, found):
+    true = nearest.clearances(rows)
+    assert (found.position == true.position).all()
+    assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
+    assert (found.upper - found.lower <= 2.0**-29 * np.maximum(1, 1 + found.lower)).all()
+    assert (found.lower[found.position != 0] >= 0).all()
+    assert (found.upper[found.position == 0] <= 0).all()
+
+
+def test_a_wrong_guess_makes_no_wrong_interval(rows, found, monkeypatch):
+    honest = clearance_points.upright_touches
+
+    def touches(some):
+        said = honest(some)
+        return dataclasses.replace(said, factor=said.factor * np.where(np.arange(len(some)) % 2, 1.5, 0.7))
+
+    monkeypatch.setattr(clearance_points, "upright_touches", touches)
+    other = hypcheck.clearance(rows[::8])
+    true = nearest.clearances(rows[::8]).clearance
+    assert ((other.lower <= true) & (true <= other.upper)).all()
+    assert (other.upper - other.lower <= 2.0**-29 * np.maximum(1, 1 + other.lower)).all()
+
+
+def test_the_exact_touch_is_within_its_error(rows, found):
+    known = np.flatnonzero(np.isfinite(found.touch_error))
+    assert len(known) > len(rows) / 2
+    for k in known[::4].tolist():
+        exact = nearest_of(Pair.from_row(rows[k].tolist()))
+        if exact.circle:  # one point of it, in the half plane of the other
+            continue
+        off = min(np.linalg.norm(np.array(point) - found.touch[k]) for point in exact.points)
+        assert off <= found.touch_error[k]
+    assert np.median(found.touch_error[known] / np.abs(found.touch[known]).sum(axis=1)) < 1e-12
+
+
+def test_the_clearances_of_tilted_families_lie_in_their_intervals():
+    rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in LEANING])
+    found = hypcheck.clearance(rows)
+    for k, row in enumerate(rows.tolist()):
+        true = tilted_nearest(TiltedPair.from_row(row)).clearance
+        assert found.lower[k] <= true <= found.upper[k]
+    assert (found.distance_lower <= found.distance_upper).all()
+
+
+@pytest.mark.parametrize(
+    ("row", "distance"),
+    [
+        ((2, 17.8, 0.25, 0.15, 0, 0, 0), 1.75),  # on the axis, at the waist: α − b
+        ((2, 17.8, 0.25, 0.15, 3, 4, 0), 2.75),  # outside, at the waist: r − α − b
+        ((3, 4, 1, 1, 0, 0, 20), np.sqrt(9 + 9 * 400 / 25) - 1),  # a sphere on the axis: √(α² + α²z²/(α² + γ²)) − b
+        ((1, 1, 1, 1, 1.5, 0, 0), 0.0),
+    ],
+)
+def test_distances_worked_out_by_hand_lie_in_their_intervals(row, distance):
+    found = hypcheck.clearance([row])
+    assert found.distance_lower[0] <= distance <= found.distance_upper[0]
+    assert found.distance_upper[0] - found.distance_lower[0] <= 1e-8
+
+
+def test_no_two_points_of_the_bodies_are_nearer_than_the_lower_distance():
+    rng = np.random.default_rng(7)
+    rows = np.concatenate([np.exp(rng.normal(0, 1, (60, 4))), rng.normal(0, 5, (60, 3))], axis=1)
+    rows = rows[hypcheck.classify(rows) != 0]
+    found = hypcheck.clearance(rows)
+    height, angle = np.sinh(np.linspace(-4, 4, 401)), np.linspace(0, 2 * np.pi, 1001)
+    for k, (alpha, gamma, b, d, x, y, z) in enumerate(rows.tolist()):
+        r, zeta = np.hypot(x, y), np.concatenate([z + d * height, [found.nearest[k, 2]]])
+        rho = alpha * np.sqrt(1 + (zeta / gamma) ** 2)
+        gaps = np.hypot(rho[:, None] - r - b * np.cos(angle), zeta[:, None] - z - d * np.sin(angle))
+        assert found.distance_lower[k] <= gaps.min()
+        assert gaps[-1].min() <= found.distance_upper[k] + 0.01 * max(b, d)  # the sampled points are that far apart
+        assert np.isclose(np.hypot(*found.nearest[k, :2]), rho[-1], rtol=1e-14)
+
+
+def test_a_layer_lies_in_the_spheroid_that_is_to_hold_it():
+    rng = np.random.default_rng(8)
+    b, d, v, delta = np.exp(rng.normal(0, 2, (4, 1000)))
+    angle = rng.uniform(0, np.pi, 1000)
+    half = [np.hypot(p * np.cos(angle), q * np.sin(angle)) for p, q in ((b, d), _enlarged(b, d, v, delta))]
+    assert (half[0] + delta <= half[1] * (1 + 1e-14)).all()
+
+
+def _enlarged(b, d, v, delta):
+    return [np.sqrt((v + delta) * (size**2 / v + delta)) for size in (b, d)]
+
+
+def test_invalid_rows_are_refused_or_marked():
+    rows = [[2, 17.8, 0.25, 0.15, 0, 0, 0], [2, 17.8, -1, 0.15, 0, 0, 0]]
+    with pytest.raises(InputError, match=r"row 1: b is -1\.0; a semi-axis must be"):
+        hypcheck.clearance(rows)
+    found = hypcheck.clearance(rows, on_invalid="flag")
+    assert found.position.tolist() == [-1, 127]
+    assert np.isnan([found.lower[1], found.distance_upper[1], *found.touch[1]]).all()
+    assert found.lower[0] <= 7 <= found.upper[0]
