@@ -66,7 +66,7 @@ def timed_methods(*, meshes: bool) -> list[TimedMethod]:
     ]
     if meshes and ORACLES["mesh"].available() is None:
         found += [
-            TimedMethod("FCL point-mesh", "distance to a mesh of 2,000 triangles built for each row", point_mesh, 60),
+            TimedMethod("FCL point-mesh", "distance to a mesh of 2,000 triangles built for each row", point_mesh, 12),
             TimedMethod("FCL certified", "two one-sided meshes built for each row; contact or clear only", _mesh, 60),
         ]
     return found

@@ -9,7 +9,7 @@ until its claim holds exactly, so each one ends.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import count
 
@@ -20,8 +20,9 @@ from hypcheck.truth.tilted.certificate import Point, Query, TiltedCertificate
 from hypcheck.truth.tilted.exact import Quartic, TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 
-Vector = list[Fraction]
-Matrix = list[list[Fraction]]
+Vector = list[int]
+Matrix = list[list[int]]
+Homogeneous = tuple[Vector, int]
 
 
 def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> TiltedCertificate:
@@ -88,97 +89,129 @@ def points(pair: Query, F: Quartic) -> tuple[Point, ...]:
     Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
     """
     forms = _Forms(pair)
-    center = forms.center
+    center = forms.fraction((forms.center, 1))
     if F.side == 0:
-        return (_point(center),)
+        return (center,)
     for candidate in _candidates(forms, F):
-        if forms.spheroid(candidate) <= 0 and forms.hyperboloid(candidate) * F.side < 0:
-            return (_point(center), _point(candidate))
+        if forms.hyperboloid(candidate) * F.side < 0 and forms.in_spheroid(candidate):
+            return (center, forms.fraction(candidate))
     raise AssertionError("unreachable: the candidates do not end")
 
 
 class _Forms:
-    """The two surfaces' equations, and what the pencil needs of them, in rationals."""
+    """The two surfaces' equations in integers, and what the pencil needs of them.
+
+    Lengths are integers over their common denominator L, so that the unit is 1/L. With V = v·v, q = b², t = d², p = α²
+    and s = γ², M is `M` over q t V, its inverse is `inverse` over V, and D is the diagonal `D` over p s. A point is
+    (X, w), w ≠ 0: its coordinates are X/w. No fraction is reduced before the end, because that would take most of the
+    time.
+    """
 
     def __init__(self, pair: Query) -> None:
-        alpha, gamma, b, d, *self.center = (Fraction(each) for each in pair.row[:7])
-        v = [Fraction(each) for each in pair.axis]
-        square = sum(each * each for each in v)
-        across, along = 1 / b**2, (1 / d**2 - 1 / b**2) / square
-        self.M = [[(i == j) * across + along * v[i] * v[j] for j in range(3)] for i in range(3)]
-        wide, deep = b**2, (d**2 - b**2) / square
-        self.inverse = [[(i == j) * wide + deep * v[i] * v[j] for j in range(3)] for i in range(3)]
-        self.D = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)
+        lengths, self.unit = _over_one_denominator(pair.row[:7])
+        v, _ = _over_one_denominator(pair.axis)
+        p, s, q, t = (each * each for each in lengths[:4])
+        self.center = lengths[4:]
+        self.V = _dot(v, v)
+        self.M = [[(i == j) * t * self.V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
+        self.inverse = [[(i == j) * q * self.V + (t - q) * v[i] * v[j] for j in range(3)] for i in range(3)]
+        self.D = [s, s, -p]
+        self.under_M, self.under_D = q * t * self.V, p * s
 
-    def spheroid(self, point: Vector) -> Fraction:
-        """(X − C)ᵀ M (X − C) − 1."""
-        way = [a - b for a, b in zip(point, self.center, strict=True)]
-        return _dot(way, _times(self.M, way)) - 1
+    def in_spheroid(self, point: Homogeneous) -> bool:
+        """Whether (X − C)ᵀ M (X − C) ≤ 1."""
+        X, w = point
+        way = [a - w * b for a, b in zip(X, self.center, strict=True)]
+        return _dot(way, _times(self.M, way)) <= w * w * self.under_M
 
-    def hyperboloid(self, point: Vector) -> Fraction:
-        """Xᵀ D X − 1."""
-        return _dot(point, self.gradient(point)) - 1
+    def hyperboloid(self, point: Homogeneous) -> int:
+        """Xᵀ D X − 1, times w² p s."""
+        X, w = point
+        return _dot(X, self.gradient(X)) - w * w * self.under_D
 
-    def gradient(self, point: Vector) -> Vector:
-        """D X."""
-        return [a * b for a, b in zip(self.D, point, strict=True)]
+    def gradient(self, vector: Vector) -> Vector:
+        """D times a vector, times p s."""
+        return [a * b for a, b in zip(self.D, vector, strict=True)]
 
-    def adjugate(self, at: Fraction) -> Matrix:
-        """The adjugate of M + λD; at a pole it has rank one, and any column spans the kernel."""
-        m = [[self.M[i][j] + (i == j) * at * self.D[i] for j in range(3)] for i in range(3)]
-        return [[_cofactor(m, j, i) for j in range(3)] for i in range(3)]
+    def pencil(self, at: Fraction) -> tuple[Matrix, int]:
+        """M + λD times a positive integer, and that integer."""
+        n, k = at.numerator, at.denominator
+        whole, part = self.under_D * k, n * self.under_M
+        matrix = [[self.M[i][j] * whole + (i == j) * part * self.D[i] for j in range(3)] for i in range(3)]
+        return matrix, self.under_M * whole
+
+    def fraction(self, point: Homogeneous) -> Point:
+        """A point in the caller's coordinates."""
+        (x, y, z), w = point
+        under = w * self.unit
+        return (Fraction(x, under), Fraction(y, under), Fraction(z, under))
 
 
-def _candidates(forms: _Forms, F: Quartic) -> Iterator[Vector]:
+def _candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
     """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
-    steepest = _times(forms.inverse, forms.gradient(forms.center))
-    square = _dot(steepest, forms.gradient(forms.center))
+    gradient = forms.gradient(forms.center)
+    steepest, under = _times(forms.inverse, gradient), forms.V * forms.under_D
+    square = Fraction(_dot(steepest, gradient), under * forms.under_D)
     for bits in (4, 60) if square else ():
-        yield _plus(forms.center, steepest, -F.side * _root(1 / square, bits))
+        yield _plus((forms.center, 1), (steepest, under), -F.side * _root(1 / square, bits))
     for steps, at in enumerate(_toward_maximum(F)):
         if not inside(F, at):
             continue
-        adjugate = forms.adjugate(at * F.side)
+        matrix, scale = forms.pencil(at * F.side)
+        # At a pole the adjugate has rank one, and any column spans the kernel.
+        adjugate = [[_cofactor(matrix, j, i) for j in range(3)] for i in range(3)]
         scaled = _times(adjugate, _times(forms.M, forms.center))
-        determinant = sum((forms.M[0][j] + (j == 0) * at * F.side * forms.D[0]) * adjugate[j][0] for j in range(3))
-        point = [each / determinant for each in scaled]
+        whole = scale // forms.under_M
+        point = ([each * whole for each in scaled], _dot(matrix[0], [row[0] for row in adjugate]))
         yield point
-        yield from _across_the_pole(forms, F, adjugate, point, 40 + steps)
+        yield from _across_the_pole(forms, F, (adjugate, scale), point, 40 + steps)
 
 
-def _across_the_pole(forms: _Forms, F: Quartic, adjugate: Matrix, point: Vector, bits: int) -> Iterator[Vector]:
+def _across_the_pole(
+    forms: _Forms, F: Quartic, adjugate: tuple[Matrix, int], point: Homogeneous, bits: int
+) -> Iterator[Homogeneous]:
     """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves.
 
     So little that only `bits` bits tell it from the hyperboloid: the nearer to tangency, the less room there is.
     """
-    direction = max(adjugate, key=lambda column: _dot(column, column))
-    curvature = _dot(direction, forms.gradient(direction))
-    slope, height = _dot(direction, forms.gradient(point)), forms.hyperboloid(point)
+    matrix, scale = adjugate
+    direction = max(matrix, key=lambda column: _dot(column, column))
+    gradient, (X, w) = forms.gradient(direction), point
+    curvature, height = _dot(direction, gradient), forms.hyperboloid(point)
     if curvature * F.side >= 0 or height * F.side <= 0:
         return
-    for sign in (1, -1):  # curvature τ² + 2 slope τ + height = 0
-        way = _root((slope / curvature) ** 2 - height / curvature, bits + 24) * (1 + Fraction(1, 1 << bits))
-        yield _plus(point, direction, sign * way - slope / curvature)
+    # The direction is the adjugate's column in the caller's unit; curvature τ² + 2 slope τ + height = 0.
+    square, length = scale * scale, forms.unit**5
+    slope = Fraction(_dot(gradient, X) * square, w * length * curvature)
+    root = slope**2 - Fraction(height * square * square, w * w * length * length * curvature)
+    way = _root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
+    for sign in (1, -1):
+        yield _plus(point, ([length * each for each in direction], square), sign * way - slope)
 
 
-def _point(vector: Vector) -> Point:
-    x, y, z = vector
-    return (x, y, z)
+def _over_one_denominator(values: Sequence[float | Fraction]) -> tuple[Vector, int]:
+    """Numbers as integers over one denominator."""
+    ratios = [value.as_integer_ratio() for value in values]
+    unit = math.lcm(*(denominator for _, denominator in ratios))
+    return [numerator * (unit // denominator) for numerator, denominator in ratios], unit
 
 
-def _dot(a: Vector, b: Vector) -> Fraction:
-    return sum((p * q for p, q in zip(a, b, strict=True)), Fraction(0))
+def _dot(a: Vector, b: Vector) -> int:
+    return sum(p * q for p, q in zip(a, b, strict=True))
 
 
 def _times(matrix: Matrix, vector: Vector) -> Vector:
     return [_dot(row, vector) for row in matrix]
 
 
-def _plus(point: Vector, direction: Vector, factor: Fraction) -> Vector:
-    return [a + factor * b for a, b in zip(point, direction, strict=True)]
+def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:
+    """A point and a multiple of a direction, each over its denominator."""
+    (X, w), (way, under) = point, direction
+    n, k = factor.numerator * w, factor.denominator * under
+    return [a * k + n * b for a, b in zip(X, way, strict=True)], w * k
 
 
-def _cofactor(m: Matrix, i: int, j: int) -> Fraction:
+def _cofactor(m: Matrix, i: int, j: int) -> int:
     (a, b), (c, d) = ([m[r][s] for s in range(3) if s != j] for r in range(3) if r != i)
     return (b * c - a * d) if (i + j) % 2 else (a * d - b * c)
 
