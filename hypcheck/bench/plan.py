@@ -119,12 +119,12 @@ class BenchPlan:
     limits: Limits = field(default_factory=lambda: Limits(restarts=RESTARTS))
 
     def __post_init__(self) -> None:
-        alone = [name for name, given in (("--kernel", self.kernel), ("--forest", self.forest)) if given]
-        alone += ["--scene"] if self.scenes else []
-        tilted = self.tilted and (self.kernel or self.forest)
-        if alone and (len(alone) > 1 or self.specs or self.methods or self.workloads or self.baseline or tilted):
-            what = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}[alone[0]]
-            raise InputError(f"{alone[0]} measures {what} and nothing else; it goes with no other choice")
+        whats = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}
+        given = (self.kernel, self.forest, bool(self.scenes))
+        alone = [name for name, is_given in zip(whats, given, strict=True) if is_given]
+        more = len(alone) > 1 or ((self.kernel or self.forest) and (self.chosen or self.tilted))
+        if more:
+            raise InputError(f"{alone[0]} measures {whats[alone[0]]} and nothing else; it goes with no other choice")
         if self.question == PASSAGE and (alone or self.tilted):
             other = "--tilted" if self.tilted else alone[0]
             raise InputError(f"--question passage compares methods for ways of upright spheroids; leave out {other}")
@@ -137,8 +137,12 @@ class BenchPlan:
     @property
     def whole(self) -> bool:
         """Whether the run measures everything, which takes minutes: nothing was chosen, and it is not quick."""
-        chosen = self.quick or self.specs or self.methods or self.workloads or self.baseline
-        return not chosen and self.everyday
+        return not self.quick and not self.chosen and self.everyday
+
+    @property
+    def chosen(self) -> bool:
+        """Whether implementations, methods, workloads or an earlier record were named."""
+        return bool(self.specs or self.methods or self.workloads or self.baseline)
 
     @property
     def reference(self) -> str:

@@ -68,6 +68,8 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         return (_forest(plan, recorder, outcome),)
     leaning = leaning_scenes(plan.scenes)
     if plan.scenes and not leaning and not plan.tilted:
+        if plan.chosen:
+            raise InputError("--scene measures scenes and nothing else; it goes with other choices if its mover leans")
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     plan = _tilted_plan(plan, leaning)
     workloads = len(chosen_workloads(plan))

@@ -54,7 +54,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     With --question passage each row is a straight way, and missed and false contacts are set against the time of a way.
     With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
-    ratios are to another reference. So it is with a scene whose mover leans.
+    ratios are to another reference. So it is with a scene whose mover leans; the kernel that
+    `hypcheck emit` writes for it can be a SPEC.
 
     With --baseline, times relative to the reference method are compared with those of an earlier record, of this
     machine or another; with --kernel, times of the fast path with its targets. Without them no time fails the run.

@@ -151,12 +151,17 @@ def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatc
     [
         ({"forest": True, "kernel": True}, "--kernel measures the fast path and nothing else"),
         ({"forest": True, "methods": ("fast",)}, "--forest measures a walker's step and nothing else"),
-        ({"scenes": ("tower",), "specs": ("builtin:fast",)}, "--scene measures scenes and nothing else"),
+        ({"forest": True, "scenes": ("tower",)}, "--forest measures a walker's step and nothing else"),
     ],
 )
 def test_kernel_forest_and_scene_options_exclude_other_choices(options, sentence):
     with pytest.raises(InputError, match=sentence):
         BenchPlan(**options)
+
+
+def test_an_upright_scene_goes_with_no_other_choice(tmp_path):
+    with pytest.raises(InputError, match="--scene measures scenes and nothing else"):
+        ended(tmp_path, "--scene", "tower", "--methods", "fast")
 
 
 def test_a_scene_that_is_none_is_refused_before_anything_is_measured():
