@@ -1,4 +1,4 @@
-"""Ships the folder cases/ inside the package, as hypcheck/cases, and compiles the kernel where there is a compiler.
+"""Ships the folder cases/ inside the package, as hypcheck/cases, and compiles what is in C where there is a compiler.
 
 Everything else is said in pyproject.toml.
 """
@@ -6,9 +6,11 @@ Everything else is said in pyproject.toml.
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 
 CASES = sorted(path for path in Path("cases").rglob("*") if path.is_file())
@@ -48,4 +50,38 @@ KERNEL = Extension(
     optional=True,  # without a compiler numpy gives the same answers; `hypcheck info` says which it is
 )
 
-setup(cmdclass={"build_py": BuildWithCases}, ext_modules=[KERNEL])
+ISOLATION = "hypcheck/isolation"
+LAUNCHER = Extension(
+    "hypcheck.isolation.launcher",
+    sources=[f"{ISOLATION}/launcher.c"],
+    depends=[f"{ISOLATION}/filter.h", f"{ISOLATION}/landlock.h"],
+    optional=True,  # without it nothing is isolated, and each run says so
+)
+
+
+class BuildWithLauncher(build_ext):
+    """build_ext, and the launcher, which is a program: it stands where the library of a module of its name would."""
+
+    def get_ext_filename(self, fullname: str) -> str:
+        """The file of a module; the launcher's has no ending."""
+        if fullname.rpartition(".")[2] == "launcher":
+            return os.path.join(*fullname.split("."))
+        return super().get_ext_filename(fullname)
+
+    def build_extension(self, ext: Extension) -> None:
+        """Compile a module, or the launcher."""
+        if ext is not LAUNCHER:
+            super().build_extension(ext)
+            return
+        target = Path(self.get_ext_fullpath(ext.name))
+        objects = self.compiler.compile(
+            ext.sources, output_dir=self.build_temp, depends=ext.depends, extra_postargs=["-std=gnu11", "-O2"]
+        )
+        self.mkpath(str(target.parent))
+        self.compiler.link_executable(objects, target.name, output_dir=str(target.parent))
+
+
+setup(
+    cmdclass={"build_py": BuildWithCases, "build_ext": BuildWithLauncher},
+    ext_modules=[KERNEL, *([LAUNCHER] if sys.platform == "linux" else [])],
+)

@@ -22,6 +22,9 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, handler)
 
+# Implementations of the tests import hypcheck and write files: they are not isolated, but where isolation is tested.
+os.environ["HYPCHECK_ISOLATE"] = "off"
+
 # A worker holds all test modules, sympy and matplotlib. To look through them again and again for garbage would take a
 # fifth of its time: they are kept out of it, and the collector runs rarely.
 gc.disable()

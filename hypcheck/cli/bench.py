@@ -7,7 +7,18 @@ from typing import Any
 
 import click
 
-from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, names_in
+from hypcheck.cli.options import (
+    ISOLATE,
+    LARGEST_SEED,
+    MOST_PROCESSES,
+    PASS_ENV,
+    IntegerOption,
+    NumberOption,
+    OutputPath,
+    isolated,
+    isolation_of,
+    names_in,
+)
 from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
@@ -45,6 +56,8 @@ from hypcheck.errors import Exit, InputError, RunOutcome
     metavar="SCENE",
     help="Measure what this scene saves, and nothing else; any number. If its mover leans: methods, on its rows.",
 )
+@ISOLATE
+@PASS_ENV
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
@@ -68,6 +81,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
+    from hypcheck.isolation.means import isolation_text
     from hypcheck.processes import usable_processors
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
@@ -94,6 +108,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         question=options["question"],
         scenes=options["scene"],
     )
+    bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["out"])
+    plan, isolation = replace(plan, limits=bounds), isolation_of(specs, bounds)
     _refuse_replacing(options["baseline"], options["out"])
     outcome = RunOutcome()
     files = fingerprints(specs) if specs else None
@@ -101,8 +117,9 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
+    title += "" if isolation is None else f"; {isolation_text(isolation.means, isolation.missing)}"
     settings = in_effect(context, unused=("question",))  # it chooses methods, and replaces no declaration
-    provenance = Provenance(files, unchanged.program if unchanged else None, settings)
+    provenance = Provenance(files, unchanged.program if unchanged else None, settings, isolation)
     with (
         TemporaryDirectory(prefix="hypcheck-bench-") as folder,
         recording(options["out"], plan.options, title, provenance) as running,

@@ -17,7 +17,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli.options import LARGEST_SEED, Command, IntegerOption, NumberOption, OutputPath, limits_of, with_limits
+from hypcheck.cli.options import (
+    LARGEST_SEED,
+    Command,
+    IntegerOption,
+    NumberOption,
+    OutputPath,
+    limits_of,
+    print_isolation,
+    with_limits,
+)
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
@@ -68,9 +77,9 @@ def opened(
         options.append(("--tolerance", repr(tolerance)))
     claimed = None if domain is None else parse_domain(domain)
     print_file_settings()
-    with open_implementation(
-        spec, limits_of(**limits), precision=precision, question=question, domain=claimed
-    ) as implementation:
+    bounds = limits_of(**limits)
+    print_isolation(spec, bounds)
+    with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
         yield target_of(
             spec,
             implementation,
@@ -289,9 +298,9 @@ def replay(
     require_formula(formula)
     claimed = None if domain is None else parse_domain(domain)
     print_file_settings()
-    with open_implementation(
-        spec, limits_of(**limits), precision=precision, question=question, domain=claimed
-    ) as implementation:
+    bounds = limits_of(**limits)
+    print_isolation(spec, bounds)
+    with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
         if used.asked.layout is WAYS:

@@ -8,18 +8,20 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from hypcheck.errors import InputError
+from hypcheck.messages import escaped
 from hypcheck.tables.numbers import is_number, shown
 from hypcheck.tables.streams import STREAM
 
 if TYPE_CHECKING:
     from hypcheck.implementations.session import Limits
+    from hypcheck.record.lines import IsolationPart
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -105,6 +107,13 @@ _SUFFIXES = {"K": 10, "M": 20, "G": 30, "T": 40}
 
 _SECONDS = NumberOption(0, excluded=True)
 
+ISOLATE = click.option(
+    "--isolate",
+    type=click.Choice(["auto", "on", "off"]),
+    help="Keep it from this machine as far as the system allows; on: or do not run it.  [default: auto]",
+)
+PASS_ENV = click.option("--pass-env", metavar="NAMES", help="Environment variables that it sees though it is isolated.")
+
 _LIMITS = (
     click.option(
         "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it must be ready."
@@ -116,7 +125,13 @@ _LIMITS = (
     click.option(
         "--memory", metavar="BYTES", default="4G", show_default=True, help="Memory of its processes together."
     ),
+    ISOLATE,
+    PASS_ENV,
 )
+
+
+LIMITS = ("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env")
+"""The parameters of limits_of that are options."""
 
 
 def with_limits(command: Command) -> Command:
@@ -126,11 +141,53 @@ def with_limits(command: Command) -> Command:
     return command
 
 
-def limits_of(startup_timeout: float, timeout: float, restarts: int, memory: str) -> Limits:
-    """The limits that these options set. Raises InputError."""
+def limits_of(
+    *,
+    startup_timeout: float,
+    timeout: float,
+    restarts: int,
+    memory: str,
+    isolate: str | None,
+    pass_env: str | None,
+    out: Path | None = None,
+) -> Limits:
+    """The limits that these options set; an isolated implementation does not see `out`. Raises InputError."""
     from hypcheck.implementations.session import Limits
 
-    return Limits(startup_timeout, timeout, restarts, bytes_of(memory))
+    return isolated(Limits(startup_timeout, timeout, restarts, bytes_of(memory)), isolate, pass_env, out)
+
+
+def isolated(limits: Limits, isolate: str | None, pass_env: str | None, out: Path | None) -> Limits:
+    """The limits, with the isolation that these options set. Raises InputError."""
+    from dataclasses import replace
+
+    from hypcheck.isolation.launch import Isolation, usual_mode
+
+    hidden = () if out is None else (os.path.abspath(out),)
+    return replace(limits, isolation=Isolation(isolate or usual_mode(), hidden, names_in(pass_env)))
+
+
+def isolation_of(specs: Iterable[str], limits: Limits) -> IsolationPart | None:
+    """How the run isolates these implementations, as its record has it; None if all are built in.
+
+    Raises NotIsolatedError if it must, and the system cannot.
+    """
+    from hypcheck.record.lines import IsolationPart
+
+    if all(spec.startswith("builtin:") for spec in specs):
+        return None
+    means = limits.isolation.means
+    return IsolationPart(mode=limits.isolation.mode, means=list(means.names), missing=list(means.missing))
+
+
+def print_isolation(spec: str, limits: Limits) -> None:
+    """Print to standard error how the implementation is isolated, unless it is built in. Raises NotIsolatedError."""
+    from hypcheck.isolation.means import isolation_text
+
+    isolation = isolation_of((spec,), limits)
+    if isolation is not None:
+        text = isolation_text(isolation.means, isolation.missing)
+        click.echo(f"hypcheck: {escaped(spec)} is {escaped(text)}", err=True)
 
 
 def names_in(text: str | None) -> tuple[str, ...]:

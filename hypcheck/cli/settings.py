@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 
 FILE = "hypcheck.toml"
 
-ABOUT_ONE = ("tolerance", "precision", "question", "domain", "startup_timeout", "timeout", "restarts", "memory")
+ABOUT_ONE = (
+    *("tolerance", "precision", "question", "domain"),
+    *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env"),
+)
 """How an implementation is opened and judged: keys for the commands that ask a single one, too."""
 
 COMMANDS = ("verify", "replay", "hunt", "minimise")
@@ -65,6 +68,7 @@ _OTHER = ("fail_on", "oracles")
 _UNSET: Mapping[str, Any] = MappingProxyType(
     {
         "families": "all but the extreme ones",
+        "isolate": "auto",
         "precision": "as declared",
         "question": "as declared",
         "domain": "as declared",
@@ -119,6 +123,8 @@ def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any
         return bool(value > default)
     if name in _SMALLER:
         return bool(value < default)
+    if name == "isolate":
+        return bool(value == "off")
     if name == "families":
         return _leaves_out_families(str(value))
     return name in _UNSET or (name in _OTHER and value != default)
@@ -288,6 +294,8 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "timeout": _seconds,
         "restarts": _integer(0),
         "memory": _bytes,
+        "isolate": _one_of(lambda: ("auto", "on", "off")),
+        "pass_env": _names,
     }
 )
 """Checks the value of each key, and gives it the form of its option."""

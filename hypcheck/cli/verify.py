@@ -14,10 +14,12 @@ from click.core import ParameterSource
 
 from hypcheck.cli.options import (
     LARGEST_SEED,
+    LIMITS,
     MOST_PROCESSES,
     IntegerOption,
     NumberOption,
     OutputPath,
+    isolation_of,
     limits_of,
     names_in,
     with_limits,
@@ -36,7 +38,7 @@ if TYPE_CHECKING:
 _WITH_SPEC = frozenset(
     {
         *("max_abstained", "fail_on", "deterministic", "known_failures", "update", "precision", "question", "domain"),
-        *("startup_timeout", "timeout", "restarts", "memory", "cluster", "resume"),
+        *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "cluster", "resume"),
     }
 )
 _WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
@@ -63,7 +65,7 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
         precision=options["precision"],
         question=options["question"],
         domain=None if options["domain"] is None else parse_domain(options["domain"]),
-        limits=limits_of(options["startup_timeout"], options["timeout"], options["restarts"], options["memory"]),
+        limits=limits_of(**{name: options[name] for name in LIMITS}, out=options["out"]),
         workers=options["workers"],
         cluster=options["cluster"],
     )
@@ -76,6 +78,7 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
 
 def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
     """Run or resume a conformance run, write its reports, and return the exit code. Raises InputError."""
+    from hypcheck.isolation.means import isolation_text
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs import conformance as run
@@ -85,14 +88,16 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     from hypcheck.runs.resume import ResumedRun
 
     plan, out, resume = _plan_of(specs, options), options["out"], options["resume"]
-    recorded = {**asdict(plan), "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
+    recorded = _recorded(plan, options)
+    isolation = isolation_of(specs, plan.limits)
+    title += "" if isolation is None else f"; {isolation_text(isolation.means, isolation.missing)}"
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
     unchanged = FileSnapshot(files)
     begun = ResumedRun() if resume is None else resumed(resume, out, plan, recorded, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings)
+    outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings, isolation)
     with recording(out, recorded, title, provenance, begun.carried) as running:
         with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
             run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state, pace.expect)
@@ -101,6 +106,14 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     if options["update"] and running.record is not None and not changed:
         click.echo(printable(update(options["known_failures"], running.record)))
     return running.exit_code
+
+
+def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, Any]:
+    """The options of the plan as the record's header has them."""
+    every = asdict(plan)
+    isolation = every["limits"].pop("isolation")
+    every["limits"] |= {"isolate": isolation["mode"], "pass_env": isolation["variables"]}
+    return {**every, "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
 
 
 def _self_check(options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> Exit:

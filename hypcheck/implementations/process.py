@@ -2,7 +2,7 @@
 
 One loop writes, reads, and reads standard error, so that neither a large question nor much output on standard error can
 make both sides wait for each other. The whole group is killed at the end, with processes that have left it. If hypcheck
-itself is killed, a guard notices that and kills the group.
+itself is killed, a guard notices that and kills the group. Where the program is isolated, the launcher does both.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from hypcheck.errors import limit_reached, system_reason
 from hypcheck.implementations.frames import OutputTail
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
+from hypcheck.isolation.launch import IsolationError, Launched
 
 STEP = 0.25
 """At most so many seconds count between two readings of the clock: during the rest this process did not run."""
@@ -82,21 +83,18 @@ _LAST_WORDS = 0.5
 class Process:
     """One run of a program. Raises StartError if the system cannot run it."""
 
-    def __init__(self, words: Sequence[str], limits: Limits) -> None:
+    def __init__(self, words: Sequence[str], limits: Limits, *, package: bool = False) -> None:
+        """Start the program; `package`: it needs this package, which others do not see where they are isolated."""
         self._mark = new_environment_mark()
+        environment = {**os.environ, **ONE_THREAD, self._mark: "1"}
         try:
-            self._popen = subprocess.Popen(  # noqa: S603 - what the user asked to run
-                words,
-                bufsize=0,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                start_new_session=True,
-                env={**os.environ, **ONE_THREAD, self._mark: "1"},
-            )
+            self._launched = Launched(words, environment, limits.isolation, package=package)
         except OSError as error:
             raise limit_reached(error) or StartError(_not_run(words[0], error)) from None
-        self._guard = _guard(self._popen.pid, self._mark)
+        except IsolationError as error:
+            raise StartError(f"it could not be isolated: {error}; --isolate off starts it without") from None
+        self._popen = self._launched.process
+        self._guard = None if self._launched.isolated else _guard(self._popen.pid, self._mark)
         self._memory = MemoryWatch(self._popen.pid, self._mark, limits.memory)
         self._tail = OutputTail()
         self._outgoing: Iterator[bytes | memoryview] = iter(())
@@ -247,9 +245,11 @@ class Process:
         if self._closed:
             return
         self._closed = True
+        self._launched.end()
         with contextlib.suppress(ProcessLookupError, PermissionError):  # the latter for a zombie on macOS
             os.killpg(self._popen.pid, signal.SIGKILL)
-        end_marked(self._mark)
+        if not self._launched.isolated:
+            end_marked(self._mark)
         if self._guard:
             _dismiss(self._guard)
         with contextlib.suppress(subprocess.TimeoutExpired):  # it hangs in the system, and ends after that
@@ -304,11 +304,18 @@ def _not_run(program: str, error: OSError) -> str:
     return f"the system could not run the program {program!r}: {system_reason(error)}"
 
 
+_OTHER_CAUSES = {
+    int(signal.SIGKILL): "; the system does that too when memory runs out",
+    31: "; isolation does that when it makes a system call that only an attack makes",
+    25: "; isolation does that when it writes more than fits the scratch folder",
+}
+"""Who else may have sent a signal; 31 and 25 are SIGSYS and SIGXFSZ."""
+
+
 def _end_of(code: int) -> str:
     """How a process with this return code ended."""
     if code < 0:
-        out_of_memory = "; the system does that too when memory runs out" if -code == signal.SIGKILL else ""
-        return f"it was ended by {_signal_name(-code)}{out_of_memory}"
+        return f"it was ended by {_signal_name(-code)}{_OTHER_CAUSES.get(-code, '')}"
     by_shell = f", as a shell reports {_signal_name(code - 128)}" if code > 128 and _signal_name(code - 128) else ""
     return f"it ended by itself with exit status {code}{by_shell}"
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import Protocol
 
@@ -16,6 +16,7 @@ from hypcheck.errors import Exit, HypcheckError, InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.frames import GivenAnswers
+from hypcheck.isolation.launch import Isolation
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,13 +24,14 @@ class Limits:
     """The limits of an implementation. Raises InputError if one of them is 0 or less (`restarts` may be 0).
 
     `startup_timeout` are seconds until it is ready, `timeout` seconds without progress; `restarts` are allowed after
-    faults, and its processes may use `memory` bytes together.
+    faults, and its processes may use `memory` bytes together. `isolation` says what its processes may touch.
     """
 
     startup_timeout: float = 30.0
     timeout: float = 10.0
     restarts: int = 20
     memory: int = 4 << 30
+    isolation: Isolation = field(default_factory=Isolation)
 
     def __post_init__(self) -> None:
         for name in ("startup_timeout", "timeout", "memory"):

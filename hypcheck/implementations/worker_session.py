@@ -52,7 +52,9 @@ class WorkerSession:
         folder = str(Path(__file__).resolve().parents[2])
         if not sys.executable:
             raise StartError("this Python does not know the path of its program, which runs the worker")
-        self._process = Process((sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words), limits)
+        self._process = Process(
+            (sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words), limits, package=True
+        )
         try:
             self._meet(spec)
         except BaseException:

@@ -9,7 +9,7 @@ declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions 
 scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
-the end of a way and the kinds sampling and advancement.
+the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from hypcheck.record.fields import (
     require_possible,
 )
 
-SCHEMA = "1.6.0"
+SCHEMA = "1.7.0"
 """The version of the records that are written."""
 
 
@@ -74,11 +74,19 @@ class SettingsPart(LinePart, frozen=True, kw_only=True):
     weakened: list[WeakenedPart]
 
 
+class IsolationPart(LinePart, frozen=True, kw_only=True):
+    """How implementations were isolated: the mode (auto, on or off), the means, and why others are missing."""
+
+    mode: str
+    means: list[str]
+    missing: list[str]
+
+
 class HeaderLine(RecordLine, frozen=True, kw_only=True):
     """The first line: versions, machine and options of a run.
 
     Some runs add `files`, the sha256 of the files under test by path, since 1.3.0; `program`, that of the program's own
-    files, and `settings`, since 1.4.0.
+    files, and `settings`, since 1.4.0; `isolation`, since 1.7.0.
     """
 
     schema: Annotated[str, Meta(pattern=r"^1\.[0-9]+\.[0-9]+$")]
@@ -91,6 +99,7 @@ class HeaderLine(RecordLine, frozen=True, kw_only=True):
     files: dict[str, str] | UnsetType = UNSET
     program: str | UnsetType = UNSET
     settings: SettingsPart | UnsetType = UNSET
+    isolation: IsolationPart | UnsetType = UNSET
 
 
 class FooterLine(RecordLine, frozen=True, kw_only=True):

@@ -31,6 +31,7 @@ from hypcheck.record.lines import (
     FooterLine,
     HeaderLine,
     ImplementationLine,
+    IsolationPart,
     Machine,
     NotStartedLine,
     SettingsPart,
@@ -150,11 +151,13 @@ class Provenance:
     files: the sha256 of the files under test, by path.
     program: the sha256 of hypcheck's own files.
     settings: the settings file, and the options that weaken the gate.
+    isolation: how the implementations are isolated.
     """
 
     files: Mapping[str, str] | None = None
     program: str | None = None
     settings: SettingsPart | None = None
+    isolation: IsolationPart | None = None
 
 
 class Recorder:
@@ -272,6 +275,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
         files=UNSET if known.files is None else dict(known.files),
         program=UNSET if known.program is None else known.program,
         settings=UNSET if known.settings is None else known.settings,
+        isolation=UNSET if known.isolation is None else known.isolation,
     )
 
 

@@ -6,8 +6,12 @@ import json
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
+from msgspec import UNSET, UnsetType
+
+from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
+from hypcheck.record.lines import IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
 from hypcheck.report.document import (
@@ -49,14 +53,20 @@ def run_sections(record: Record) -> Iterator[Section]:
     seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
     processor = f"{machine.processor}, {machine.architecture}, {machine.system}"
     cores = counted(machine.cores, "core") if machine.cores else "cores unknown"
-    items = (
+    items: tuple[Text, ...] = (
         f"Started {header.started}{seconds}.",
         f"Machine: {processor}, {cores}.",
+        *_isolation(header.isolation),
         f"Versions: {', '.join(f'{name} {version}' for name, version in versions.items())}.",
         ("Options: ", Code(json.dumps(header.options, ensure_ascii=False)), "."),
         "A case id, family/version/seed/index, names a generated case for ever.",
     )
     yield Section("The run", (bullets(items),))
+
+
+def _isolation(found: IsolationPart | UnsetType) -> Iterator[str]:
+    if found is not UNSET:
+        yield f"Implementations: {isolation_text(found.means, found.missing)}."
 
 
 LISTED = 50

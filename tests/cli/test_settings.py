@@ -43,6 +43,8 @@ startup_timeout = 5
 timeout = 2.5
 restarts = 3
 memory = "512M"
+isolate = "auto"
+pass_env = ["ENGINE_DATA"]
 """
 
 
@@ -79,7 +81,14 @@ def test_every_setting_reaches_the_run(project):
         "precision": "float32",
         "question": "exterior",
         "domain": {"regimes": ["c2>=a"], "ratio": [1e-3, 1e3], "magnitude": [1e-6, "inf"], "settings": []},
-        "limits": {"startup_timeout": 5.0, "timeout": 2.5, "restarts": 3, "memory": 512 << 20},
+        "limits": {
+            "startup_timeout": 5.0,
+            "timeout": 2.5,
+            "restarts": 3,
+            "memory": 512 << 20,
+            "isolate": "auto",
+            "pass_env": ["ENGINE_DATA"],
+        },
         "workers": None,
         "cluster": None,
     }

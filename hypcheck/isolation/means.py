@@ -1,0 +1,104 @@
+"""What this system offers to isolate a program, and the answer to `--isolate`: auto, on or off.
+
+The launcher (launcher.c) is a program in C, compiled with the package: what it does happens between the start of a
+process and that of the program, where a Python would take five times as long. No library on the package index does all
+of it; bubblewrap, the nearest program, is on few machines, and knows neither Landlock nor a filter of its own.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from hypcheck.errors import Exit, HypcheckError
+
+MODES = ("auto", "on", "off")
+
+LAUNCHER = Path(__file__).with_name("launcher")
+
+
+class NotIsolatedError(HypcheckError):
+    """`--isolate on` where the system cannot isolate a program; the sentence says what is missing."""
+
+    exit_code = Exit.NOT_STARTED
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """What isolates programs here, and what is missing.
+
+    namespaces: user, PID, network, IPC, host name and mount namespaces.
+    landlock: the version of Landlock, 0 where there is none.
+    seccomp: the filter of system calls.
+    missing: why a means is missing, each as the part of a sentence.
+    """
+
+    namespaces: bool = False
+    landlock: int = 0
+    seccomp: bool = False
+    missing: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The means that are there."""
+        landlock = f"Landlock {self.landlock}"
+        named = {"namespaces": self.namespaces, landlock: bool(self.landlock), "seccomp": self.seccomp}
+        return tuple(name for name, there in named.items() if there)
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing that `--isolate on` promises is missing; namespaces do all that Landlock does."""
+        return self.namespaces and self.seccomp
+
+    @property
+    def sentence(self) -> str:
+        """The means, and the reason for what is missing, as the part of a sentence."""
+        return isolation_text(self.names, self.missing)
+
+
+def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
+    """The end of "it is": isolated by these means, and why others are missing."""
+    by = f"isolated by {', '.join(means[:-1])}{' and ' if means[1:] else ''}{means[-1]}" if means else "not isolated"
+    return by + (f" ({'; '.join(missing)})" if missing else "")
+
+
+OFF = Means(missing=("--isolate is off",))
+
+
+def means_of(mode: str) -> Means:
+    """What isolates programs in this mode. Raises NotIsolatedError if the mode is "on" and something is missing."""
+    if mode == "off":
+        return OFF
+    found = available()
+    if mode == "on" and not found.whole:
+        raise NotIsolatedError(
+            f"--isolate is on, and this system cannot isolate a program: {'; '.join(found.missing)}; "
+            "--isolate auto uses what there is"
+        )
+    return found
+
+
+@lru_cache
+def available() -> Means:
+    """What this system allows. It is tried once: of a system call that exists, only using it tells."""
+    if sys.platform != "linux":
+        return Means(missing=(f"{sys.platform} has no namespaces, no Landlock and no seccomp",))
+    if not os.access(LAUNCHER, os.X_OK):
+        return Means(missing=("the launcher was not compiled: hypcheck was installed without a C compiler",))
+    try:
+        said = subprocess.run((LAUNCHER, "--probe"), capture_output=True, check=True, timeout=20).stdout.decode()  # noqa: S603
+    except (OSError, subprocess.SubprocessError) as error:
+        return Means(missing=(f"the launcher does not run here: {error}",))
+    found = dict(line.partition(" ")[::2] for line in said.splitlines())
+    failed = tuple(f"no {name}: {found[name]}" for name in ("namespaces", "landlock", "seccomp") if found.get(name))
+    return Means(
+        namespaces=not found.get("namespaces", "?"),
+        landlock=int(found.get("abi", "0")),
+        seccomp=not found.get("seccomp", "?"),
+        missing=failed,
+    )

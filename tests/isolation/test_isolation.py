@@ -1,0 +1,269 @@
+"""An isolated program cannot touch the judge, the machine or the answers; with namespaces, and without."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+
+import hypcheck
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.implementations.process import Process
+from hypcheck.implementations.session import FaultError, Limits, StartError
+from hypcheck.isolation import means
+from hypcheck.isolation.launch import Isolation
+from hypcheck.isolation.means import Means, NotIsolatedError
+
+HERE = means.available()
+WITHOUT_NAMESPACES = Means(False, HERE.landlock, HERE.seccomp, ("no namespaces: a test",))
+
+needs_namespaces = pytest.mark.skipif(not HERE.whole, reason=f"a program here is {HERE.sentence}")
+needs_landlock = pytest.mark.skipif(HERE.landlock < 6, reason=f"a program here is {HERE.sentence}")
+both = pytest.mark.parametrize(
+    "ways",
+    [
+        pytest.param(HERE, marks=needs_namespaces, id="namespaces"),
+        pytest.param(WITHOUT_NAMESPACES, marks=needs_landlock, id="Landlock"),
+    ],
+)
+
+OBSERVES = """
+import json, os, signal, sys
+judge, outside, vectors, hidden = int(sys.argv[1]), *sys.argv[2:5]
+seen = {}
+
+def attempt(name, step):
+    try:
+        seen[name] = step()
+    except BaseException as error:
+        seen[name] = type(error).__name__
+
+def content(path):
+    with open(path, "rb") as file:
+        return len(file.read())
+
+def write(path):
+    with open(path, "w") as file:
+        return file.write("forged")
+
+attempt("write outside", lambda: write(outside))
+attempt("write into the scratch folder", lambda: write(os.path.join(os.environ["TMPDIR"], "mine")))
+attempt("write to shared memory", lambda: write("/dev/shm/hypcheck-test"))
+attempt("read a vector", lambda: content(vectors))
+attempt("read the package", lambda: content(sys.argv[5]))
+attempt("read the record", lambda: content(hidden))
+attempt("read Python", lambda: content(os.__file__) > 0)
+attempt("token", lambda: os.environ.get("GITHUB_TOKEN"))
+attempt("passed variable", lambda: os.environ.get("ENGINE_DATA"))
+attempt("stop the judge", lambda: os.kill(judge, signal.SIGSTOP))
+attempt("signal everybody", lambda: os.kill(-1, signal.SIGUSR1))
+attempt("the judge's environment", lambda: content(f"/proc/{judge}/environ"))
+attempt("the judge's memory", lambda: content(f"/proc/{judge}/mem"))
+attempt("processes", lambda: sum(name.isdigit() for name in os.listdir("/proc")))
+
+def connect():
+    import socket
+    socket.socket()
+
+attempt("socket", connect)
+attempt("memory in no process", lambda: os.memfd_create("hidden"))
+attempt("a new user", lambda: os.unshare(0x10000000) if hasattr(os, "unshare") else "PermissionError")
+seen["descriptors"] = sorted(map(int, os.listdir("/proc/self/fd")))[-1]
+os.write(1, json.dumps(seen).encode() + b"\\n")
+sys.stdin.read()
+"""
+
+
+def isolated(ways: Means, monkeypatch, **options: object) -> Limits:
+    """Limits for programs that these means isolate."""
+    monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: ways)
+    return Limits(isolation=Isolation("auto", **options))
+
+
+def line_of(process: Process) -> bytes:
+    """The first line of its output."""
+    until = time.monotonic() + 10
+    while b"\n" not in process.incoming:
+        process.pump(until)
+        assert time.monotonic() < until
+    return bytes(process.incoming).partition(b"\n")[0]
+
+
+@both
+def test_isolated_program_reaches_its_scratch_folder_and_nothing_else(ways, monkeypatch, tmp_path):
+    package = Path(hypcheck.__file__).parent
+    vectors = next(iter(sorted((package / "cases").rglob("*.json"))), None) or next(
+        iter(sorted((package.parent / "cases").rglob("*.json")))
+    )
+    record = tmp_path / "reports" / "record.jsonl"
+    record.parent.mkdir()
+    record.write_text("the answers")
+    monkeypatch.setenv("GITHUB_TOKEN", "secret")
+    monkeypatch.setenv("ENGINE_DATA", "wanted")
+    monkeypatch.chdir(tmp_path)
+    limits = isolated(ways, monkeypatch, hidden=(str(record.parent),), variables=("ENGINE_DATA",))
+    paths = (tmp_path / "forged", vectors, record, package / "__init__.py")
+    process = Process((sys.executable, "-I", "-S", "-c", OBSERVES, str(os.getpid()), *map(str, paths)), limits)
+    try:
+        seen = json.loads(line_of(process))
+    finally:
+        process.kill()
+    assert seen.pop("write outside") in {"OSError", "PermissionError"}
+    assert not (tmp_path / "forged").exists()
+    for attempt in ("read a vector", "read the package", "read the record"):
+        assert seen.pop(attempt) in {"FileNotFoundError", "PermissionError"}, attempt
+    for attempt in ("stop the judge", "the judge's environment", "the judge's memory"):
+        assert seen.pop(attempt) in {"ProcessLookupError", "FileNotFoundError", "PermissionError"}, attempt
+    assert seen.pop("signal everybody") in {None, "ProcessLookupError", "PermissionError"}
+    assert seen.pop("processes") <= 3 or not ways.namespaces
+    assert seen.pop("write to shared memory") == (6 if ways.namespaces else "PermissionError")
+    assert seen.pop("descriptors") <= 3
+    assert seen == {
+        "write into the scratch folder": 6,
+        "read Python": True,
+        "token": None,
+        "passed variable": "wanted",
+        "socket": "PermissionError",
+        "memory in no process": "OSError",
+        "a new user": "PermissionError",
+    }
+    assert not list(Path(tempfile.gettempdir()).glob("hypcheck-scratch-*/mine"))
+
+
+@both
+@pytest.mark.parametrize(
+    ("code", "sentence"),
+    [
+        ("import os; os.kill(os.getpid(), 9)", "ended by SIGKILL; the system does that too"),
+        ("import os; os._exit(200)", "ended by itself with exit status 200$"),
+        (
+            "import ctypes; ctypes.CDLL(None).mount(b'x', b'/', b'tmpfs', 0, b'')",
+            "ended by SIGSYS; isolation does that",
+        ),
+    ],
+    ids=["killed", "exits", "mounts"],
+)
+def test_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, ways, monkeypatch):
+    process = Process((sys.executable, "-I", "-S", "-c", code), isolated(ways, monkeypatch))
+    with pytest.raises(FaultError, match=sentence):
+        line_of(process)
+    process.kill()
+
+
+@both
+def test_daemon_without_a_mark_ends_with_its_program(ways, monkeypatch, tmp_path):
+    """It leaves the group, the session and its parent, and has no environment by which it could be known."""
+    seconds = f"{600 + os.getpid() / 1e7:.7f}"
+    code = f"setsid env -i sleep {seconds} > /dev/null 2>&1 & sleep 0.1; echo; exec sleep 60"
+    process = Process(("/bin/sh", "-c", code), isolated(ways, monkeypatch))
+    line_of(process)
+    assert seconds in sleeping()
+    process.kill()
+    assert seconds not in sleeping()
+
+
+def sleeping() -> str:
+    """The command lines of all processes."""
+    return "\n".join(_line(each) for each in Path("/proc").glob("[0-9]*"))
+
+
+def _line(folder: Path) -> str:
+    try:
+        return (folder / "cmdline").read_text().replace("\0", " ")
+    except OSError:
+        return ""
+
+
+@both
+@pytest.mark.parametrize(
+    ("word", "sentence"),
+    [("no-such-program", "was not found; it must be on the PATH"), ("/etc/passwd", "is not executable")],
+)
+def test_program_that_cannot_be_run_is_reported_as_without_isolation(word, sentence, ways, monkeypatch):
+    with pytest.raises(StartError, match=sentence):
+        Process((word,), isolated(ways, monkeypatch))
+
+
+@both
+def test_program_in_a_folder_for_temporary_files_is_found_there(ways, monkeypatch, tmp_path):
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\necho found; read rest\n")
+    program.chmod(0o755)
+    process = Process((str(program),), isolated(ways, monkeypatch))
+    assert line_of(process) == b"found"
+    process.kill()
+
+
+@needs_namespaces
+def test_limit_of_processes_is_that_of_the_namespace_alone(monkeypatch):
+    """A program that starts processes without end gets no more, and this system's limit stays."""
+    before = Path("/proc/sys/kernel/pid_max").read_text()
+    monkeypatch.setattr("hypcheck.isolation.launch.THREADS", 310)  # the system allows no less than 301
+    code = (
+        "import os, sys\n"
+        "for number in range(2000):\n"
+        "    try:\n        child = os.fork()\n"
+        "    except OSError:\n        break\n"
+        "    if not child: sys.stdin.read(); os._exit(0)\n"
+        "os.write(1, b'%d\\n' % number)\n"
+    )
+    process = Process((sys.executable, "-I", "-S", "-c", code), Limits(isolation=Isolation("on")))
+    try:
+        started = int(line_of(process))
+    finally:
+        process.kill()
+    if started == 1999:
+        pytest.skip("this system counts neither processes of a namespace nor those of the superuser")
+    assert 200 < started < 310
+    assert Path("/proc/sys/kernel/pid_max").read_text() == before
+
+
+@needs_namespaces
+def test_scratch_folder_is_full_before_the_disk_is(monkeypatch):
+    monkeypatch.setattr("hypcheck.isolation.launch.SCRATCH_BYTES", 1 << 20)
+    code = (
+        "import errno, os\n"
+        "try:\n"
+        "    for name in range(9):\n"
+        "        open(os.path.join(os.environ['TMPDIR'], str(name)), 'wb').write(bytes(300_000))\n"
+        "except OSError as error:\n    print(errno.errorcode[error.errno], name)\n"
+    )
+    process = Process((sys.executable, "-I", "-S", "-c", code), Limits(isolation=Isolation("on")))
+    assert line_of(process) == b"ENOSPC 3"
+    process.kill()
+
+
+def test_nothing_is_isolated_where_it_is_off():
+    limits = Limits(isolation=Isolation("off"))
+    process = Process((sys.executable, "-I", "-S", "-c", "import os; print(os.getppid()); input()"), limits)
+    assert int(line_of(process)) == os.getpid()
+    process.kill()
+    assert limits.isolation.means.sentence == "not isolated (--isolate is off)"
+
+
+def test_on_is_refused_with_the_reason_where_the_system_cannot(monkeypatch):
+    lacking = Means(missing=("no namespaces: cannot make namespaces: operation not permitted",))
+    monkeypatch.setattr(means, "available", lambda: lacking)
+    with pytest.raises(NotIsolatedError, match="cannot make namespaces: operation not permitted") as refused:
+        means.means_of("on")
+    assert refused.value.exit_code == 5
+    assert means.means_of("auto") is lacking
+    with pytest.raises(InputError, match="one of auto, on, off"):
+        Isolation("perhaps")
+
+
+def test_verify_says_and_records_how_an_implementation_is_isolated(tmp_path, monkeypatch, capsys, text_reports):
+    """The first line names the means, and the record has them; the program ends at once, so that nothing is asked."""
+    monkeypatch.chdir(tmp_path)
+    spec = f"command:{sys.executable} -I -S -c pass"
+    assert main(["verify", spec, "--count", "1", "--families", "ring", "--out", "out", "--isolate", "auto"]) == 5
+    assert capsys.readouterr().err.splitlines()[0] == f"hypcheck: verifying {spec}; {HERE.sentence}"
+    header = json.loads((tmp_path / "out" / "record.jsonl").read_text().splitlines()[0])
+    assert header["isolation"] == {"mode": "auto", "means": [*HERE.names], "missing": [*HERE.missing]}
+    assert header["options"]["limits"]["isolate"] == "auto"
