@@ -95,18 +95,31 @@ def pytest_xdist_auto_num_workers():
     return (os.cpu_count() or 1) + 1
 
 
-def pytest_collection_modifyitems(items):
-    """Mark the tests of slow and of thorough modules."""
-    for marker, table in (("slow", SLOW), ("thorough", THOROUGH)):
-        modules = {module_of(folder, name) for folder, names in table.items() for name in names.split()}
-        for item in items:
-            if item.path in modules:
-                item.add_marker(marker)
-
-
 def module_of(folder, name):
     """The file of a module that a table names."""
     return Path(__file__).parent / folder / f"test_{name}.py"
+
+
+MODULES = {
+    marker: frozenset(module_of(folder, name) for folder, names in table.items() for name in names.split())
+    for marker, table in (("slow", SLOW), ("thorough", THOROUGH))
+}
+"""The files of slow and of thorough modules."""
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave out, and do not import, the modules none of whose tests would run."""
+    chosen = (config.option.markexpr or "").split(" and ")
+    left_out = (modules for marker, modules in MODULES.items() if f"not {marker}" in chosen)
+    return True if any(collection_path in modules for modules in left_out) else None
+
+
+def pytest_collection_modifyitems(items):
+    """Mark the tests of slow and of thorough modules."""
+    for marker, modules in MODULES.items():
+        for item in items:
+            if item.path in modules:
+                item.add_marker(marker)
 
 
 def pytest_collection_finish():
