@@ -123,6 +123,7 @@ $(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
 
 $(VENV)/ready-dev: pyproject.toml $(KERNEL) | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,dev]'
+	-@$(BIN)/hypcheck engines install python-fcl cannon-es --cache $(VENV)/engines
 	@touch $(VENV)/ready $@
 
 $(VENV)/ready-docs: pyproject.toml $(KERNEL) | $(BIN)/python

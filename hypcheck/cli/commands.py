@@ -118,6 +118,7 @@ COMMANDS = {
     "classify": "hypcheck.cli.classify:classify",
     "verify": "hypcheck.cli.verify:verify",
     "bench": "hypcheck.cli.bench:bench",
+    "engines": "hypcheck.cli.engines:engines",
     "cases": "hypcheck.cli.cases:cases",
     "hunt": "hypcheck.cli.hunt:hunt",
     "minimise": "hypcheck.cli.hunt:minimise",

@@ -1,0 +1,1 @@
+"""What collision engines do: each installed apart, asked by the protocol of commands, measured near contact."""

@@ -1,0 +1,207 @@
+"""One engine asked about one family on one mesh: what it got wrong, by how much, and what its mesh explains of it.
+
+Lengths are millimetres at the tower of 2 m. An answer is *wrong* if it is not that of the surface; its error is the
+row's certified distance from contact (placing.py). It is the engine's *own* error if it is not that of its own mesh
+either, decided exactly (scene.py), whether or not the surface happens to agree; its size is then the distance of the
+body from that mesh, at least. An engine that is given a hull may answer for any body between the spheroid and the
+ball that the hull holds for certain: what lies between is explained by the hull.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import floor, isfinite, log10, nan
+
+import numpy as np
+from msgspec import Struct
+
+from hypcheck.engines.placing import Placed
+from hypcheck.engines.scene import HULL, SurfaceMesh
+from hypcheck.engines.table import Engine
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.implementations.implementation import Implementation
+from hypcheck.implementations.session import Outcome, TimingError
+
+TIMED_ROWS = 64
+
+_PATIENCE_S = 300.0
+
+
+class Decade(Struct):
+    """Rows whose distance from contact is from `least_mm` to ten times that: asked, and answered wrongly."""
+
+    least_mm: float
+    clear: int
+    false_contacts: int
+    contacts: int
+    false_clears: int
+
+
+class Reported(Struct):
+    """Distances that the engine reported for so many `rows`, `missing` ones not; errors against the exact ones.
+
+    Of a ball the mesh's own distance is known: `own_worst_mm` is the worst error against that one.
+    """
+
+    rows: int
+    missing: int
+    median_mm: float | None
+    worst_mm: float | None
+    own_worst_mm: float | None
+
+
+class Measured(Struct):
+    """An engine, a family, a mesh. `mesh_wrong` and `mesh_worst_mm` are those of exact answers about that very mesh."""
+
+    family: str
+    triangles: int
+    deviation_mm: float
+    rows: int
+    false_clears: int
+    false_contacts: int
+    worst_mm: float
+    worst_row: list[float] | None
+    mesh_wrong: int
+    mesh_worst_mm: float
+    own_rows: int
+    own: int
+    own_worst_mm: float
+    own_worst_row: list[float] | None
+    faults: dict[str, int]
+    decades: list[Decade]
+    distance: Reported
+    penetration: Reported
+    microseconds: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """Where an engine's answers differ from those of its own mesh: a mask, and by how many spheroid radii at least."""
+
+    wrong: Mask
+    radii: Floats
+
+
+def own_errors(said: Mask, distances: Floats, *, hull: bool) -> Own:
+    """The own errors of an engine that said contact (or not), at these distances from its mesh in spheroid radii."""
+    false_contact = said & (distances > 1.0)
+    inner = HULL if hull else 1.0
+    missed = ~said & (distances < inner)
+    size = np.where(false_contact, distances - 1.0, np.where(missed, inner - distances, 0.0))
+    return Own(np.asarray(false_contact | missed), np.asarray(size))
+
+
+def measure(
+    engine: Engine,
+    words: Sequence[str],
+    asked: Implementation,
+    placed: Placed,
+    mesh: SurfaceMesh,
+    distances: Floats,
+    beside: tuple[Rows, Floats],
+) -> Measured:
+    """Ask an engine's adapter, started with `words` and opened, about placed rows; `distances` are those of the mesh.
+
+    `beside` are rows near contact with the mesh itself, and their distances from it: they are asked for own errors
+    alone.
+    """
+    family = placed.family
+    answered = asked.classify(placed.rows)
+    known, said = answered.answered, answered.answers == 1
+    wrong = known & (said != placed.contact)
+    meshed = (distances <= 1.0) != placed.contact
+    error = np.abs(placed.gap) * family.millimetres
+    others = asked.classify(beside[0])
+    own = own_errors(
+        np.concatenate([said, others.answers == 1]),
+        np.concatenate([distances, beside[1]]),
+        hull=hulled(engine, placed),
+    )
+    own_wrong = own.wrong & np.concatenate([known, others.answered])
+    own_mm = own.radii * min(family.sizes[2:]) * family.millimetres
+    furthest = int(np.where(own_wrong, own_mm, -1.0).argmax())
+    worst = int(np.where(wrong, error, -1.0).argmax())
+    reported = reported_distances(words, placed.rows)
+    return Measured(
+        family=family.name,
+        triangles=len(mesh.triangles),
+        deviation_mm=mesh.deviation * family.millimetres,
+        rows=len(placed.rows),
+        false_clears=int((wrong & placed.contact).sum()),
+        false_contacts=int((wrong & ~placed.contact).sum()),
+        worst_mm=float(error[wrong].max(initial=0.0)),
+        worst_row=placed.rows[worst].tolist() if wrong.any() else None,
+        mesh_wrong=int(meshed.sum()),
+        mesh_worst_mm=float(error[meshed].max(initial=0.0)),
+        own_rows=len(own_wrong),
+        own=int(own_wrong.sum()),
+        own_worst_mm=float(own_mm[own_wrong].max(initial=0.0)),
+        own_worst_row=np.concatenate([placed.rows, beside[0]])[furthest].tolist() if own_wrong.any() else None,
+        faults={
+            each.label: answered.count(each) + others.count(each)
+            for each in Outcome
+            if each and answered.count(each) + others.count(each)
+        },
+        decades=_decades(placed, error, wrong),
+        distance=_reported(reported, placed, distances, ~placed.contact),
+        penetration=_reported(reported, placed, distances, placed.contact),
+        microseconds=_microseconds(asked, placed.rows),
+    )
+
+
+def hulled(engine: Engine, placed: Placed) -> bool:
+    """Whether the engine has a hull in the place of these spheroids."""
+    return engine.body == "hull" and placed.family.b != placed.family.d
+
+
+def _decades(placed: Placed, error: Floats, wrong: Mask) -> list[Decade]:
+    power = np.array([floor(log10(each)) for each in error])
+    found = []
+    for each in sorted(set(power.tolist()), reverse=True):
+        clear, contact = (power == each) & ~placed.contact, (power == each) & placed.contact
+        counts = (int(mask.sum()) for mask in (clear, clear & wrong, contact, contact & wrong))
+        found.append(Decade(10.0**each, *counts))
+    return found
+
+
+def reported_distances(words: Sequence[str], rows: Rows) -> Floats:
+    """The signed distances (n,) that an adapter reports, NaN where it reports none, or ended before it did."""
+    lines = "".join(" ".join(map(repr, row)) + "\n" for row in rows.tolist())
+    question = f"distance 1 {len(rows)} tilted-text\n{lines}"
+    try:
+        done = subprocess.run(  # noqa: S603 - an adapter of ours
+            words, input=question, capture_output=True, text=True, check=False, timeout=_PATIENCE_S
+        )
+    except subprocess.TimeoutExpired:
+        return np.full(len(rows), nan)
+    said = done.stdout.splitlines()[2:]  # after its description, and the reply's own line
+    numbers = [float(line) for line in said[: len(rows)]]
+    return np.array(numbers + [nan] * (len(rows) - len(numbers)))
+
+
+def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask) -> Reported:
+    """Errors of the distances of these rows; a distance of the wrong sign counts as it is."""
+    family = placed.family
+    there = which & np.isfinite(reported)
+    if not there.any():
+        return Reported(0, int(which.sum()), None, None, None)
+    errors = np.abs(reported - placed.gap)[there] * family.millimetres
+    own = None
+    if family.b == family.d:
+        exact = (distances - 1.0) * family.sizes[2]
+        own = float((np.abs(reported - exact)[there] * family.millimetres).max())
+    missing = int(which.sum() - there.sum())
+    return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), own)
+
+
+def _microseconds(asked: Implementation, rows: Rows) -> float | None:
+    """Microseconds for a row, by the adapter's own clock: the least of three tries; None where it cannot be timed."""
+    some = rows[:: max(1, len(rows) // TIMED_ROWS)]
+    try:
+        tries = [asked.time(some, 1) for _ in range(3)]
+    except TimingError:
+        return None
+    found = min(each for each in tries if each is not None) / len(some) / 1000.0
+    return found if isfinite(found) else None

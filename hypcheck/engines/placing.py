@@ -1,0 +1,169 @@
+"""Rows at certified distances from contact: the families of the record.
+
+A row is placed from a point P of the hyperboloid and the normal n there: the spheroid that touches at P, moved by `gap`
+along n. What that is worth is proved by exact labels of two spheroids about the same centre (S is the matrix of the
+spheroid, h = √(nᵀSn) its half width along n, g the gap):
+
+- A clear row is at least g from contact: the spheroid of (1 + t) S + (1 + 1/t) g² I with t = g/h contains every point
+  within g of the body, since (√(nᵀSn) + g |n|)² ≤ (1 + t) nᵀSn + (1 + 1/t) g² |n|² for all n. It must be clear, too.
+- A contact is at least p = −g deep: no move by less than p separates the bodies, since the spheroid with the matrix
+  (S − (1 + 1/t) p² I)/(1 + t), t = p/(h − p), and all points within p of it lie in the body. It must be in contact.
+
+Both are sharp at P. The matrices are those of spheroids with the same axis. Rows that are not so certified, as the
+surface is nearer elsewhere, are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.kernel.classify import classify
+from hypcheck.vectors.draw import Draw
+
+TOWER = (2.0, 17.8)
+"""α and γ of the paper's cooling tower in metres: 2 m from its axis to its wall at the waist."""
+
+DECADES = tuple(range(-9, 0))
+"""Gaps of a decade k are from 10^k to 10^(k+1) m."""
+
+SLACK, FUZZ = 1e-6, 1e-14
+"""A gap is certified but for this part of it, and for this part of α: the rounding of the centre and of b and d."""
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A column of the record: the spheroid's b and d in metres, and what is special about its rows.
+
+    `unit` is how many metres are one unit of length of the rows; `leans`: axes in all directions; `inside`: the
+    spheroid is inside the tower.
+    """
+
+    name: str
+    text: str
+    b: float
+    d: float
+    unit: float = 1.0
+    leans: bool = False
+    inside: bool = False
+
+    @property
+    def sizes(self) -> Sizes:
+        """α, γ, b, d in the unit of the rows."""
+        alpha, gamma = TOWER
+        return alpha / self.unit, gamma / self.unit, self.b / self.unit, self.d / self.unit
+
+    @property
+    def millimetres(self) -> float:
+        """One unit of length of the rows in millimetres."""
+        return self.unit * 1000.0
+
+
+FAMILIES = {
+    family.name: family
+    for family in (
+        Family("ball", "a ball of 0.25 m outside the tower", 0.25, 0.25),
+        Family("body", "the paper's quadcopter, 0.25 m by 0.15 m, upright, outside", 0.25, 0.15),
+        Family("leaning", "the same with its axis in any direction", 0.25, 0.15, leans=True),
+        Family("inside", "the same inside the tower", 0.25, 0.15, inside=True),
+        Family("disc", "a flat spheroid, 0.25 m by 0.01 m, upright, outside", 0.25, 0.01),
+        Family("small", "a small one, 5 mm by 3 mm, upright, outside", 0.005, 0.003),
+        Family("millimetres", "family body with all lengths in millimetres", 0.25, 0.15, unit=0.001),
+        Family("kilometres", "family body with all lengths in kilometres", 0.25, 0.15, unit=1000.0),
+    )
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Where spheroids touch the surface: normals (n, 3) towards the spheroids, their axes, and their centres there."""
+
+    family: Family
+    normal: Floats
+    axis: Floats
+    center: Floats
+
+    @classmethod
+    def at(cls, family: Family, azimuth: Floats, height: Floats, axis: Floats) -> Spot:
+        """The spots at these azimuths and heights in metres, with these axes (n, 3) of length 1."""
+        alpha, gamma, b, d = family.sizes
+        z = height / family.unit
+        r = alpha * np.hypot(1.0, z / gamma)
+        x, y = r * np.cos(azimuth), r * np.sin(azimuth)
+        normal = np.stack([x / alpha**2, y / alpha**2, -z / gamma**2], axis=1) * (-1 if family.inside else 1)
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        along = (normal * axis).sum(axis=1, keepdims=True)
+        pushed = b * b * (normal - along * axis) + d * d * along * axis
+        half = np.sqrt((normal * pushed).sum(axis=1, keepdims=True))
+        return cls(family, normal, axis, np.stack([x, y, z], axis=1) + pushed / half)
+
+    def half_width(self) -> Floats:
+        """The spheroids' half widths along the normals, (n,)."""
+        _, _, b, d = self.family.sizes
+        along = (self.normal * self.axis).sum(axis=1)
+        return np.asarray(np.sqrt(b * b * (1 - along**2) + d * d * along**2))
+
+    def rows(self, gap: Floats) -> Rows:
+        """Rows (n, 10) of the spheroids moved by these gaps, in the unit of the rows."""
+        sizes = np.tile(self.family.sizes, (len(gap), 1))
+        return np.hstack([sizes, self.center + gap[:, np.newaxis] * self.normal, self.axis])
+
+    def certifies(self, gap: Floats) -> Mask:
+        """For which gaps it is proved that they are the distances to the other answer, but for SLACK."""
+        rows, half = self.rows(gap), self.half_width()
+        size = np.abs(gap) * (1 - SLACK) - FUZZ * rows[:, 0]
+        grown = size**2 + half * size
+        with np.errstate(invalid="ignore"):
+            squares = np.where(
+                (gap > 0)[:, np.newaxis],
+                rows[:, 2:4] ** 2 * (1 + size / half)[:, np.newaxis] + grown[:, np.newaxis],
+                (rows[:, 2:4] ** 2 - (half * size)[:, np.newaxis]) * (1 - size / half)[:, np.newaxis],
+            )
+        good = np.asarray((size > 0) & (squares > 0).all(axis=1) & ((gap > 0) | (size < half)))
+        other = rows.copy()
+        other[:, 2:4] = np.sqrt(np.where(good[:, np.newaxis], squares, 1.0))
+        wanted = np.where(gap < 0, 0, -1 if self.family.inside else 1)
+        return np.asarray(good & (classify(other) == wanted) & (classify(rows) == wanted))
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """Rows (n, 10) of a family, each clear by `gap` > 0 or in contact by −`gap` > 0, as is proved."""
+
+    family: Family
+    rows: Rows
+    gap: Floats
+
+    @property
+    def contact(self) -> Mask:
+        """Which rows are in contact."""
+        return np.asarray(self.gap < 0)
+
+
+def placed(family: Family, each: int, seed: int = 1) -> Placed:
+    """Up to `each` clear rows and contacts of every decade; what is not certified is left out."""
+    spot, gap = drawn(family, each, seed)
+    good = spot.certifies(gap)
+    return Placed(family, spot.rows(gap)[good], gap[good])
+
+
+def drawn(family: Family, each: int, seed: int = 1) -> tuple[Spot, Floats]:
+    """Spots all over the surface, and `each` gaps of both signs of every decade, in the unit of the rows."""
+    n = 2 * each * len(DECADES)
+    draw = Draw("engines", family.name, 1, seed)
+    decade = np.repeat(np.array(DECADES, dtype=np.float64), 2 * each)
+    gap = 10.0 ** (decade + draw.unit(n)) * np.where(np.arange(n) % 2 == 0, 1.0, -1.0)
+    spot = Spot.at(family, 2 * pi * draw.unit(n), (1.6 * draw.unit(n) - 0.8) * TOWER[1], _axes(family, draw, n))
+    return spot, gap / family.unit
+
+
+def _axes(family: Family, draw: Draw, n: int) -> Floats:
+    if not family.leans:
+        return np.tile([0.0, 0.0, 1.0], (n, 1))
+    up, around = 2 * draw.unit(n) - 1, 2 * pi * draw.unit(n)
+    level = np.sqrt(1 - up * up)
+    return np.stack([level * np.cos(around), level * np.sin(around), up], axis=1)

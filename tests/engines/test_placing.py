@@ -1,0 +1,59 @@
+"""Rows at certified distances from contact: the certificates hold, and one that is too good is refused."""
+
+import numpy as np
+import pytest
+
+from hypcheck.engines.placing import FAMILIES, drawn, placed
+from hypcheck.kernel.classify import classify
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_every_family_has_clear_rows_and_contacts_of_most_decades(name):
+    found = placed(FAMILIES[name], 3)
+    gaps = np.abs(found.gap) * FAMILIES[name].unit
+    for low in (1e-8, 1e-5):
+        near = (gaps >= low) & (gaps < 10 * low)
+        assert (near & found.contact).sum() == (near & ~found.contact).sum() == 3
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_positions_of_placed_rows_are_what_their_gaps_say(name):
+    found = placed(FAMILIES[name], 3)
+    clear = -1 if FAMILIES[name].inside else 1
+    assert (classify(found.rows) == np.where(found.contact, 0, clear)).all()
+
+
+def test_moving_a_clear_row_in_any_direction_by_less_than_its_gap_makes_no_contact_and_by_more_does_along_the_normal():
+    family = FAMILIES["leaning"]
+    spot, gap = drawn(family, 3)
+    keep = spot.certifies(gap) & (gap > 1e-6)
+    rows, normals, gap = spot.rows(gap)[keep], spot.normal[keep], gap[keep]
+    rng = np.random.default_rng(1)
+    for _ in range(50):
+        way = rng.normal(size=(len(rows), 3))
+        moved = rows.copy()
+        moved[:, 4:7] += way / np.linalg.norm(way, axis=1, keepdims=True) * (0.999 * gap)[:, np.newaxis]
+        assert (classify(moved) == 1).all()
+    rows[:, 4:7] -= normals * (1.001 * gap)[:, np.newaxis]
+    assert (classify(rows) == 0).all()
+
+
+def test_moving_a_contact_in_any_direction_by_less_than_its_depth_keeps_contact_and_by_more_along_the_normal_does_not():
+    family = FAMILIES["inside"]
+    spot, gap = drawn(family, 3)
+    keep = spot.certifies(gap) & (gap < -1e-6)
+    rows, normals, gap = spot.rows(gap)[keep], spot.normal[keep], gap[keep]
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        way = rng.normal(size=(len(rows), 3))
+        moved = rows.copy()
+        moved[:, 4:7] += way / np.linalg.norm(way, axis=1, keepdims=True) * (0.999 * gap)[:, np.newaxis]
+        assert (classify(moved) == 0).all()
+    rows[:, 4:7] -= normals * (1.001 * gap)[:, np.newaxis]
+    assert (classify(rows) == -1).all()
+
+
+def test_a_gap_that_is_not_the_distance_from_contact_is_not_certified():
+    spot, gap = drawn(FAMILIES["small"], 3)
+    assert spot.certifies(gap).mean() > 0.7
+    assert not spot.certifies(np.full(len(gap), -0.1)).any()  # deeper than the body is thick
