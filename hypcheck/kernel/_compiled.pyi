@@ -21,6 +21,7 @@ def ask_scene(
 def passage(
     rows: NDArray[np.generic], hits: NDArray[np.generic], times: NDArray[np.generic] | None = None, /
 ) -> None: ...
+def clearance(rows: NDArray[np.generic], positions: NDArray[np.generic], found: NDArray[np.generic], /) -> int: ...
 
 position: PositionFunction
 

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, Rows, as_rows, invalid, require_valid
 from hypcheck.kernel import clearance_points as points
+from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel, required
 from hypcheck.kernel.numpy_tilted import leaning
 
@@ -46,6 +47,19 @@ _RANGE = (2.0**-300, 2.0**300)
 _HALVINGS = 120
 _SUBNORMAL = 2.0**-900
 _ORDINARY = 60
+
+CONSTANTS = {
+    "guess": GUESS,
+    "width": WIDTH,
+    "outward": _OUTWARD,
+    "inward": 1 - 2.0**-48,
+    "points": _POINTS,
+    "least_grown": 2.0**-900,
+    "greatest_grown": 2.0**900,
+    "less_than": 1 - 2.0**-40,
+    **points.CONSTANTS,
+}
+"""Those of the same steps in C (core/parts/near.h). Products from least_grown to greatest_grown are rounded well."""
 
 Question = Callable[[Indices, Floats], Mask]
 """Whether rows of these numbers have what is asked, for these factors or lengths."""
@@ -108,12 +122,23 @@ def clearance(
     refused = invalid(queries)
     if on_invalid == "raise" and refused.any():
         require_valid(queries)
-    found = Clearance.empty(len(queries))
-    places = np.flatnonzero(~refused)
+    upright = queries.shape[1] == len(COLUMNS)
+    found = _compiled(queries, number) if upright and choice().kernel == "compiled" else Clearance.empty(len(queries))
+    places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))
     with np.errstate(all="ignore"):
         for start in range(0, len(places), CHUNK):
             _fill(found, places[start : start + CHUNK], queries, number)
     return found
+
+
+def _compiled(rows: Rows, threads: int | None) -> Clearance:
+    """What the compiled kernel says of rows (n, 7), by the same steps; touch_error is inf where it knows less."""
+    from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
+
+    position, found = compiled_kernel.near_rows(rows, threads)
+    lower, upper, error, least, most = found[:, :5].T
+    error[error == np.finfo(np.float64).max] = np.inf
+    return Clearance(position, lower, upper, found[:, 5:8], error, least, most, found[:, 8:])
 
 
 def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
@@ -271,6 +296,7 @@ def _separated(rows: Rows, gaps: points.Gaps, usual: Mask, least: Floats, most: 
     some = np.flatnonzero(fair & (tried > low))
     proved = clear(some, tried[some])
     low[some[proved]] = tried[some[proved]]
+    some = some[~proved]
     for _ in range(_HALVINGS):
         some = some[np.isfinite(high[some]) & (high[some] - low[some] > WIDTH * (low[some] + v[some]))]
         if not len(some):

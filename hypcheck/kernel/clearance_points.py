@@ -8,7 +8,8 @@ Their error. Let the smaller of τ and σ be exact: that says what λ is. The ot
 12u (u = 2⁻⁵²), so that ρ = A r/τ and ζ = B z/σ are within 16u. For every X on the hyperboloid, the exact place X* too,
 |X − C|² − D(λ) = (X₁ − ρ)² τ/A + (X₂ − ζ)² σ/B. At X* it is the least, so any other X bounds it by some Γ: those of the
 height ζ and of the radius ρ. Hence |ρ* − ρ| ≤ √(Γ A/τ) and |ζ* − ζ| ≤ √(Γ B/σ), and as X* is on the hyperboloid
-the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A − 1). _ROUNDED = 32u holds each coordinate.
+the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A − 1). In C the
+roundings are 38 for 16, as quotients are shared. _ROUNDED = 64u holds each coordinate.
 
 **Leaning touches.** The multiplier is that of the kernel's second stage (numpy_tilted.py), the point X solves a linear
 system. With G = M + λD ≥ μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where
@@ -38,16 +39,31 @@ from hypcheck.kernel import numpy_tilted
 
 TURNS = 12
 GAP_TURNS = 12
-_SETTLED = 2.0**-30
+_SETTLED = 2.0**-18
+_TOUCH_SETTLED = 2.0**-26
 POLISHED = 2
 
-_ROUNDED = 2.0**-47
+_ROUNDED = 2.0**-46
 _MORE = 1 + 2.0**-30
 _LEAST_SHARE = 2.0**-70
 """A σ of 0 would say nothing of the height, where two nearest points are about to fall together."""
 
 _RANGE = (2.0**-100, 2.0**100)
 _RATIO = 20
+
+_LEAST = 2.0**-500
+"""In the place of 0, where Newton's method divides."""
+
+CONSTANTS = {
+    "rounded": _ROUNDED,
+    "tiny": _LEAST,
+    "least_tau": 2.0**-1000,
+    "least_share": _LEAST_SHARE,
+    "touch_settled": _TOUCH_SETTLED,
+    "gap_settled": _SETTLED,
+    "least_offset": 2.0**-1000,
+}
+"""Those that the steps in C share (core/parts/near_level.h)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +123,7 @@ def _known(rows: Rows, error: Floats) -> Floats:
 def _poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
     """τ and σ, by Newton's method from λ = 0."""
     W = A + B
-    p, q = np.maximum(p, 1e-150), np.maximum(q, 1e-150)
+    p, q = np.maximum(p, _LEAST), np.maximum(q, _LEAST)
     tau, sigma = A.copy(), B.copy()
     slope = 1 / p
     for _ in range(TURNS):
@@ -115,9 +131,9 @@ def _poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
         step = (sigma / cone - tau * slope) / (slope + (q / cone) ** 2 / cone)
         tau = np.minimum(tau + step, W)
         sigma = np.maximum(sigma - step, 0)
-        if (np.abs(step) <= 2.0**-40 * np.minimum(tau, sigma)).all():
+        if (np.abs(step) <= _TOUCH_SETTLED * np.minimum(tau, sigma)).all():
             break
-    return np.maximum(tau, 1e-300), np.maximum(sigma, _LEAST_SHARE * W)
+    return np.maximum(tau, 2.0**-1000), np.maximum(sigma, _LEAST_SHARE * W)
 
 
 def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
@@ -137,18 +153,20 @@ def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
     r, level, side = np.hypot(x, y), np.abs(z), position.astype(np.float64)
     height = np.abs(touch[:, 2])
     lowest, highest = np.zeros_like(height), np.where(side > 0, np.inf, level)
-    for _ in range(GAP_TURNS):
+    settled = False
+    for turn in range(GAP_TURNS + 1):
         share = height / gamma
         cone = np.sqrt(1 + share * share)
         slope = alpha / gamma * (share / cone)
         v, n = np.sqrt(b * b + (d * slope) ** 2), np.sqrt(1 + slope * slope)
         gap = (side * (r - slope * level - alpha / cone) - v) / n
+        if settled or turn == GAP_TURNS:
+            break
         off = height - level - side * slope * (d * d / v + gap / n)
         lowest, highest = np.where(off > 0, lowest, height), np.where(off > 0, height, highest)
         bend = 1 - side * alpha / (gamma * gamma * cone**3) * ((b * d) ** 2 / v**3 + gap / n**3)
         moved = height - off / bend
-        if (np.abs(moved - height) <= _SETTLED * height).all():
-            break
+        settled = bool((np.abs(moved - height) <= _SETTLED * height).all())
         inside = (moved >= lowest) & (moved <= highest) & (bend > 0)
         height = np.where(inside, moved, np.minimum((lowest + highest) / 2, 2 * height + level))
     there = _placed(rows, alpha * cone, share * gamma)

@@ -81,6 +81,23 @@ def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floa
     return hits, times
 
 
+NEAR_NUMBERS = 11
+"""What the kernel says of each row beside its position: hypcheck_near in core/parts/contract.h."""
+
+
+def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
+    """Positions (n,), 127 for invalid ones, and what hypcheck_clearance says of contiguous rows (n, 7): (n, 11)."""
+    decide = compiled().clearance
+    aligned = rows if rows.flags.aligned else rows.copy()
+    positions, found = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
+
+    def part(start: int, stop: int) -> int:
+        return int(decide(aligned[start:stop], positions[start:stop], found[start:stop]))
+
+    in_parts(part, len(rows), threads)
+    return positions, found
+
+
 def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
     """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
 

@@ -10,7 +10,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import clearance_points
+from hypcheck.kernel import choice, clearance_points
 from hypcheck.truth import nearest
 from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
@@ -48,10 +48,51 @@ def test_a_wrong_guess_makes_no_wrong_interval(rows, found, monkeypatch):
         return dataclasses.replace(said, factor=said.factor * np.where(np.arange(len(some)) % 2, 1.5, 0.7))
 
     monkeypatch.setattr(clearance_points, "upright_touches", touches)
+    monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
+    choice.choice.cache_clear()
     other = hypcheck.clearance(rows[::8])
+    choice.choice.cache_clear()
     true = nearest.clearances(rows[::8]).clearance
     assert ((other.lower <= true) & (true <= other.upper)).all()
     assert (other.upper - other.lower <= 2.0**-29 * np.maximum(1, 1 + other.lower)).all()
+
+
+def test_a_gap_measured_elsewhere_makes_no_wrong_interval(rows, monkeypatch):
+    monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
+    choice.choice.cache_clear()
+    some = FAMILIES["uniform"].rows(2, 60)
+    true, honest = hypcheck.clearance(some), clearance_points.upright_gaps
+
+    def gaps(them, position, touch):
+        moved = touch.copy()
+        moved[:, 2] = 1.5 * touch[:, 2] + 0.5 * them[:, 1]
+        radius = them[:, 0] * np.sqrt(1 + (moved[:, 2] / them[:, 1]) ** 2)
+        moved[:, :2] *= (radius / np.hypot(touch[:, 0], touch[:, 1]))[:, None]
+        said = honest(them, position, touch)
+        length = np.sqrt(((moved - said.here) ** 2).sum(axis=1))
+        return dataclasses.replace(said, there=moved, length=length)
+
+    monkeypatch.setattr(clearance_points, "upright_gaps", gaps)
+    found = hypcheck.clearance(some)
+    choice.choice.cache_clear()
+    assert (found.distance_lower <= true.distance_upper).all()
+    assert (found.distance_upper >= true.distance_lower).all()
+    assert (found.distance_upper > 1.01 * true.distance_upper).any()
+
+
+def test_the_numpy_kernel_and_each_instruction_set_say_the_same(rows, found):
+    module = pytest.importorskip("hypcheck.kernel._compiled")
+    best = module.level()
+    for level in ("plain", "sse2", "avx2"):
+        if module.use_level(level):
+            other = hypcheck.clearance(rows[::2])
+            assert (other.position == found.position[::2]).all()
+            assert np.maximum(other.lower, found.lower[::2]).max() < np.inf
+            assert (np.maximum(other.lower, found.lower[::2]) <= np.minimum(other.upper, found.upper[::2])).all()
+            assert (other.distance_lower <= found.distance_upper[::2]).all()
+            assert (found.distance_lower[::2] <= other.distance_upper).all()
+            assert (other.upper - other.lower <= 2.0**-29 * np.maximum(1, 1 + other.lower)).all()
+    assert module.use_level(best)
 
 
 def test_the_exact_touch_is_within_its_error(rows, found):

@@ -113,6 +113,32 @@ static PyObject *py_passage(PyObject *self, PyObject *arguments) {
     return result;
 }
 
+static PyObject *py_clearance(PyObject *self, PyObject *arguments) {
+    PyObject *rows_object, *positions_object, *found_object, *result = NULL;
+    Py_buffer rows, positions, found;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OOO", &rows_object, &positions_object, &found_object)) return NULL;
+    if (!filled(rows_object, &rows, "d", 0)) return NULL;
+    if (filled(positions_object, &positions, "b", PyBUF_WRITABLE)) {
+        if (filled(found_object, &found, "d", PyBUF_WRITABLE)) {
+            const Py_ssize_t count = positions.len;
+            if (rows.len == 7 * (Py_ssize_t)sizeof(double) * count && found.len == (Py_ssize_t)sizeof(hypcheck_near) * count) {
+                size_t refused;
+                Py_BEGIN_ALLOW_THREADS
+                refused = hypcheck_clearance((size_t)count, (const double *)rows.buf, (int8_t *)positions.buf, (hypcheck_near *)found.buf);
+                Py_END_ALLOW_THREADS
+                result = PyLong_FromSize_t(refused);
+            } else {
+                PyErr_SetString(PyExc_ValueError, "seven numbers and eleven for each position");
+            }
+            PyBuffer_Release(&found);
+        }
+        PyBuffer_Release(&positions);
+    }
+    PyBuffer_Release(&rows);
+    return result;
+}
+
 /* What position calls where it has no answer: for numbers that are no floats, and for invalid rows. It answers, or raises
    with a sentence that names the number. */
 static PyObject *slow_position = NULL;
@@ -211,6 +237,7 @@ static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
     {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
+    {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"call_each", py_call_each, METH_VARARGS, "call_each(address, rows, answers, repeat): a call a row; address 0 does nothing"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
      "position(alpha, gamma, b, d, x, y, z, *, axis=None) -> int"},

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS
+from hypcheck.kernel import clearance
 from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
 from hypcheck.kernel.programs import certified, lines, tilted_lines, ways
@@ -39,6 +40,7 @@ CONSTANTS = {
     "greatest_size": lines.GREATEST_SIZE,
     "least_height": 2.0**-150,
     "greatest_height": 2.0**150,
+    **clearance.CONSTANTS,
 }
 SCENE = {
     **{name: "{1}[{2}].{0}".format(*name.split("_")) for name in lines.LINE_CONSTANTS},
@@ -74,7 +76,18 @@ PLAIN = Spelling(
 )
 """C over single doubles, without libm."""
 
-PARTS = ("platform", "integers", "tilted_integers", "levels", "scene", "tilted_scene", "dispatch", "tilted", "ways")
+PARTS = (
+    "platform",
+    "integers",
+    "tilted_integers",
+    "levels",
+    "scene",
+    "tilted_scene",
+    "dispatch",
+    "tilted",
+    "ways",
+    "near",
+)
 
 
 def header() -> str:
@@ -186,6 +199,7 @@ def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
 _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     **tilted.TEXTS,
     "TILTED_LEVEL": lambda: _part("tilted_level.h").splitlines(),
+    "NEAR_LEVEL": lambda: _part("near_level.h").splitlines(),
     "TILTED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in tilted_program.CONSTANTS],
     "TILTED_INPUTS": lambda: [
         f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted_program.ROW)

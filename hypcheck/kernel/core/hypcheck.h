@@ -87,6 +87,25 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
+/* The clearance, the distance and the nearest points of each of n rows of 7 doubles. Positions are as above.
+
+       lower <= clearance <= upper      the clearance: 1 + clearance times as large, the spheroid first touches. It is
+                                        negative in contact, 0 in a tangency; its bounds agree with the position in sign
+       touch                            where it then touches; the exact place is within touch_error, DBL_MAX if unknown
+       distance_lower, distance_upper   the Euclidean distance of the bodies lies between them; 0 in contact
+       nearest                          a point of the hyperboloid that is distance_upper away at most, but for the
+                                        rounding of its coordinates; `touch` where no shorter gap was measured
+
+   Every bound is proved by exact decisions. upper - lower is 2^-30 of 1 + clearance at most, or of 1, where sizes are
+   within 2^-100 and 2^100, coordinates below 2^100 and b/d within 2^-20 and 2^20. Elsewhere bounds hold, and may be wide;
+   DBL_MAX says no bound. Invalid rows have NaN. Returns how many these are. docs/kernel.md of hypcheck says how wide a
+   distance is. */
+typedef struct {
+    double lower, upper, touch_error, distance_lower, distance_upper, touch[3], nearest[3];
+} hypcheck_near;
+enum { HYPCHECK_NEAR_NUMBERS = 11 };
+size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypcheck_near *found);
+
 /* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
    hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
 const char *hypcheck_level(void);
@@ -185,7 +204,26 @@ int hypcheck_use_level(const char *name);
 #define HC_greatest_size 1.2676506002282294e+30 /* 0x1.0000000000000p+100 */
 #define HC_least_height 7.006492321624085e-46 /* 0x1.0000000000000p-150 */
 #define HC_greatest_height 1.42724769270596e+45 /* 0x1.0000000000000p+150 */
+#define HC_guess 2.3283064365386963e-10 /* 0x1.0000000000000p-32 */
+#define HC_width 9.313225746154785e-10 /* 0x1.0000000000000p-30 */
+#define HC_outward 1.0000000000000036 /* 0x1.0000000000010p+0 */
+#define HC_inward 0.9999999999999964 /* 0x1.fffffffffffe0p-1 */
+#define HC_points 1.4210854715202004e-14 /* 0x1.0000000000000p-46 */
+#define HC_least_grown 1.1830521861667747e-271 /* 0x1.0000000000000p-900 */
+#define HC_greatest_grown 8.452712498170644e+270 /* 0x1.0000000000000p+900 */
+#define HC_less_than 0.9999999999990905 /* 0x1.fffffffffe000p-1 */
+#define HC_rounded 1.4210854715202004e-14 /* 0x1.0000000000000p-46 */
+#define HC_tiny 3.054936363499605e-151 /* 0x1.0000000000000p-500 */
+#define HC_least_tau 9.332636185032189e-302 /* 0x1.0000000000000p-1000 */
+#define HC_least_share 8.470329472543003e-22 /* 0x1.0000000000000p-70 */
+#define HC_touch_settled 1.4901161193847656e-08 /* 0x1.0000000000000p-26 */
+#define HC_gap_settled 3.814697265625e-06 /* 0x1.0000000000000p-18 */
+#define HC_least_offset 9.332636185032189e-302 /* 0x1.0000000000000p-1000 */
 #define HC_NEVER DBL_MAX
+#define HC_MAX_OF(a, b) ((a) > (b) ? (a) : (b))
+#define HC_MIN_OF(a, b) ((a) < (b) ? (a) : (b))
+#define HC_TOUCH_TURNS 12 /* of Newton's method, at most, for a place of touch */
+#define HC_GAP_TURNS 12   /* and for a shortest gap */
 
 /* Rows as bits: exterior (or "yes"), interior, decided. */
 typedef struct {
@@ -220,6 +258,20 @@ typedef struct {
     double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
 } hc_tilted_scene;
 
+/* By columns: factors a little below and above the one by which a spheroid first touches, spheroids at least and at most so
+   large, where it touches in the half plane of its centre, the direction of that, and how far the exact place is at most. */
+typedef struct {
+    double low[HC_BLOCK], high[HC_BLOCK], inner_b[HC_BLOCK], inner_d[HC_BLOCK], outer_b[HC_BLOCK], outer_d[HC_BLOCK];
+    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], error[HC_BLOCK];
+} hc_touches;
+
+/* By columns: the end of the shortest gap on the hyperboloid, its length at most, the spheroid's half width along it, a
+   distance that is about to be proved, and the spheroid that holds all points so near. */
+typedef struct {
+    double radius[HC_BLOCK], height[HC_BLOCK], most[HC_BLOCK], width[HC_BLOCK], tried[HC_BLOCK];
+    double inner_b[HC_BLOCK], inner_d[HC_BLOCK];
+} hc_gaps;
+
 /* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
 #if defined(__GNUC__) || defined(__clang__)
 #define HC_FETCH(array, row) __builtin_prefetch((const void *)((uintptr_t)(array) + 8 * (uintptr_t)(row)))
@@ -252,6 +304,12 @@ static double hc_rough_root(double square) {
     memcpy(&root, &bits, sizeof root);
     for (i = 0; i < 3; i++) root = 0.5 * (root + square / root);
     return root;
+}
+
+/* The root within three units in the last place. */
+static double hc_fine_root(double square) {
+    const double root = hc_rough_root(square);
+    return root > 0 ? 0.5 * (root + square / root) : 0;
 }
 
 /* ---- exact integers: the last stage ---- */
@@ -918,7 +976,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_dcc554fd738bd08b
+#ifndef HC_EDITION_f9ada3f33b9a2037
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1465,13 +1523,15 @@ typedef struct {
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
     hc_planes_function one_plane, two_planes;
+    void (*touches)(const double *, size_t, int, hc_touches *);
+    void (*gaps)(const double *, size_t, int, const double *, const hc_touches *, hc_gaps *);
 } hc_level_functions;
 
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
     { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
-      hc_one_plane_##level, hc_two_planes_##level }
+      hc_one_plane_##level, hc_two_planes_##level, hc_touches_##level, hc_gaps_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),
@@ -2118,12 +2178,214 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
     hc_passages(n, 13, rows13, hits, times);
 }
 
+/* ---- clearances, distances and nearest points ---- */
+
+#define HC_MOST_HALVINGS 160
+
+/* The next number farther from 0 (step 1), or nearer (-1), than a positive finite one. */
+static double hc_next(double number, int step) {
+    uint64_t word;
+    memcpy(&word, &number, sizeof word);
+    word += (uint64_t)(int64_t)step;
+    memcpy(&number, &word, sizeof number);
+    return number;
+}
+
+/* b and d times a factor, rounded away from 0 (step 1) or towards it (-1). Returns 0 where one leaves the range. */
+static int hc_grow(const double sizes[4], double factor, int step, double grown[2]) {
+    int k;
+    for (k = 0; k < 2; k++) {
+        grown[k] = sizes[2 + k] * factor;
+        if (!(grown[k] > HC_least_grown && grown[k] < HC_greatest_grown)) return 0;
+        if (factor != 1) grown[k] = hc_next(grown[k], step);
+    }
+    return 1;
+}
+
+static int hc_position_grown(const double row[7], const double grown[2]) {
+    double other[7];
+    memcpy(other, row, sizeof other);
+    other[2] = grown[0], other[3] = grown[1];
+    return hc_position_of(other);
+}
+
+/* Halves what is known of 1 + clearance, by exact decisions, until it is HC_width wide or nothing more is proved. */
+static void hc_halve_factor(const double row[7], double *low, double *high) {
+    const double largest = HC_greatest_grown / HC_MAX_OF(row[2], row[3]) / 2;
+    int turn;
+    for (turn = 0; turn < HC_MOST_HALVINGS; turn++) {
+        const double least = HC_MAX_OF(*low, HC_width / 2), most = HC_MIN_OF(*high, largest);
+        double middle, grown[2];
+        if (!(*high - *low > HC_width * HC_MAX_OF(*low, 1))) return;
+        middle = most > 2 * least ? hc_fine_root(least) * hc_fine_root(most) : least + 0.5 * (most - least);
+        if (!(middle > *low && middle < *high)) return;
+        if (hc_grow(row, middle, 1, grown) && hc_position_grown(row, grown) != 0) *low = middle;
+        else if (hc_grow(row, middle, -1, grown) && hc_position_grown(row, grown) == 0) *high = middle;
+        else return;
+    }
+}
+
+/* The same for a distance, by spheroids that hold all points so near: `width` is the half width along the gap. */
+static double hc_halve_distance(const double row[7], double low, double high, double width) {
+    int turn;
+    for (turn = 0; turn < HC_MOST_HALVINGS && high - low > HC_width * (low + width); turn++) {
+        const double middle = low + 0.5 * (high - low);
+        double grown[2];
+        int k, clear = 1;
+        for (k = 0; k < 2; k++) {
+            grown[k] = HC_outward * hc_fine_root((width + middle) * (row[2 + k] * row[2 + k] / width + middle));
+            clear = clear && grown[k] > HC_least_grown && grown[k] < HC_greatest_grown;
+        }
+        if (clear && hc_position_grown(row, grown) != 0) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* factor - 1, rounded towards a side: exact from 1/2 to 2. */
+static double hc_less_one(double factor, int up) {
+    const double less = factor - 1;
+    if ((factor >= 0.5 && factor <= 2) || less == 0 || !(less < HC_greatest_grown)) return less;
+    return hc_next(less, (less > 0) == up ? 1 : -1);
+}
+
+/* Whether the bounds of errors hold for a row: ordinary lengths, and a direction from the axis that is known. */
+static int hc_ordinary(const double row[7]) {
+    const double across = HC_MAX_OF(hc_size(row[4]), hc_size(row[5])), most = HC_MAX_OF(across, hc_size(row[6]));
+    int k, ordinary = HC_FLOATS_DECIDE & (most <= HC_greatest) & ((across == 0) | (across >= HC_least_offset));
+    for (k = 0; k < 4; k++) ordinary = ordinary & (row[k] >= HC_least) & (row[k] <= HC_greatest);
+    return ordinary & (row[2] <= HC_greatest_ratio * row[3]) & (row[3] <= HC_greatest_ratio * row[2]);
+}
+
+/* What is known of the rows of one block. */
+typedef struct {
+    double rows[HC_BLOCK][7], columns[7 * HC_BLOCK], sides[HC_BLOCK], low[HC_BLOCK], high[HC_BLOCK];
+    int ordinary[HC_BLOCK];
+    hc_touches touches;
+    hc_gaps gaps;
+} hc_near;
+
+/* The positions of all rows of a block with other b and d. */
+static void hc_settle_grown(const hc_level_functions *level, hc_near *near, const double *b, const double *d, int8_t *positions) {
+    hc_bits found;
+    uint64_t left;
+    memcpy(near->columns + 2 * HC_BLOCK, b, HC_BLOCK * sizeof *b);
+    memcpy(near->columns + 3 * HC_BLOCK, d, HC_BLOCK * sizeof *d);
+    found = level->certified(near->columns, HC_BLOCK, HC_BLOCK);
+    level->spread(positions, found.plus, found.minus);
+    for (left = HC_FLOATS_DECIDE ? ~found.decided : ~(uint64_t)0; left; left &= left - 1) {
+        const int i = hc_lowest_bit(left);
+        const double row[7] = {near->rows[i][0], near->rows[i][1], b[i], d[i], near->rows[i][4], near->rows[i][5], near->rows[i][6]};
+        positions[i] = (int8_t)(hc_valid(row) ? hc_exact_position(row) : 127);
+    }
+}
+
+/* Positions of valid rows, and what factors of growth keep them clear, or bring them into contact: low and high. */
+static void hc_factors(const hc_level_functions *level, hc_near *near, int count, int8_t *positions) {
+    const hc_touches *const touches = &near->touches;
+    int8_t inner[HC_BLOCK], outer[HC_BLOCK];
+    int i;
+    hc_settle_grown(level, near, touches->inner_b, touches->inner_d, inner);
+    hc_settle_grown(level, near, touches->outer_b, touches->outer_d, outer);
+    for (i = 0; i < count; i++) {
+        const double low = touches->low[i], high = touches->high[i];
+        const int clear = near->ordinary[i] && (inner[i] == 1 || inner[i] == -1), meets = near->ordinary[i] && outer[i] == 0;
+        int position;
+        if (clear && low >= 1) position = inner[i];
+        else if (meets && high <= 1) position = 0;
+        else position = hc_position_of(near->rows[i]);
+        positions[i] = (int8_t)position;
+        near->sides[i] = position;
+        near->low[i] = clear && low > (position ? 1 : 0) ? low : (position ? 1 : 0);
+        near->high[i] = meets && high < (position ? HC_NEVER : 1) ? high : (position ? HC_NEVER : 1);
+        if (near->high[i] - near->low[i] > HC_width * HC_MAX_OF(near->low[i], 1)) hc_halve_factor(near->rows[i], near->low + i, near->high + i);
+    }
+}
+
+/* The distance of a row that is clear, and the nearest point; `layer` is the position of the spheroid that was tried. */
+static void hc_distance(const hc_near *near, int i, int layer, hypcheck_near *found) {
+    const double *const row = near->rows[i], tried = near->gaps.tried[i], width = near->gaps.width[i];
+    double least = found->lower * HC_MIN_OF(row[2], row[3]) * HC_less_than;
+    double most = found->upper * HC_MAX_OF(row[2], row[3]) * HC_more_than;
+    if (!(least > HC_least_grown)) least = 0;
+    if (!(most > HC_least_grown && most < HC_greatest_grown)) most = HC_NEVER;
+    if (near->ordinary[i]) {
+        if (near->gaps.most[i] <= most) {
+            most = near->gaps.most[i];
+            found->nearest[0] = near->gaps.radius[i] * near->touches.cosine[i];
+            found->nearest[1] = near->gaps.radius[i] * near->touches.sine[i];
+            found->nearest[2] = row[6] < 0 ? -near->gaps.height[i] : near->gaps.height[i];
+        }
+        if (tried > least && (layer == 1 || layer == -1)) least = tried;
+        else if (most < HC_NEVER) least = hc_halve_distance(row, least, most, width);
+    }
+    found->distance_lower = least;
+    found->distance_upper = most;
+}
+
+static void hc_near_block(const hc_level_functions *level, hc_near *near, int count, int8_t *positions, hypcheck_near *found) {
+    const hc_touches *const touches = &near->touches;
+    int8_t layers[HC_BLOCK];
+    int i;
+    level->touches(near->columns, HC_BLOCK, HC_BLOCK, &near->touches);
+    hc_factors(level, near, count, positions);
+    for (i = 0; i < HC_BLOCK; i++) {
+        near->columns[2 * HC_BLOCK + i] = near->rows[i][2];
+        near->columns[3 * HC_BLOCK + i] = near->rows[i][3];
+    }
+    level->gaps(near->columns, HC_BLOCK, HC_BLOCK, near->sides, &near->touches, &near->gaps);
+    hc_settle_grown(level, near, near->gaps.inner_b, near->gaps.inner_d, layers);
+    for (i = 0; i < count; i++) {
+        const double lower = hc_less_one(near->low[i], 0), sign = near->rows[i][6] < 0 ? -1 : 1;
+        found[i].lower = lower > -1 ? lower : -1;
+        found[i].upper = hc_less_one(near->high[i], 1);
+        found[i].touch[0] = touches->radius[i] * touches->cosine[i];
+        found[i].touch[1] = touches->radius[i] * touches->sine[i];
+        found[i].touch[2] = sign * touches->height[i];
+        found[i].touch_error = near->ordinary[i] && touches->error[i] < HC_NEVER ? touches->error[i] : HC_NEVER;
+        memcpy(found[i].nearest, found[i].touch, sizeof found[i].nearest);
+        found[i].distance_lower = found[i].distance_upper = 0;
+        if (positions[i]) hc_distance(near, i, layers[i], found + i);
+    }
+}
+
+size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypcheck_near *found) {
+    const hc_level_functions *level = hc_level();
+    const double benign[7] = {1, 1, 1, 1, 3, 0, 0};
+    size_t refused = 0, start;
+    hc_near near;
+    int i, k;
+    for (start = 0; start < n; start += HC_BLOCK) {
+        const int count = n - start < HC_BLOCK ? (int)(n - start) : HC_BLOCK;
+        uint64_t invalid = 0;
+        for (i = 0; i < HC_BLOCK; i++) {
+            const double *row = i < count ? rows + 7 * (start + (size_t)i) : benign;
+            if (!hc_valid(row)) {
+                row = benign;
+                invalid |= (uint64_t)1 << i;
+            }
+            near.ordinary[i] = hc_ordinary(row);
+            near.sides[i] = 1;
+            memcpy(near.rows[i], row, sizeof near.rows[i]);
+            for (k = 0; k < 7; k++) near.columns[k * HC_BLOCK + i] = row[k];
+        }
+        hc_near_block(level, &near, count, positions + start, found + start);
+        for (; invalid; invalid &= invalid - 1, refused++) {
+            const size_t place = start + (size_t)hc_lowest_bit(invalid);
+            double *const numbers = &found[place].lower;
+            for (k = 0; k < HYPCHECK_NEAR_NUMBERS; k++) numbers[k] = hc_nothing_known();
+            positions[place] = 127;
+        }
+    }
+    return refused;
+}
+
 #if HC_PRECISE
 #pragma float_control(pop)
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_dcc554fd738bd08b
+#define HC_EDITION_f9ada3f33b9a2037
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -2144,6 +2406,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 #define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
 #define HC_BITS(truth) ((uint64_t)(truth))
 #define HC_SQRT(a) _mm512_sqrt_pd(a)
+#define HC_ROOT(a) _mm512_sqrt_pd(a)
+#define HC_STORE(to, a) _mm512_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm512_min_pd(a, b)
 #define HC_MAX(a, b) _mm512_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm512_mask_blend_pd(truth, b, a)
@@ -2164,6 +2428,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 #define HC_OR(a, b) _mm256_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
 #define HC_SQRT(a) _mm256_sqrt_pd(a)
+#define HC_ROOT(a) _mm256_sqrt_pd(a)
+#define HC_STORE(to, a) _mm256_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm256_min_pd(a, b)
 #define HC_MAX(a, b) _mm256_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm256_blendv_pd(b, a, truth)
@@ -2184,6 +2450,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 #define HC_OR(a, b) _mm_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
 #define HC_SQRT(a) _mm_sqrt_pd(a)
+#define HC_ROOT(a) _mm_sqrt_pd(a)
+#define HC_STORE(to, a) _mm_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm_min_pd(a, b)
 #define HC_MAX(a, b) _mm_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
@@ -2204,6 +2472,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 #define HC_OR(a, b) ((a) | (b))
 #define HC_BITS(truth) ((uint64_t)(truth))
 #define HC_SQRT(a) hc_rough_root(a)
+#define HC_ROOT(a) hc_fine_root(a)
+#define HC_STORE(to, a) (*(to) = (a))
 #define HC_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define HC_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define HC_SELECT(truth, a, b) ((truth) ? (a) : (b))
@@ -3503,6 +3773,134 @@ HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int b
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
+/* Near the places where spheroids first touch, and the shortest gaps, by columns as in hc_certified. Both are guesses, but for
+   the error of the touch, which is proved: hypcheck/kernel/clearance_points.py has the derivations. */
+HC_TARGET static void HC_NAME(hc_touches)(const double *columns, size_t stride, int count, hc_touches *found) {
+    const HC_NUMBER one = HC_SET(1.0), zero = HC_SET(0.0), tiny = HC_SET(HC_tiny), rounded = HC_SET(HC_rounded);
+    int at, turn;
+    for (at = 0; at < count; at += HC_WIDTH) {
+        const HC_NUMBER alpha = HC_LOAD(columns + at), gamma = HC_LOAD(columns + stride + at);
+        const HC_NUMBER b = HC_LOAD(columns + 2 * stride + at), d = HC_LOAD(columns + 3 * stride + at);
+        const HC_NUMBER x = HC_LOAD(columns + 4 * stride + at), y = HC_LOAD(columns + 5 * stride + at);
+        const HC_NUMBER z = HC_LOAD(columns + 6 * stride + at);
+        const HC_NUMBER scale = HC_MAX(HC_ABS(x), HC_ABS(y));
+        const HC_TRUTH off = HC_GE(scale, HC_SET(HC_least_offset));
+        const HC_NUMBER unit = HC_SELECT(off, scale, one);
+        const HC_NUMBER shrunk = one / unit, x_share = HC_SELECT(off, x * shrunk, one), y_share = HC_SELECT(off, y * shrunk, zero);
+        const HC_NUMBER length = HC_ROOT(x_share * x_share + y_share * y_share);
+        const HC_NUMBER sizes = one / (b * d), per_b = sizes * d, per_d = sizes * b; /* one quotient for two, here and below */
+        const HC_NUMBER a = alpha * per_b, c = gamma * per_d, h = HC_ABS(z) * per_d;
+        const HC_NUMBER r = HC_SELECT(off, scale * length, scale) * per_b;
+        const HC_NUMBER A = a * a, B = c * c, W = A + B, p = HC_MAX(a * r, tiny), q = HC_MAX(c * h, tiny), slope = one / p;
+        HC_NUMBER tau = A, sigma = B;
+        for (turn = 0; turn < HC_TOUCH_TURNS; turn++) {
+            const HC_NUMBER square = sigma * sigma + q * q, cone = HC_ROOT(square), steep = slope * cone;
+            const HC_NUMBER step = (sigma - tau * steep) * square / (steep * square + q * q);
+            tau = HC_MIN(tau + step, W);
+            sigma = HC_MAX(sigma - step, zero);
+            if (!HC_BITS(HC_GT(HC_ABS(step), HC_SET(HC_touch_settled) * HC_MIN(tau, sigma)))) break;
+        }
+        tau = HC_MAX(tau, HC_SET(HC_least_tau)), sigma = HC_MAX(sigma, HC_SET(HC_least_share) * W);
+        {
+            const HC_TRUTH low_pole = HC_LT(tau, sigma);
+            const HC_NUMBER T = HC_SELECT(low_pole, tau, W - sigma), S = HC_SELECT(low_pole, W - tau, sigma);
+            const HC_NUMBER poles = one / (T * S), per_T = poles * S, per_S = poles * T;
+            const HC_NUMBER to_radius = A * per_T, to_height = B * per_S, radius = to_radius * r, height = to_height * h;
+            const HC_NUMBER share = c * h * per_S, part = a * r * per_T, part_square = part * part;
+            const HC_NUMBER low = a * HC_ROOT(one + share * share), high = c * HC_ROOT(HC_MAX(part_square - one, zero));
+            const HC_NUMBER per_both = one / (low * high), per_high = HC_SELECT(HC_GT(high, zero), low * per_both, HC_SET(HC_NEVER));
+            const HC_NUMBER lost = HC_SET(2.0) * rounded * B * part_square * per_high;
+            const HC_NUMBER off_low = HC_ABS(low - radius) + rounded * (low + radius);
+            const HC_NUMBER off_high = HC_ABS(high - height) + rounded * (high + height) + lost;
+            const HC_NUMBER axes = one / (A * B), per_A = axes * B, per_B = axes * A;
+            const HC_NUMBER by_low = off_low * off_low * T * per_A, by_high = off_high * off_high * S * per_B;
+            const HC_NUMBER least = HC_SELECT(HC_LT(by_high, by_low), by_high, by_low);
+            const HC_NUMBER across = HC_ROOT(least * to_radius), up = HC_ROOT(least * to_height);
+            const HC_NUMBER error_low = d * up + b * (A * per_B * (height + up) / low) * up;
+            const HC_NUMBER error_high = b * across + d * ((HC_SET(2.0) * radius + across) * across * per_high * (B * per_A) + lost);
+            const HC_TRUTH other = HC_LT(error_high, error_low);
+            const HC_NUMBER rho = HC_SELECT(other, radius, low), zeta = HC_SELECT(other, high, height);
+            const HC_NUMBER gone = rho - r, risen = zeta - h, metres = rho * b + zeta * d;
+            const HC_NUMBER factor = HC_ROOT(gone * gone + risen * risen), apart = HC_SET(HC_guess) * HC_MAX(factor, one);
+            const HC_NUMBER least_factor = factor - apart, most_factor = factor + apart;
+            const HC_NUMBER outward = HC_SET(HC_outward) * least_factor, inward = HC_SET(HC_inward) * most_factor;
+            const HC_NUMBER error = HC_SELECT(other, error_high, error_low) + HC_SET(2.0) * rounded * metres;
+            const HC_NUMBER inverse = one / length;
+            HC_STORE(found->low + at, least_factor);
+            HC_STORE(found->high + at, most_factor);
+            HC_STORE(found->inner_b + at, outward * b);
+            HC_STORE(found->inner_d + at, outward * d);
+            HC_STORE(found->outer_b + at, inward * b);
+            HC_STORE(found->outer_d + at, inward * d);
+            HC_STORE(found->radius + at, rho * b);
+            HC_STORE(found->height + at, zeta * d);
+            HC_STORE(found->cosine + at, x_share * inverse);
+            HC_STORE(found->sine + at, y_share * inverse);
+            HC_STORE(found->error + at, HC_SET(HC_more_than) * error);
+        }
+    }
+}
+
+HC_TARGET static void HC_NAME(hc_gaps)(const double *columns, size_t stride, int count, const double *sides,
+                                       const hc_touches *touches, hc_gaps *found) {
+    const HC_NUMBER one = HC_SET(1.0), zero = HC_SET(0.0), half = HC_SET(0.5);
+    int at, turn, settled;
+    for (at = 0; at < count; at += HC_WIDTH) {
+        const HC_NUMBER alpha = HC_LOAD(columns + at), gamma = HC_LOAD(columns + stride + at);
+        const HC_NUMBER b = HC_LOAD(columns + 2 * stride + at), d = HC_LOAD(columns + 3 * stride + at);
+        const HC_NUMBER x = HC_LOAD(columns + 4 * stride + at), y = HC_LOAD(columns + 5 * stride + at);
+        const HC_NUMBER level = HC_ABS(HC_LOAD(columns + 6 * stride + at)), side = HC_LOAD(sides + at);
+        const HC_NUMBER r = HC_LOAD(touches->cosine + at) * x + HC_LOAD(touches->sine + at) * y;
+        const HC_NUMBER steep = alpha / gamma, bb = b * b, dd = d * d, inverse_gamma = one / gamma;
+        HC_NUMBER height = HC_LOAD(touches->height + at), lowest = zero;
+        HC_NUMBER highest = HC_SELECT(HC_GT(side, zero), HC_SET(HC_NEVER), level);
+        HC_NUMBER cone, slope, v, n, gap, both;
+        settled = 0;
+        for (turn = 0;; turn++) {
+            HC_NUMBER bend, off_place, moved, change;
+            HC_TRUTH above, inside;
+            const HC_NUMBER share = height * inverse_gamma;
+            HC_NUMBER inverse, b_v, bend_v, bend_n;
+            cone = HC_ROOT(one + share * share);
+            inverse = one / cone;
+            slope = steep * share * inverse;
+            v = HC_ROOT(bb + dd * slope * slope);
+            n = HC_ROOT(one + slope * slope);
+            both = one / (v * n); /* one quotient for two */
+            gap = (side * (r - slope * level - alpha * inverse) - v) * v * both;
+            if (settled || turn == HC_GAP_TURNS) break;
+            b_v = n * both;
+            bend_v = bb * dd * b_v * b_v * b_v;
+            b_v = v * both;
+            bend_n = gap * b_v * b_v * b_v;
+            off_place = height - level - side * slope * (dd * n * both + gap * b_v);
+            bend = one - side * steep * inverse_gamma * inverse * inverse * inverse * (bend_v + bend_n);
+            above = HC_GT(off_place, zero);
+            lowest = HC_SELECT(above, lowest, height);
+            highest = HC_SELECT(above, height, highest);
+            moved = height - off_place / bend;
+            change = HC_ABS(moved - height);
+            settled = !HC_BITS(HC_GT(change, HC_SET(HC_gap_settled) * height));
+            inside = HC_AND(HC_AND(HC_GE(moved, lowest), HC_LE(moved, highest)), HC_GT(bend, zero));
+            height = HC_SELECT(inside, moved, HC_MIN(half * (lowest + highest), height + height + level));
+        }
+        {
+            const HC_NUMBER rho = alpha * cone, zeta = height, b_v = bb * n * both, d_v = dd * slope * n * both;
+            const HC_NUMBER across = rho - (r - side * b_v), up = zeta - (level + side * d_v), largest = HC_MAX(b, d);
+            const HC_NUMBER length = HC_ROOT(across * across + up * up), width = v * v * both;
+            const HC_NUMBER terms = length + rho + zeta + HC_ABS(x) + HC_ABS(y) + level + largest;
+            const HC_NUMBER most = length + HC_SET(HC_points) * terms;
+            const HC_NUMBER tried = HC_MIN(gap, most) - HC_SET(HC_guess) * (HC_ABS(gap) + width), thick = width + tried;
+            HC_STORE(found->radius + at, rho);
+            HC_STORE(found->height + at, zeta);
+            HC_STORE(found->most + at, most);
+            HC_STORE(found->width + at, width);
+            HC_STORE(found->tried + at, tried);
+            HC_STORE(found->inner_b + at, HC_SET(HC_outward) * HC_ROOT(thick * (bb / width + tried)));
+            HC_STORE(found->inner_d + at, HC_SET(HC_outward) * HC_ROOT(thick * (dd / width + tried)));
+        }
+    }
+}
 #undef HC_NAME
 #undef HC_TARGET
 #undef HC_WIDTH
@@ -3519,6 +3917,8 @@ HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int b
 #undef HC_OR
 #undef HC_BITS
 #undef HC_SQRT
+#undef HC_ROOT
+#undef HC_STORE
 #undef HC_MIN
 #undef HC_MAX
 #undef HC_SELECT

@@ -87,6 +87,25 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
+/* The clearance, the distance and the nearest points of each of n rows of 7 doubles. Positions are as above.
+
+       lower <= clearance <= upper      the clearance: 1 + clearance times as large, the spheroid first touches. It is
+                                        negative in contact, 0 in a tangency; its bounds agree with the position in sign
+       touch                            where it then touches; the exact place is within touch_error, DBL_MAX if unknown
+       distance_lower, distance_upper   the Euclidean distance of the bodies lies between them; 0 in contact
+       nearest                          a point of the hyperboloid that is distance_upper away at most, but for the
+                                        rounding of its coordinates; `touch` where no shorter gap was measured
+
+   Every bound is proved by exact decisions. upper - lower is 2^-30 of 1 + clearance at most, or of 1, where sizes are
+   within 2^-100 and 2^100, coordinates below 2^100 and b/d within 2^-20 and 2^20. Elsewhere bounds hold, and may be wide;
+   DBL_MAX says no bound. Invalid rows have NaN. Returns how many these are. docs/kernel.md of hypcheck says how wide a
+   distance is. */
+typedef struct {
+    double lower, upper, touch_error, distance_lower, distance_upper, touch[3], nearest[3];
+} hypcheck_near;
+enum { HYPCHECK_NEAR_NUMBERS = 11 };
+size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypcheck_near *found);
+
 /* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
    hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
 const char *hypcheck_level(void);

@@ -12,13 +12,15 @@ typedef struct {
     void (*spread)(int8_t *, uint64_t, uint64_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
     hc_planes_function one_plane, two_planes;
+    void (*touches)(const double *, size_t, int, hc_touches *);
+    void (*gaps)(const double *, size_t, int, const double *, const hc_touches *, hc_gaps *);
 } hc_level_functions;
 
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
     { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
-      hc_one_plane_##level, hc_two_planes_##level }
+      hc_one_plane_##level, hc_two_planes_##level, hc_touches_##level, hc_gaps_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),

@@ -17,6 +17,8 @@
 #define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
 #define HC_BITS(truth) ((uint64_t)(truth))
 #define HC_SQRT(a) _mm512_sqrt_pd(a)
+#define HC_ROOT(a) _mm512_sqrt_pd(a)
+#define HC_STORE(to, a) _mm512_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm512_min_pd(a, b)
 #define HC_MAX(a, b) _mm512_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm512_mask_blend_pd(truth, b, a)
@@ -37,6 +39,8 @@
 #define HC_OR(a, b) _mm256_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
 #define HC_SQRT(a) _mm256_sqrt_pd(a)
+#define HC_ROOT(a) _mm256_sqrt_pd(a)
+#define HC_STORE(to, a) _mm256_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm256_min_pd(a, b)
 #define HC_MAX(a, b) _mm256_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm256_blendv_pd(b, a, truth)
@@ -57,6 +61,8 @@
 #define HC_OR(a, b) _mm_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
 #define HC_SQRT(a) _mm_sqrt_pd(a)
+#define HC_ROOT(a) _mm_sqrt_pd(a)
+#define HC_STORE(to, a) _mm_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm_min_pd(a, b)
 #define HC_MAX(a, b) _mm_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
@@ -77,6 +83,8 @@
 #define HC_OR(a, b) ((a) | (b))
 #define HC_BITS(truth) ((uint64_t)(truth))
 #define HC_SQRT(a) hc_rough_root(a)
+#define HC_ROOT(a) hc_fine_root(a)
+#define HC_STORE(to, a) (*(to) = (a))
 #define HC_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define HC_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define HC_SELECT(truth, a, b) ((truth) ? (a) : (b))
@@ -143,6 +151,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 @LINE_FUNCTIONS@
 @TILTED_LEVEL@
+@NEAR_LEVEL@
 #undef HC_NAME
 #undef HC_TARGET
 #undef HC_WIDTH
@@ -159,6 +168,8 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
 #undef HC_OR
 #undef HC_BITS
 #undef HC_SQRT
+#undef HC_ROOT
+#undef HC_STORE
 #undef HC_MIN
 #undef HC_MAX
 #undef HC_SELECT

@@ -46,6 +46,10 @@
 
 @CONSTANTS@
 #define HC_NEVER DBL_MAX
+#define HC_MAX_OF(a, b) ((a) > (b) ? (a) : (b))
+#define HC_MIN_OF(a, b) ((a) < (b) ? (a) : (b))
+#define HC_TOUCH_TURNS 12 /* of Newton's method, at most, for a place of touch */
+#define HC_GAP_TURNS 12   /* and for a shortest gap */
 
 /* Rows as bits: exterior (or "yes"), interior, decided. */
 typedef struct {
@@ -80,6 +84,20 @@ typedef struct {
     double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
 } hc_tilted_scene;
 
+/* By columns: factors a little below and above the one by which a spheroid first touches, spheroids at least and at most so
+   large, where it touches in the half plane of its centre, the direction of that, and how far the exact place is at most. */
+typedef struct {
+    double low[HC_BLOCK], high[HC_BLOCK], inner_b[HC_BLOCK], inner_d[HC_BLOCK], outer_b[HC_BLOCK], outer_d[HC_BLOCK];
+    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], error[HC_BLOCK];
+} hc_touches;
+
+/* By columns: the end of the shortest gap on the hyperboloid, its length at most, the spheroid's half width along it, a
+   distance that is about to be proved, and the spheroid that holds all points so near. */
+typedef struct {
+    double radius[HC_BLOCK], height[HC_BLOCK], most[HC_BLOCK], width[HC_BLOCK], tried[HC_BLOCK];
+    double inner_b[HC_BLOCK], inner_d[HC_BLOCK];
+} hc_gaps;
+
 /* A hint; the place may lie behind the end of the array, hence no pointer arithmetic. */
 #if defined(__GNUC__) || defined(__clang__)
 #define HC_FETCH(array, row) __builtin_prefetch((const void *)((uintptr_t)(array) + 8 * (uintptr_t)(row)))
@@ -112,4 +130,10 @@ static double hc_rough_root(double square) {
     memcpy(&root, &bits, sizeof root);
     for (i = 0; i < 3; i++) root = 0.5 * (root + square / root);
     return root;
+}
+
+/* The root within three units in the last place. */
+static double hc_fine_root(double square) {
+    const double root = hc_rough_root(square);
+    return root > 0 ? 0.5 * (root + square / root) : 0;
 }
